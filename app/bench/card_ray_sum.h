@@ -5,7 +5,7 @@
 
 #include "core/picture/projection_image.h"
 #include "core/scene/camera.h"
-#include "core/volume/volume.h"
+#include "core/volume/field.h"
 #include "gpu/frame_passes.h"
 
 namespace pellucid::bench {
@@ -15,7 +15,7 @@ namespace pellucid::bench {
 class CardRaySum {
 public:
     /// *Shape*: the field is float32, 0..1. *Throws* Error{outOfMemory}, Error{noSuchDevice}.
-    CardRaySum(std::shared_ptr<gpu::FramePasses> passes, const volume::Volume &field);
+    CardRaySum(std::shared_ptr<gpu::FramePasses> passes, const volume::Field &field);
     ~CardRaySum();
 
     struct Image {

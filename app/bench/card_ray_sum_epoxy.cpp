@@ -18,16 +18,19 @@ struct CardRaySum::Resources {
     gpu::QueryName begin = gpu::makeQuery(), end = gpu::makeQuery();
 };
 
-CardRaySum::CardRaySum(std::shared_ptr<gpu::FramePasses> passes, const volume::Volume &field)
+CardRaySum::CardRaySum(std::shared_ptr<gpu::FramePasses> passes, const volume::Field &field)
     : m_passes(std::move(passes)), m_lattice(field.lattice()) {
     const volume::GridSize n = m_lattice.size();
     std::vector<std::uint16_t> samples;
     samples.reserve(n.count());
-    field.visit([&](auto values) {
-        for (const auto f : values)
-            samples.push_back(
-                std::uint16_t(std::lround(65535.0 * std::clamp(double(f), 0.0, 1.0))));
-    });
+    std::vector<float> row(std::size_t(n.i));
+    for (int k = 0; k < n.k; ++k)
+        for (int j = 0; j < n.j; ++j) {
+            field.copyRow({0, j, k}, n.i, row.data());
+            for (const float f : row)
+                samples.push_back(
+                    std::uint16_t(std::lround(65535.0 * std::clamp(double(f), 0.0, 1.0))));
+        }
     m_passes->device().run([&] {
         gpu::Device *const device = &m_passes->device();
         m_resources =

@@ -163,7 +163,7 @@ private:
 
 } // namespace
 
-SpatialVolume::SpatialVolume(const volume::Volume &field) : m_lattice(field.lattice()) {
+SpatialVolume::SpatialVolume(const volume::Field &field) : m_lattice(field.lattice()) {
     const volume::GridSize n = m_lattice.size();
     const auto layOut = [](int i, int j, int k, std::ptrdiff_t &row, std::ptrdiff_t &plane,
                            std::ptrdiff_t &first) {
@@ -179,18 +179,17 @@ SpatialVolume::SpatialVolume(const volume::Volume &field) : m_lattice(field.latt
     if (std::max(m_samples.size(), m_exchanged.size()) > std::size_t(1) << 30)
         throw task::Error(task::ErrorCode::usage,
                           task::because::inWords("the ray sum takes at most 2^30 samples"));
-    field.visit([&](auto values) {
-        tbb::parallel_for(0, n.j, [&](int j) {
-            for (int k = 0; k < n.k; ++k)
-                for (int i = 0; i < n.i; ++i) {
-                    const double f = double(values[n.offsetOf(i, j, k)]);
-                    const auto value = std::int16_t(std::lround(f * largestValue));
-                    m_samples[std::size_t(m_first + k * m_planeStride + j * m_rowStride + i)] =
-                        value;
-                    m_exchanged[std::size_t(m_exchangedFirst + i * m_exchangedPlaneStride +
-                                            j * m_exchangedRowStride + k)] = value;
-                }
-        });
+    tbb::parallel_for(0, n.j, [&](int j) {
+        std::vector<float> buffer(std::size_t(n.i));
+        for (int k = 0; k < n.k; ++k) {
+            const float *const row = field.row({0, j, k}, n.i, buffer.data());
+            for (int i = 0; i < n.i; ++i) {
+                const auto value = std::int16_t(std::lround(double(row[i]) * largestValue));
+                m_samples[std::size_t(m_first + k * m_planeStride + j * m_rowStride + i)] = value;
+                m_exchanged[std::size_t(m_exchangedFirst + i * m_exchangedPlaneStride +
+                                        j * m_exchangedRowStride + k)] = value;
+            }
+        }
     });
 }
 

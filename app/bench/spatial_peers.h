@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/scene/camera.h"
-#include "core/volume/volume.h"
+#include "core/volume/field.h"
 
 namespace pellucid::bench {
 
@@ -18,7 +18,7 @@ public:
     static constexpr int largestValue = 4095;
 
     /// *Shape*: the field is float32, 0..1.
-    explicit SpatialVolume(const volume::Volume &field);
+    explicit SpatialVolume(const volume::Field &field);
 
     const volume::Lattice &lattice() const { return m_lattice; }
     /// The sample (0,0,0). `gap` zeros follow each row, a row of zeros each plane. Zeros also

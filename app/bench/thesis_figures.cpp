@@ -141,7 +141,7 @@ void measureFigure(const Report &report, const Figure &figure, HeadAndTruth &sub
     const Measurement how = thesisMeasurement(subject.head, figure.kernel);
     const auto plan = plan::planRender(how.scene, plan::summarise(subject.head.field));
     const Subject darkened = darkenedHead(figure, subject.head, plan.spectrum);
-    const volume::Volume &field = darkened.field.values;
+    const volume::Field &field = darkened.field.values;
     Row row = plannedRow("thesis", figure.name, field.lattice().size(), plan, how.scene, 0);
     render::CpuEngine engine(
         std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(field, plan.spectrum)),

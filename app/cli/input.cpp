@@ -162,7 +162,7 @@ CLI::Validator notEmpty() {
 
 void addLargeOption(CLI::App &command, bool &large) {
     command.add_flag("--large", large,
-                     "Open images that are unusually large, or larger than their files suggest");
+                     "Open images that are unusually large or larger than their files suggest");
 }
 
 void addInputOptions(CLI::App &command, InputOptions &options) {
@@ -173,16 +173,16 @@ void addInputOptions(CLI::App &command, InputOptions &options) {
         ->required();
     command
         .add_option("--series", options.series,
-                    "Series number or UID; default: the volume with most voxels")
+                    "Series number or UID; default: the one whose volume has the most voxels")
         ->check(notEmpty());
     command
         .add_option("--volume", options.volume,
-                    "Volume of the series as 'info' numbers them; default: the one with most "
-                    "voxels")
+                    "Number of the volume in the series, as 'info' lists it; default: the one with "
+                    "the most voxels")
         ->check(CLI::Range(1, 1000000));
     command
         .add_flag("--fill-gaps", options.fillGaps,
-                  "Interpolate where several slices are missing, instead of the longest run")
+                  "Interpolate gaps of several slices; default: use the longest run without one")
         ->excludes("--volume");
     addLargeOption(command, options.large);
 }

@@ -67,14 +67,15 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
 void addPhantomCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand("phantom", "Write a phantom as a DICOM series");
-    c->add_option("DIR", o->folder, "The folder to write to")->required()->check(notEmpty());
-    c->add_option("--kind", o->kind, fmt::format("{}", fmt::join(phantom::kindNames(), ", ")))
+    c->add_option("DIR", o->folder, "Folder to write to")->required()->check(notEmpty());
+    c->add_option("--kind", o->kind, "Kind of phantom; default head")
         ->check(CLI::IsMember(phantom::kindNames()));
-    c->add_option("--size", o->size, "COLUMNSxROWSxSLICES");
-    c->add_option("--spacing", o->spacing, "Column, row and slice distance in mm: a,b,c");
+    c->add_option("--size", o->size, "Number of samples: COLUMNSxROWSxSLICES");
+    c->add_option("--spacing", o->spacing, "Spacing of columns, rows and slices in mm: a,b,c");
     c->add_option("--tilt", o->tiltDeg, "Gantry tilt in degrees")->check(CLI::Range(-57.0, 57.0));
     c->add_option("--transfer-syntax", o->syntax,
-                  fmt::format("{}, or a UID", fmt::join(dicom::transferSyntaxNames(), ", ")));
+                  fmt::format("{}, or a UID; default explicit",
+                              fmt::join(dicom::transferSyntaxNames(), ", ")));
     c->callback([o, c, context] { run(*o, *c, context); });
 }
 

@@ -93,27 +93,29 @@ void addPresetCommand(CLI::App &app, const Context &) {
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand("preset", "List, show, validate, export and import presets");
     c->require_subcommand(1);
-    c->add_subcommand("list", "One line per preset")->callback([] { list(); });
+    c->add_subcommand("list", "List the presets, one per line")->callback([] { list(); });
     CLI::App *show = c->add_subcommand("show", "Print a preset as JSON");
     show->add_option("NAME", o->name, "Name of the preset")->required();
     show->callback([o] {
         std::puts(escapedControls(presets::toJson(openLibrary().get(o->name).preset)).c_str());
     });
-    CLI::App *check = c->add_subcommand("validate", "Check whether a file is a valid preset");
-    check->add_option("FILE", o->path, "A preset file")->required();
+    CLI::App *check = c->add_subcommand("validate", "Check a preset file");
+    check->add_option("FILE", o->path, "Preset file")->required();
     check->callback([o] { validate(*o); });
     CLI::App *out = c->add_subcommand("export", "Write a preset to a file");
     out->add_option("NAME", o->name, "Name of the preset")->required();
-    out->add_option("-o,--output", o->out, "The file")->required();
+    out->add_option("-o,--output", o->out, "File to write")->required();
     out->callback([o] { exportTo(*o); });
     CLI::App *in = c->add_subcommand(
-        "import", "Add a preset file, or a .vp or .vp.json of 3D Slicer, to the library");
-    in->add_option("FILE", o->path, "The file")->required();
-    in->add_option("--name", o->name, "Its name in the library");
+        "import", "Add a preset file, or a volume property of 3D Slicer, to the library");
+    in->add_option("FILE", o->path, "Preset file, or a .vp or .vp.json file of 3D Slicer")
+        ->required();
+    in->add_option("--name", o->name,
+                   "Name in the library; default: the name of the preset or its file");
     in->add_option("--points", o->points,
-                   "Control points that fit an opacity of 3D Slicer, default 8")
+                   "Number of control points fitted to the opacity of 3D Slicer; default 8")
         ->check(CLI::Range(2, 16));
-    in->add_flag("--replace", o->replace, "Replace the user's preset with that name");
+    in->add_flag("--replace", o->replace, "Replace your preset of the same name");
     in->callback([o] { import(*o); });
 }
 

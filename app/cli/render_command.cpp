@@ -311,24 +311,30 @@ void addRenderCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand("render", "Project a volume into an image");
     addInputOptions(*c, o->input);
-    c->add_option("-o,--output", o->out, "The image: .png, .npy, .nrrd or .dcm (Secondary Capture)")
+    c->add_option("-o,--output", o->out,
+                  "Image file: .png, .npy, .nrrd or .dcm (Secondary Capture)")
         ->required();
     addSceneOptions(*c, o->scene);
-    c->add_option("--engine", o->engine, "auto, cpu or gpu")
+    c->add_option(
+         "--engine", o->engine,
+         "Engine that renders the images; default: auto, which uses the GPU for turntables")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
-    c->add_option("--threads", o->threads, "Largest number of threads")->check(CLI::Range(1, 1024));
-    c->add_option("--memory", o->memory, "Memory limit in bytes, or with a unit (2GB)")
+    c->add_option("--threads", o->threads, "Maximum number of threads; default: all processors")
+        ->check(CLI::Range(1, 1024));
+    c->add_option("--memory", o->memory,
+                  "Memory limit in bytes or with a unit (2GB); default: the available memory")
         ->check(notNegative)
         ->transform(CLI::AsSizeValue(false));
-    CLI::Option *frames = c->add_option("--frames", o->frames, "Number of frames of a turntable")
+    CLI::Option *frames = c->add_option("--frames", o->frames, "Number of frames of the turntable")
                               ->check(CLI::Range(1, 100000));
     CLI::Option *turntable =
         c->add_flag("--turntable")
-            ->description("Turn once about the patient's long axis; OUT gets the frame number")
+            ->description(
+                "Render one turn about the patient's long axis; file names get the frame number")
             ->needs(frames);
     frames->needs(turntable);
     c->add_flag("--deidentify", o->isDeidentified,
-                "Write the .dcm without the patient's identity (PS3.15, basic profile)");
+                "Remove the patient's identity from the .dcm (PS3.15, basic profile)");
     c->add_flag("--json", o->json, "Print a report as one JSON object");
     c->callback(
         [o, c, context] { naming(o->input.path, [&] { RenderRun(*o, *c, context).run(); }); });

@@ -75,97 +75,107 @@ std::vector<std::string> toleranceNames() {
 }
 
 void addCameraOptions(CLI::App &command, SceneOptions &options) {
-    CLI::Option *view = command.add_option("--view", options.view, "Standard view, default front")
+    CLI::Option *view = command.add_option("--view", options.view, "Standard view; default front")
                             ->check(CLI::IsMember(views));
     CLI::Option *azimuth =
         command
             .add_option("--azimuth", options.azimuthDeg,
-                        "Degrees about the patient's long axis, added to the view")
+                        "Turn the view about the patient's long axis, in degrees")
             ->check(finite());
     CLI::Option *elevation = command
                                  .add_option("--elevation", options.elevationDeg,
-                                             "Degrees up from the horizon, added to the view")
+                                             "Raise the view above the horizon, in degrees")
                                  ->check(finite());
     CLI::Option *roll = command
                             .add_option("--roll", options.rollDeg,
-                                        "Degrees about the line of sight, added to the view")
+                                        "Roll the view about the line of sight, in degrees")
                             ->check(finite());
     command
         .add_option("--orientation", options.orientation,
-                    "Rotation [U V W] as a quaternion w,x,y,z")
+                    "Quaternion w,x,y,z of the rotation whose columns are the image axes "
+                    "(right, up, toward the viewer)")
         ->excludes(view)
         ->excludes(azimuth)
         ->excludes(elevation)
         ->excludes(roll);
     command.add_option("--size", options.size,
-                       "Image size WxH in pixels; default: holds every view");
+                       "Image size WIDTHxHEIGHT in pixels; default: large enough for every view");
     command
         .add_option("--pixel-mm", options.pixelMm,
-                    "Pixel size in mm; default: the shortest voxel step")
+                    "Pixel size in mm; default: the smallest voxel spacing")
         ->check(positive());
 }
 
 void addLookOptions(CLI::App &command, SceneOptions &options) {
-    command.add_option("--preset", options.preset, "A look of the library, or its file")
+    command
+        .add_option("--preset", options.preset, "Name of a preset in the library, or a preset file")
         ->check(notEmpty());
-    command.add_option("--window", options.window, "The field's window LO,HI in value units");
+    command.add_option("--window", options.window,
+                       "LO,HI: the values of the volume that become 0 and 1 in the field");
     command
         .add_option("--bezier", options.bezier,
-                    "Weights w0,w1,... of the transfer function, 2 to 16 of 0 to 2")
+                    "w0,w1,...: the transfer function, 2 to 16 weights from 0 to 2")
         ->check(notEmpty());
     command
         .add_option("--class", options.classes,
-                    "NAME=WEIGHT[:#rrggbb]: show the classes named, by weight 0 to 2; repeat it")
+                    "NAME=WEIGHT[:#rrggbb]: show only the named classes, each with a weight "
+                    "from 0 to 2; may be repeated")
         ->allow_extra_args(false);
 }
 
 void addShadingOptions(CLI::App &command, SceneOptions &options) {
     command
         .add_option("--depth-cue", options.depthCue,
-                    "none, linear:S, sine:S (S 0 to 1), or curve:c0,c1,.. from far to near, "
-                    "2 to 8 of 0 to 2")
+                    "none, linear:S or sine:S with a strength S from 0 to 1, or "
+                    "curve:c0,c1,... with 2 to 8 weights from 0 to 2, from far to near")
         ->check(notEmpty());
     CLI::Option *light =
         command
             .add_option("--light", options.lights,
-                        "u,v,w[:#rrggbb[:S]]: a light of strength S, 0 to 1, from that direction "
-                        "(right, up, toward the "
-                        "viewer); repeat it")
+                        "u,v,w[:#rrggbb[:S]]: a light from that direction (right, up, toward the "
+                        "viewer) with a strength S from 0 to 1; may be repeated")
             ->allow_extra_args(false);
     command
         .add_option("--light-frame", options.lightFrame,
-                    "What the lights follow when the view turns, default viewer")
+                    "Keep the lights with the viewer or the patient when the view turns; "
+                    "default viewer")
         ->check(CLI::IsMember({"viewer", "patient"}))
         ->needs(light);
-    command.add_option("--ambient", options.ambient, "The ambient light, 0 to 2, default 1")
+    command.add_option("--ambient", options.ambient, "Ambient light from 0 to 2; default 1")
         ->check(CLI::Range(0.0, shading::largestAmbient));
 }
 
 void addQualityOptions(CLI::App &command, SceneOptions &options) {
-    command.add_option("--reconstruction", options.reconstruction, "What lies between the samples")
+    command
+        .add_option("--reconstruction", options.reconstruction,
+                    "Interpolation between the samples; default cubic")
         ->check(CLI::IsMember(reconstructions));
     command
         .add_option("--roll-off", options.rollOff,
-                    "Share of the band that is rolled off, default 0.05")
+                    "Share of the frequency band over which the spectrum fades to 0; default 0.05")
         ->check(CLI::Range(0.0, 1.0))
         ->check(finite());
     CLI::Option *quality =
-        command.add_option("--quality", options.quality, "Named tolerance, default standard")
+        command.add_option("--quality", options.quality, "Named tolerance; default standard")
             ->check(CLI::IsMember(toleranceNames()));
-    command.add_option("--tolerance", options.tolerance, "Largest relative L2 error")
+    command.add_option("--tolerance", options.tolerance, "Largest relative L2 error of the image")
         ->check(positive())
         ->excludes(quality);
     command.add_option("--kernel", options.kernel,
-                       "Interpolation kernel; default: the cheapest that meets the tolerance");
+                       "Kernel that interpolates the spectrum; default: the cheapest that meets "
+                       "the tolerance");
     command
-        .add_option("--padding", options.padding, "Padded size over field size, default as needed")
+        .add_option("--padding", options.padding,
+                    "Padded size of the field over its size; default: as needed")
         ->check(CLI::Range(1.0, 4.0));
-    command.add_option("--storage", options.storage, "Cells of the spectrum, default as needed")
+    command
+        .add_option("--storage", options.storage,
+                    "Number format of the spectrum; default: as needed")
         ->check(CLI::IsMember({"f16", "f32"}));
     command.add_flag(
         "--uniform", options.isUniform,
-        "Read every frequency of the picture with the same kernel, even where the tolerance would "
-        "allow a narrower one");
+        "Read every frequency of the image with the same kernel, even where the tolerance allows a "
+        "narrower one");
 }
 
 bool isGiven(const CLI::App &command, const char *option) {
@@ -295,9 +305,11 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
     addShadingOptions(command, options);
     addQualityOptions(command, options);
     command.add_option("--crop", options.crop,
-                       "The part that is shown: low,high of columns, rows and slices, in shares of "
-                       "the volume from 0 to 1");
-    command.add_option("--scene", options.scene, "Start from a scene saved as JSON")
+                       "c0,c1,r0,r1,s0,s1: show only these columns, rows and slices, as fractions "
+                       "of the volume from 0 to 1");
+    command
+        .add_option("--scene", options.scene,
+                    "Start from a saved scene (JSON); the other options override it")
         ->check(notEmpty());
 }
 

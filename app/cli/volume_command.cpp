@@ -70,29 +70,30 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     preprocess::StepCache steps(0); // no step runs twice
     const auto field = tissue ? classify::classField(volume, wanted, *tissue, &steps, progress)
                               : classify::densityField(volume, wanted, progress);
-    volume::writeNrrd(o.out, field.values, encoding, task::Progress(context.stop));
+    volume::writeNrrd(o.out, field.values.asVolume(), encoding, task::Progress(context.stop));
 }
 
 } // namespace
 
 void addVolumeCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
-    CLI::App *c = app.add_subcommand("volume", "Write a volume, or the field that is projected, as "
-                                               "NRRD, or a picture of its spectrum");
+    CLI::App *c = app.add_subcommand("volume", "Write a volume, the field that is projected, or a "
+                                               "slice of its spectrum");
     addInputOptions(*c, o->input);
-    c->add_option("-o,--output", o->out, "The NRRD file; with --spectrum a .png or .npy")
+    c->add_option("-o,--output", o->out, "File to write: .nrrd; with --spectrum .png or .npy")
         ->required();
     CLI::Option *field =
-        c->add_flag("--field", o->field, "Write the field f in 0..1 instead of the values");
+        c->add_flag("--field", o->field,
+                    "Write the field that is projected, from 0 to 1, instead of the values");
     CLI::Option *edges =
-        c->add_flag("--edges", o->edges, "Write the Canny edges, the standard class 'edges'")
+        c->add_flag("--edges", o->edges, "Write the Canny edges (the standard class 'edges')")
             ->excludes(field);
     CLI::Option *gzip = c->add_flag("--gzip", o->gzip, "Compress the samples");
     CLI::Option *spectrum =
         c->add_flag(
              "--spectrum", o->spectrum,
-             "Write the slice of the spectrum that a view takes, in decibels below the value "
-             "at frequency 0: as grey from 0 to -100 dB (.png), or as numbers (.npy)")
+             "Write the slice of the spectrum from which a view is computed, in decibels relative "
+             "to frequency 0: as grey levels from 0 to -100 dB (.png) or as numbers (.npy)")
             ->excludes(field)
             ->excludes(gzip);
     const auto before = c->get_options();
@@ -104,7 +105,7 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
     for (const char *name : shadingOptions)
         c->get_option(name)->group(""); // refused, therefore not offered
     c->get_option("--class")
-        ->description("Write the field of a standard class; with --spectrum "
+        ->description("Write the field of a standard class; with --spectrum: "
                       "NAME[=WEIGHT[:#rrggbb]], may be repeated")
         ->excludes(field)
         ->excludes(edges);

@@ -112,28 +112,28 @@ AxisProjections::Plane AxisProjections::emptyPlane(int axis, const volume::Latti
 
 AxisProjections::Plane AxisProjections::planeAlong(int axis, const classify::DensityField &field) {
     const volume::Lattice &lattice = field.values.lattice();
-    const volume::GridSize size = lattice.size();
     const double stepMm = lattice.spacingMm(axis);
     const volume::VoxelBox &box = field.support;
     Plane plane = emptyPlane(axis, lattice);
-    field.values.visit([&](auto samples) {
-        const auto addRow = [&](int j, int k, const auto &add) {
-            const auto *const row = samples.data() + size.offsetOf(0, j, k);
-            for (int i = box.lo.i; i < box.hi.i; ++i)
-                add(i, stepMm * double(row[i]));
-        };
-        if (axis == 2)
-            tbb::parallel_for(box.lo.j, box.hi.j, [&](int j) {
-                for (int k = box.lo.k; k < box.hi.k; ++k)
-                    addRow(j, k, [&](int i, double value) { plane.at(i, j) += value; });
-            });
-        else
-            tbb::parallel_for(box.lo.k, box.hi.k, [&](int k) {
-                for (int j = box.lo.j; j < box.hi.j; ++j)
-                    addRow(j, k,
-                           [&](int i, double value) { plane.at(axis == 0 ? j : i, k) += value; });
-            });
-    });
+    const int columns = box.size().i;
+    const auto addRow = [&](int j, int k, float *buffer, const auto &add) {
+        const float *const row = field.values.row({box.lo.i, j, k}, columns, buffer);
+        for (int i = 0; i < columns; ++i)
+            add(box.lo.i + i, stepMm * double(row[i]));
+    };
+    if (axis == 2)
+        tbb::parallel_for(box.lo.j, box.hi.j, [&](int j) {
+            std::vector<float> buffer(columns);
+            for (int k = box.lo.k; k < box.hi.k; ++k)
+                addRow(j, k, buffer.data(), [&](int i, double value) { plane.at(i, j) += value; });
+        });
+    else
+        tbb::parallel_for(box.lo.k, box.hi.k, [&](int k) {
+            std::vector<float> buffer(columns);
+            for (int j = box.lo.j; j < box.hi.j; ++j)
+                addRow(j, k, buffer.data(),
+                       [&](int i, double value) { plane.at(axis == 0 ? j : i, k) += value; });
+        });
     return plane;
 }
 

@@ -15,8 +15,8 @@ namespace {
 // samples within it.
 enum class Beyond { zero, mean };
 
-volume::Volume blockMeans(const volume::Volume &volume, int side, Beyond beyond) {
-    const volume::Lattice &fine = volume.lattice();
+volume::Volume blockMeans(const volume::Field &field, int side, Beyond beyond) {
+    const volume::Lattice &fine = field.lattice();
     std::array<int, 3> block{}, count{};
     for (int d = 0; d < 3; ++d) {
         block[d] = (fine.size()[d] + side - 1) / side;
@@ -43,45 +43,39 @@ volume::Volume blockMeans(const volume::Volume &volume, int side, Beyond beyond)
         return std::max(0, std::min(last, fine.size()[d]) - (n == 0 ? 0 : std::max(first, 0)));
     };
     std::vector<float> means(lattice.size().count(), 0.0F);
-    volume.visit([&](auto samples) {
-        tbb::parallel_for(0, count[2], [&](int ck) {
-            const std::size_t plane = static_cast<std::size_t>(count[0]) * count[1];
-            std::vector<double> sums(plane, 0.0);
-            for (int k = std::max(0, start[2] + ck * block[2]);
-                 k < std::min(fine.size().k, start[2] + (ck + 1) * block[2]); ++k)
-                for (int j = 0; j < fine.size().j; ++j) {
-                    const auto *row = samples.data() + fine.size().offsetOf(0, j, k);
-                    double *out = sums.data() + std::size_t(std::clamp((j - start[1]) / block[1], 0,
-                                                                       count[1] - 1)) *
-                                                    count[0];
-                    for (int i = 0; i < fine.size().i; ++i)
-                        out[std::clamp((i - start[0]) / block[0], 0, count[0] - 1)] +=
-                            double(row[i]);
-                }
-            for (std::size_t n = 0; n < sums.size(); ++n) {
-                double share = double(block[0]) * block[1] * block[2];
-                if (beyond == Beyond::mean) {
-                    const std::array<int, 3> at{int(n % std::size_t(count[0])),
-                                                int(n / std::size_t(count[0])), ck};
-                    share = 1.0;
-                    for (int d = 0; d < 3; ++d)
-                        share *= held(d, at[d]);
-                }
-                means[std::size_t(ck) * sums.size() + n] =
-                    share > 0.0 ? float(sums[n] / share) : 0.0F;
+    tbb::parallel_for(0, count[2], [&](int ck) {
+        const std::size_t plane = static_cast<std::size_t>(count[0]) * count[1];
+        std::vector<double> sums(plane, 0.0);
+        std::vector<float> buffer(std::size_t(fine.size().i));
+        for (int k = std::max(0, start[2] + ck * block[2]);
+             k < std::min(fine.size().k, start[2] + (ck + 1) * block[2]); ++k)
+            for (int j = 0; j < fine.size().j; ++j) {
+                const float *const row = field.row({0, j, k}, fine.size().i, buffer.data());
+                double *out =
+                    sums.data() +
+                    std::size_t(std::clamp((j - start[1]) / block[1], 0, count[1] - 1)) * count[0];
+                for (int i = 0; i < fine.size().i; ++i)
+                    out[std::clamp((i - start[0]) / block[0], 0, count[0] - 1)] += double(row[i]);
             }
-        });
+        for (std::size_t n = 0; n < sums.size(); ++n) {
+            double share = double(block[0]) * block[1] * block[2];
+            if (beyond == Beyond::mean) {
+                const std::array<int, 3> at{int(n % std::size_t(count[0])),
+                                            int(n / std::size_t(count[0])), ck};
+                share = 1.0;
+                for (int d = 0; d < 3; ++d)
+                    share *= held(d, at[d]);
+            }
+            means[std::size_t(ck) * sums.size() + n] = share > 0.0 ? float(sums[n] / share) : 0.0F;
+        }
     });
-    return {lattice, std::move(means), volume.unit(), volume.notes()};
+    return {lattice, std::move(means), field.samples().unit(), field.samples().notes()};
 }
 
 } // namespace
 
 DensityField coarseField(const DensityField &field, int side) {
-    const volume::Volume means = blockMeans(field.values, side, Beyond::zero);
-    return means.visit([&](auto samples) {
-        return fieldOf(means, std::vector<float>(samples.begin(), samples.end()));
-    });
+    return fieldOf(blockMeans(field.values, side, Beyond::zero));
 }
 
 volume::Volume coarseVolume(const volume::Volume &volume, int side) {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-
 #include "core/task/error.h"
 
 namespace pellucid::classify {
@@ -44,22 +42,8 @@ volume::VoxelBox samplesIn(const CropBox &box, const volume::GridSize &size) {
 DensityField cropped(DensityField field, const CropBox &box) {
     if (box.isWhole())
         return field;
-    const volume::GridSize size = field.values.lattice().size();
-    const volume::VoxelBox in = samplesIn(box, size);
-    return task::orOutOfMemory(task::because::noMemoryForTheCroppedField, [&] {
-        std::vector<float> samples(size.count(), 0.0F);
-        field.values.visit([&](const auto &from) {
-            tbb::parallel_for(in.lo.k, in.hi.k, [&](int k) {
-                for (int j = in.lo.j; j < in.hi.j; ++j) {
-                    const std::size_t row = size.offsetOf(0, j, k);
-                    std::copy(from.begin() + std::ptrdiff_t(row + in.lo.i),
-                              from.begin() + std::ptrdiff_t(row + in.hi.i),
-                              samples.begin() + std::ptrdiff_t(row + in.lo.i));
-                }
-            });
-        });
-        return fieldOf(field.values, std::move(samples));
-    });
+    const volume::VoxelBox in = samplesIn(box, field.values.lattice().size());
+    return fieldOf(field.values.within(in));
 }
 
 ShownFields cropped(ShownFields fields, const CropBox &box) {

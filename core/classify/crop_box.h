@@ -20,8 +20,7 @@ void validate(const CropBox &box);
 /// The samples with their centres in the box, at least one along every axis.
 volume::VoxelBox samplesIn(const CropBox &box, const volume::GridSize &size);
 
-/// The fields, set to zero outside the box, on the same lattice, so that views do not move.
-/// *Throws* Error{outOfMemory}.
+/// The fields, zero outside the box, on the same lattice, so that views do not move.
 DensityField cropped(DensityField field, const CropBox &box);
 ShownFields cropped(ShownFields fields, const CropBox &box);
 

@@ -17,15 +17,6 @@ namespace {
 using volume::united;
 using volume::VoxelBox;
 
-struct Mapping {
-    float low, scale;
-    template <class T> float operator()(T value) const {
-        const float f = (float(value) - low) * scale;
-        // NaN fails both comparisons and becomes 0.
-        return f >= 1.0F ? 1.0F : f > 0.0F ? f : 0.0F;
-    }
-};
-
 // Replaces an empty box by the middle sample.
 VoxelBox orMiddle(const VoxelBox &box, volume::GridSize size) {
     if (box.hi.i > box.lo.i)
@@ -33,32 +24,32 @@ VoxelBox orMiddle(const VoxelBox &box, volume::GridSize size) {
     return {{size.i / 2, size.j / 2, size.k / 2}, {size.i / 2 + 1, size.j / 2 + 1, size.k / 2 + 1}};
 }
 
-template <class T>
-VoxelBox mapSlices(std::span<const T> in, std::vector<float> &out, volume::GridSize size,
-                   const Mapping &map, const task::Progress &progress) {
-    return tbb::parallel_reduce(
+// The smallest box around the values that are not 0.
+VoxelBox supportOf(const volume::Field &field, const task::Progress &progress) {
+    const volume::GridSize size = field.lattice().size();
+    const VoxelBox box = tbb::parallel_reduce(
         tbb::blocked_range<int>(0, size.k), VoxelBox{},
-        [&](const tbb::blocked_range<int> &range, VoxelBox box) {
+        [&](const tbb::blocked_range<int> &range, VoxelBox sum) {
+            std::vector<float> buffer(std::size_t(size.i));
             for (int k = range.begin(); k != range.end(); ++k) {
                 progress.check();
                 for (int j = 0; j < size.j; ++j) {
-                    const std::size_t row = size.offsetOf(0, j, k);
-                    int first = size.i, last = -1;
-                    for (int i = 0; i < size.i; ++i) {
-                        const float f = map(in[row + i]);
-                        out[row + i] = f;
-                        if (f > 0.0F) {
-                            first = std::min(first, i);
-                            last = i;
-                        }
-                    }
-                    if (last >= 0)
-                        box = united(box, {{first, j, k}, {last + 1, j + 1, k + 1}});
+                    const float *const row = field.row({0, j, k}, size.i, buffer.data());
+                    const float *const end = row + size.i;
+                    const auto isSet = [](float f) { return f != 0.0F; };
+                    const float *const first = std::find_if(row, end, isSet);
+                    if (first == end)
+                        continue;
+                    const auto last = std::find_if(std::make_reverse_iterator(end),
+                                                   std::make_reverse_iterator(first), isSet)
+                                          .base();
+                    sum = united(sum, {{int(first - row), j, k}, {int(last - row), j + 1, k + 1}});
                 }
             }
-            return box;
+            return sum;
         },
         united);
+    return orMiddle(box, size);
 }
 
 } // namespace
@@ -72,46 +63,19 @@ FieldWindow defaultFieldWindow(const volume::Volume &volume) {
 
 DensityField densityField(const volume::Volume &volume, const FieldWindow &window,
                           const task::Progress &progress) {
-    const volume::GridSize size = volume.lattice().size();
     const double width = window.high - window.low;
-    const Mapping map{float(window.low), width > 0.0 ? float(1.0 / width) : 0.0F};
-    return task::orOutOfMemory(task::because::noMemoryForAField(size.i, size.j, size.k), [&] {
-        std::vector<float> values(size.count());
-        const VoxelBox box = volume.visit([&](auto samples) {
-            using T = std::remove_const_t<typename decltype(samples)::element_type>;
-            return mapSlices<T>(samples, values, size, map, progress);
-        });
-        progress.report(1.0);
-        return DensityField{volume::Volume(volume.lattice(), std::move(values),
-                                           volume::ValueUnit::none, volume.notes()),
-                            orMiddle(box, size)};
-    });
+    return fieldOf({volume, {float(window.low), width > 0.0 ? float(1.0 / width) : 0.0F}},
+                   progress);
 }
 
-DensityField fieldOf(const volume::Volume &like, std::vector<float> samples) {
-    const volume::GridSize size = like.lattice().size();
-    const VoxelBox box = tbb::parallel_reduce(
-        tbb::blocked_range<int>(0, size.k), VoxelBox{},
-        [&](const tbb::blocked_range<int> &range, VoxelBox sum) {
-            for (int k = range.begin(); k != range.end(); ++k)
-                for (int j = 0; j < size.j; ++j) {
-                    const float *const row = samples.data() + size.offsetOf(0, j, k);
-                    const float *const end = row + size.i;
-                    const auto isSet = [](float f) { return f != 0.0F; };
-                    const float *const first = std::find_if(row, end, isSet);
-                    if (first == end)
-                        continue;
-                    const auto last = std::find_if(std::make_reverse_iterator(end),
-                                                   std::make_reverse_iterator(first), isSet)
-                                          .base();
-                    sum = united(sum, {{int(first - row), j, k}, {int(last - row), j + 1, k + 1}});
-                }
-            return sum;
-        },
-        united);
-    return {
-        volume::Volume(like.lattice(), std::move(samples), volume::ValueUnit::none, like.notes()),
-        orMiddle(box, size)};
+DensityField fieldOf(const volume::Field &like, std::vector<float> samples) {
+    return fieldOf(volume::Volume(like.lattice(), std::move(samples), volume::ValueUnit::none,
+                                  like.samples().notes()));
+}
+
+DensityField fieldOf(volume::Field values, const task::Progress &progress) {
+    const VoxelBox support = supportOf(values, progress);
+    return {std::move(values), support};
 }
 
 } // namespace pellucid::classify

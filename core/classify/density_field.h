@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/task/progress.h"
-#include "core/volume/volume.h"
+#include "core/volume/field.h"
 
 namespace pellucid::classify {
 
@@ -19,18 +19,20 @@ FieldWindow defaultFieldWindow(const volume::Volume &volume);
 
 /// The projected quantity on the volume's lattice: a density f in 0..1, or a weighted one.
 struct DensityField {
-    volume::Volume values; ///< float32, the whole lattice
+    volume::Field values; ///< on the whole lattice
     volume::VoxelBox
         support; ///< smallest box that contains all nonzero samples; one sample if all are 0
 };
 
 /// f = clamp((value - low) / (high - low), 0, 1). NaN becomes 0, infinities are clamped; a window
-/// of zero width gives 0 everywhere. *Throws* Error{outOfMemory}, Cancelled.
+/// of zero width gives 0 everywhere. The field holds the volume, not a copy. *Throws* Cancelled.
 DensityField densityField(const volume::Volume &volume, const FieldWindow &window,
                           const task::Progress &progress = {});
 
-/// A field of these samples on the lattice of a volume. *Shape*: as many samples as the lattice
+/// A field of these samples on the lattice of another one. *Shape*: as many samples as the lattice
 /// has.
-DensityField fieldOf(const volume::Volume &like, std::vector<float> samples);
+DensityField fieldOf(const volume::Field &like, std::vector<float> samples);
+/// Values and the box that contains them.
+DensityField fieldOf(volume::Field values, const task::Progress &progress = {});
 
 } // namespace pellucid::classify

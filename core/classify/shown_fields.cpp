@@ -14,6 +14,11 @@ namespace pellucid::classify {
 
 namespace {
 
+// Whether a look shows the density itself.
+bool isDensity(const Look &look) {
+    return look.classes.empty() && look.transferFunction.isPlain();
+}
+
 // The most memory that running steps needs, in floats per sample: edges hold the smoothed values,
 // their second derivative and its zero crossings, besides the memory for smoothing.
 constexpr std::size_t stepFloats = 6;
@@ -68,6 +73,8 @@ ClassSamples samplesOf(const volume::Volume &volume, const TissueClass &tissue, 
 }
 
 std::size_t peakBytes(const Look &look, std::size_t samples) {
+    if (isDensity(look))
+        return 0; // is read from the volume
     const auto shown = visibleClasses(look);
     const bool hasSteps = std::any_of(shown.begin(), shown.end(), [](const TissueClass &tissue) {
         return !tissue.steps.empty();
@@ -78,7 +85,7 @@ std::size_t peakBytes(const Look &look, std::size_t samples) {
 
 ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window, const Look &look,
                         StepRunner *runner, const task::Progress &progress) {
-    if (look.classes.empty() && look.transferFunction.isPlain())
+    if (isDensity(look))
         return {{densityField(volume, window, progress)}, {}};
     const std::vector<TissueClass> shown = visibleClasses(look);
     const ColorBasis basis = colorBasisOf(look);
@@ -105,21 +112,21 @@ ShownFields inPrimaries(ShownFields fields, const task::Progress &progress) {
     if (fields.channels.size() != 2)
         return fields;
     return task::orOutOfMemory(task::because::noMemoryForTheClassFields, [&] {
-        const volume::Volume &first = fields.channels[0].values,
-                             &second = fields.channels[1].values;
+        const volume::Field &first = fields.channels[0].values, &second = fields.channels[1].values;
+        const volume::GridSize size = first.lattice().size();
         const auto mixed = [&](double a, double b) {
-            std::vector<float> samples(first.lattice().size().count());
-            const auto mix = [&](const auto &from, const auto &with) {
-                tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), 1U << 16U),
-                                  [&](const tbb::blocked_range<std::size_t> &range) {
-                                      progress.check();
-                                      for (std::size_t n = range.begin(); n < range.end(); ++n)
-                                          samples[n] =
-                                              float(a * double(from[n]) + b * double(with[n]));
-                                  });
-            };
-            first.visit([&](const auto &from) {
-                second.visit([&](const auto &with) { mix(from, with); });
+            std::vector<float> samples(size.count());
+            tbb::parallel_for(0, size.k, [&](int k) {
+                progress.check();
+                std::vector<float> buffer(2 * std::size_t(size.i));
+                for (int j = 0; j < size.j; ++j) {
+                    const float *const from = first.row({0, j, k}, size.i, buffer.data()),
+                                      *const with = second.row({0, j, k}, size.i,
+                                                               buffer.data() + size.i);
+                    float *const to = samples.data() + size.offsetOf(0, j, k);
+                    for (int i = 0; i < size.i; ++i)
+                        to[i] = float(a * double(from[i]) + b * double(with[i]));
+                }
             });
             return fieldOf(first, std::move(samples));
         };

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 
 #include "core/fourier/binary16.h"
 #include "core/fourier/spectrum_passes.h"
-#include "core/system/page_memory.h"
 
 namespace pellucid::fourier {
 
@@ -28,36 +26,31 @@ std::size_t SpectrumLayout::bytes() const {
 }
 
 std::size_t SpectrumLayout::peakBytes() const {
-    // Columns are stored while those of the first pass are released.
-    const auto columns = std::size_t(CellLayout(*this).columns);
-    const std::size_t slabs = columns * ColumnSlabs::bytes(*this);
-    return std::max(slabs, bytes()) + (slabs + bytes()) / columns + planeBytes(*this);
+    return ColumnMemory::bytes(*this) + planeBytes(*this);
 }
 
-Spectrum::Spectrum(const volume::Volume &field, const SpectrumLayout &layout)
+Spectrum::Spectrum(const volume::Field &field, const SpectrumLayout &layout)
     : m_lattice(field.lattice()), m_layout(layout), m_cellLayout(layout) {
     const volume::VoxelBox &box = layout.box;
     const volume::GridSize size = box.size();
     m_wrapPoint = m_lattice.patient(
         volume::VoxelIndex{box.lo.i + size.i / 2, box.lo.j + size.j / 2, box.lo.k + size.k / 2});
-    m_cells = system::allocatePages(layout.bytes(), task::because::aSpectrum);
-    std::memset(m_cells.get() + layout.bytes() - 64, 0, 64);
 }
 
-Spectrum Spectrum::prepare(volume::Volume field, const SpectrumLayout &layout,
+Spectrum Spectrum::prepare(volume::Field field, const SpectrumLayout &layout,
                            const task::Progress &progress) {
-    assert(field.isFloat() && layout.addressable());
+    assert(layout.addressable());
     Spectrum spectrum(field, layout);
     const CellLayout &cells = spectrum.m_cellLayout;
-    ColumnSlabs slabs(layout, cells);
+    ColumnMemory memory(layout, cells);
     constexpr double firstPass = 0.3;
     const FieldSums sums =
-        transformRows(field, layout, cells, slabs, progress.part(0.0, firstPass));
+        transformRows(field, layout, cells, memory, progress.part(0.0, firstPass));
     field = {};
     progress.report(firstPass);
     spectrum.m_dc = sums.dc;
     spectrum.m_moments = sums.moments;
-    CellOutput out{spectrum.m_cells.get()};
+    CellOutput out;
     if (layout.storage == Storage::binary16) {
         // The sum of the magnitudes bounds every cell; a power of two scales without rounding.
         double scale = 1.0;
@@ -71,7 +64,8 @@ Spectrum Spectrum::prepare(volume::Volume field, const SpectrumLayout &layout,
             out.rounding = spectrum.m_rounding.data();
         }
     }
-    transformColumns(layout, cells, slabs, out, progress.part(firstPass, 1.0));
+    transformColumns(layout, cells, memory, out, progress.part(firstPass, 1.0));
+    spectrum.m_cells = memory.takeCells();
     return spectrum;
 }
 

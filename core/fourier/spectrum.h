@@ -10,7 +10,7 @@
 #include "core/fourier/kernels/kernel.h"
 #include "core/fourier/storage.h"
 #include "core/task/progress.h"
-#include "core/volume/volume.h"
+#include "core/volume/field.h"
 
 namespace pellucid::fourier {
 
@@ -65,8 +65,8 @@ struct CellLayout {
 class Spectrum {
 public:
     /// The field is released after the first of two passes: its memory is free if this was the last
-    /// reference. *Shape*: the field is float32. *Throws* Error{outOfMemory}, Cancelled.
-    static Spectrum prepare(volume::Volume field, const SpectrumLayout &layout,
+    /// reference. *Throws* Error{outOfMemory}, Cancelled.
+    static Spectrum prepare(volume::Field field, const SpectrumLayout &layout,
                             const task::Progress &progress = {});
 
     const SpectrumLayout &layout() const { return m_layout; }
@@ -101,7 +101,7 @@ public:
     std::size_t bytes() const { return m_layout.bytes(); }
 
 private:
-    Spectrum(const volume::Volume &field, const SpectrumLayout &layout);
+    Spectrum(const volume::Field &field, const SpectrumLayout &layout);
     std::complex<double> cell(std::size_t index) const; ///< of all, in the order of the lines
 
     volume::Lattice m_lattice;

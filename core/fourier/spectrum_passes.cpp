@@ -16,6 +16,7 @@
 #include "core/fourier/transforms/strip_transform.h"
 #include "core/fourier/transforms/transform.h"
 #include "core/system/page_memory.h"
+#include "core/volume/lane_sum.h"
 
 namespace pellucid::fourier {
 
@@ -72,28 +73,28 @@ Complex asComplex(Complex cell) {
 // field.
 class RowTransform {
 public:
-    RowTransform(const volume::Lattice &lattice, const SpectrumLayout &layout,
-                 const CellLayout &cells, const ColumnSlabs &slabs)
-        : m_lattice(lattice.size()), m_box(layout.box), m_size(layout.box.size()),
-          m_padded(layout.padded), m_cells(cells), m_slabs(slabs),
-          m_cellMm3(lattice.cellVolumeMm3()),
+    RowTransform(const volume::Field &field, const SpectrumLayout &layout,
+                 const CellLayout &cells, ColumnMemory &memory)
+        : m_field(field), m_box(layout.box), m_size(layout.box.size()),
+          m_padded(layout.padded), m_cells(cells), m_memory(memory),
+          m_cellMm3(field.lattice().cellVolumeMm3()),
           m_rowCells(std::size_t(cells.step) * (cells.columns - 1) + CellLayout::columnCells),
           m_hx(premultiplier(layout.kernels[0], m_size.i, m_padded.i)),
           m_hy(premultiplier(layout.kernels[1], m_size.j, m_padded.j)),
           m_hz(premultiplier(layout.kernels[2], m_size.k, m_padded.k)), m_alongX(m_padded.i),
-          m_planeSums(std::size_t(m_size.k)), m_realRows(m_padded.i),
+          m_planeSums(std::size_t(m_size.k)), m_samples(std::size_t(m_size.i)), m_realRows(m_padded.i),
           m_halves(std::size_t(m_padded.i) / 2 + 1), m_rows(m_rowCells), m_strips(stripFloats) {}
 
     // Transforms plane k of the box. Thread-safe.
-    template <class T> void run(const T *samples, int k) {
-        float *const real = m_realRows.local();
+    void run(int k) {
+        float *const samples = m_samples.local(), *const real = m_realRows.local();
         Complex *const half = m_halves.local(), *const row = m_rows.local();
         std::fill(real, real + m_padded.i, 0.0F);
         const auto cell = float(m_cellMm3);
         PlaneSums sums;
         for (int j = 0; j < m_size.j; ++j) {
-            const T *const in =
-                samples + m_lattice.offsetOf(m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k);
+            const float *const in =
+                m_field.row({m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k}, m_size.i, samples);
             sums.magnitudes += double(placeRow(in, cell * m_hz[k] * m_hy[j], real));
             addRow(in, j, sums);
             m_alongX.run(real, half);
@@ -124,29 +125,23 @@ private:
     };
 
     // Returns the sum of the magnitudes.
-    template <class T> float placeRow(const T *in, float factor, float *real) const {
+    float placeRow(const float *in, float factor, float *real) const {
         const int middle = m_size.i / 2;
         const float *const hx = m_hx.data();
         float *const negative = real + m_padded.i - middle;
-        float sum = 0.0F;
-        for (int i = 0; i < middle; ++i) {
-            negative[i] = float(in[i]) * factor * hx[i];
-            sum += std::abs(negative[i]);
-        }
-        for (int i = middle; i < m_size.i; ++i) {
-            real[i - middle] = float(in[i]) * factor * hx[i];
-            sum += std::abs(real[i - middle]);
-        }
-        return sum;
+        for (int i = 0; i < middle; ++i)
+            negative[i] = in[i] * factor * hx[i];
+        for (int i = middle; i < m_size.i; ++i)
+            real[i - middle] = in[i] * factor * hx[i];
+        return volume::laneSum(middle, [&](int i) { return std::abs(negative[i]); }) +
+               volume::laneSum(m_size.i - middle, [&](int i) { return std::abs(real[i]); });
     }
 
-    template <class T> void addRow(const T *in, int j, PlaneSums &sums) const {
+    void addRow(const float *in, int j, PlaneSums &sums) const {
         const int middle = m_size.i / 2;
-        double sum = 0.0, moment = 0.0;
-        for (int i = 0; i < m_size.i; ++i) {
-            sum += double(in[i]);
-            moment += double(in[i]) * (i - middle);
-        }
+        const double sum = volume::laneSum(m_size.i, [&](int i) { return double(in[i]); }),
+                     moment = volume::laneSum(
+                         m_size.i, [&](int i) { return double(in[i]) * (i - middle); });
         sums.all += sum;
         sums.alongI += moment;
         sums.alongJ += sum * (j - m_size.j / 2);
@@ -166,22 +161,22 @@ private:
         float *const strip = m_strips.local();
         for (int column = 0; column < m_cells.columns; ++column) {
             loadExchanged(row + std::size_t(column) * m_cells.step, strip);
-            streamLine(strip, m_slabs.of(column) + (std::size_t(k) * m_size.j + j) * stripFloats,
+            streamLine(strip, m_memory.slab(column) + (std::size_t(k) * m_size.j + j) * stripFloats,
                        stripFloats * sizeof(float));
         }
     }
 
-    GridSize m_lattice;
+    const volume::Field &m_field;
     volume::VoxelBox m_box;
     GridSize m_size, m_padded;
     const CellLayout &m_cells;
-    const ColumnSlabs &m_slabs;
+    ColumnMemory &m_memory;
     double m_cellMm3;
     std::size_t m_rowCells;
     std::vector<float> m_hx, m_hy, m_hz;
     ForwardTransform1d m_alongX;
     std::vector<PlaneSums> m_planeSums;
-    Scratch<float> m_realRows;
+    Scratch<float> m_samples, m_realRows;
     Scratch<Complex> m_halves, m_rows;
     Scratch<float> m_strips;
 };
@@ -191,8 +186,9 @@ private:
 // in memory.
 template <class Cell> class ColumnTransform {
 public:
-    ColumnTransform(const SpectrumLayout &layout, const CellLayout &cells, const CellOutput &out)
-        : m_size(layout.box.size()), m_padded(layout.padded), m_cells(cells), m_out(out),
+    ColumnTransform(const SpectrumLayout &layout, const CellLayout &cells, std::byte *out,
+                    const CellOutput &how)
+        : m_size(layout.box.size()), m_padded(layout.padded), m_cells(cells), m_out(out), m_how(how),
           m_alongY(layout.padded.j), m_alongZ(layout.padded.k),
           m_planes(system::allocatePages(planeBytes(layout), task::because::aTransform)),
           m_strips(2 * std::size_t(std::max(m_padded.j, m_padded.k)) * stripFloats),
@@ -242,7 +238,7 @@ private:
         placeStrips(planes(y, 0), m_size.k, strips, m_padded.k);
         const float *const result =
             m_alongZ.run(strips, strips + std::size_t(m_padded.k) * stripFloats);
-        storeExchanged(result, m_padded.k, m_out.scale, lines, CellLayout::columnCells);
+        storeExchanged(result, m_padded.k, m_how.scale, lines, CellLayout::columnCells);
         if (column == 0)
             keepRounding(y, result, lines);
     }
@@ -251,7 +247,7 @@ private:
     void keepRounding(int y, const float *exact, const Cell *lines) const {
         constexpr int reach = Spectrum::roundingReach, side = 2 * reach + 1;
         const int q = y <= m_padded.j / 2 ? y : y - m_padded.j;
-        if (m_out.rounding == nullptr || std::abs(q) > reach)
+        if (m_how.rounding == nullptr || std::abs(q) > reach)
             return;
         for (int r = -reach; r <= reach; ++r) {
             const auto z = std::size_t(modulo(r, m_padded.k));
@@ -261,8 +257,8 @@ private:
                 const std::complex<float> stored =
                     asComplex(lines[z * CellLayout::columnCells + std::size_t(lane)]);
                 // Real and imaginary parts are exchanged.
-                m_out.rounding[((q + reach) * side + r + reach) * (reach + 1) + p] =
-                    stored - m_out.scale * std::complex<float>(cell[stripLanes], cell[0]);
+                m_how.rounding[((q + reach) * side + r + reach) * (reach + 1) + p] =
+                    stored - m_how.scale * std::complex<float>(cell[stripLanes], cell[0]);
             }
         }
     }
@@ -278,7 +274,7 @@ private:
                         const int z = modulo(plane + m_cells.firstZ, m_padded.k);
                         streamLine(lines + std::size_t(y - first) * rowCells() +
                                        std::size_t(z) * CellLayout::columnCells,
-                                   m_out.cells + m_cells.line(column, plane, row) * lineBytes,
+                                   m_out + m_cells.line(column, plane, row) * lineBytes,
                                    lineBytes);
                     }
         finishStreaming();
@@ -286,7 +282,8 @@ private:
 
     GridSize m_size, m_padded;
     const CellLayout &m_cells;
-    CellOutput m_out;
+    std::byte *m_out;
+    CellOutput m_how;
     StripTransform m_alongY, m_alongZ;
     std::shared_ptr<std::byte[]> m_planes; ///< of a column: [y][k][strip]
     Scratch<float> m_strips;
@@ -294,52 +291,69 @@ private:
 };
 
 template <class Cell>
-void transformAllColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnSlabs &slabs,
-                         const CellOutput &out, const task::Progress &progress) {
-    ColumnTransform<Cell> transform(layout, cells, out);
+void transformAllColumns(const SpectrumLayout &layout, const CellLayout &cells,
+                         ColumnMemory &memory, const CellOutput &how,
+                         const task::Progress &progress) {
+    ColumnTransform<Cell> transform(layout, cells, memory.cells(), how);
     for (int column = 0; column < cells.columns; ++column) {
-        transform.alongY(slabs.of(column), progress);
-        slabs.release(column);
+        transform.alongY(memory.slab(column), progress);
         transform.alongZ(column, progress);
         progress.report(double(column + 1) / cells.columns);
     }
 }
 
-} // namespace
-
-ColumnSlabs::ColumnSlabs(const SpectrumLayout &layout, const CellLayout &cells) {
-    for (int column = 0; column < cells.columns; ++column)
-        m_slabs.push_back(system::allocatePages(bytes(layout), task::because::aTransform));
-}
-
-std::size_t ColumnSlabs::bytes(const SpectrumLayout &layout) {
+std::size_t slabBytes(const SpectrumLayout &layout) {
     const GridSize size = layout.box.size();
     return std::size_t(size.k) * size.j * stripFloats * sizeof(float);
+}
+
+} // namespace
+
+ColumnMemory::ColumnMemory(const SpectrumLayout &layout, const CellLayout &cells)
+    : m_cellBytes(layout.bytes()), m_slabBytes(slabBytes(layout)), m_bytes(bytes(layout)),
+      m_columns(cells.columns),
+      m_memory(system::allocatePages(m_bytes, task::because::aSpectrum)) {}
+
+float *ColumnMemory::slab(int column) const {
+    // Slabs end where the memory ends. Either slabs are larger than the cells of a column and begin
+    // with them, or they are smaller: in both cases, slab c starts behind the cells of column c - 1.
+    const std::size_t after = std::size_t(m_columns - column) * m_slabBytes;
+    return reinterpret_cast<float *>(m_memory.get() + (m_bytes - after));
+}
+
+std::shared_ptr<std::byte[]> ColumnMemory::takeCells() {
+    constexpr std::size_t readable = 64;
+    std::memset(m_memory.get() + (m_cellBytes - readable), 0, readable);
+    system::returnPages(m_memory.get() + m_cellBytes, m_bytes - m_cellBytes);
+    return std::move(m_memory);
+}
+
+std::size_t ColumnMemory::bytes(const SpectrumLayout &layout) {
+    return std::max(layout.bytes(),
+                    std::size_t(CellLayout(layout).columns) * slabBytes(layout) + 64);
 }
 
 std::size_t planeBytes(const SpectrumLayout &layout) {
     return std::size_t(layout.padded.j) * layout.box.size().k * stripFloats * sizeof(float);
 }
 
-FieldSums transformRows(const volume::Volume &field, const SpectrumLayout &layout,
-                        const CellLayout &cells, const ColumnSlabs &slabs,
+FieldSums transformRows(const volume::Field &field, const SpectrumLayout &layout,
+                        const CellLayout &cells, ColumnMemory &memory,
                         const task::Progress &progress) {
-    RowTransform rows(field.lattice(), layout, cells, slabs);
-    field.visit([&](auto samples) {
-        tbb::parallel_for(0, layout.box.size().k, [&](int k) {
-            progress.check();
-            rows.run(samples.data(), k);
-        });
+    RowTransform rows(field, layout, cells, memory);
+    tbb::parallel_for(0, layout.box.size().k, [&](int k) {
+        progress.check();
+        rows.run(k);
     });
     return rows.sums();
 }
 
-void transformColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnSlabs &slabs,
+void transformColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnMemory &memory,
                       const CellOutput &out, const task::Progress &progress) {
     if (layout.storage == Storage::binary16)
-        transformAllColumns<std::uint32_t>(layout, cells, slabs, out, progress);
+        transformAllColumns<std::uint32_t>(layout, cells, memory, out, progress);
     else
-        transformAllColumns<Complex>(layout, cells, slabs, out, progress);
+        transformAllColumns<Complex>(layout, cells, memory, out, progress);
 }
 
 } // namespace pellucid::fourier

@@ -12,22 +12,26 @@
 namespace pellucid::fourier {
 
 // A spectrum is prepared in two passes: rows of the field along x, then columns of the result along
-// y and z. Columns are those of CellLayout: each is stored when it is finished, and its slab is
-// released, so that little more than one of the two is in memory.
+// y and z. Columns are those of CellLayout.
 
-/// The result of the first pass, by column: [k][j][strip] of the field's own rows.
-class ColumnSlabs {
+/// The memory of a spectrum and of the first pass's result, its slabs. The cells of a column
+/// overwrite slabs that have already been read: the system clears fresh memory before it hands it
+/// out, which took as long as the transforms.
+class ColumnMemory {
 public:
     /// *Throws* Error{outOfMemory}.
-    ColumnSlabs(const SpectrumLayout &layout, const CellLayout &cells);
-    float *of(int column) const {
-        return reinterpret_cast<float *>(m_slabs[std::size_t(column)].get());
-    }
-    void release(int column) { m_slabs[std::size_t(column)].reset(); }
-    static std::size_t bytes(const SpectrumLayout &layout); ///< of a column
+    ColumnMemory(const SpectrumLayout &layout, const CellLayout &cells);
+    /// [k][j][strip] of the field's own rows. The cells of earlier columns do not reach it.
+    float *slab(int column) const;
+    std::byte *cells() const { return m_memory.get(); }
+    /// The cells and, behind them, 64 bytes of zeros; slabs are lost.
+    std::shared_ptr<std::byte[]> takeCells();
+    static std::size_t bytes(const SpectrumLayout &layout);
 
 private:
-    std::vector<std::shared_ptr<std::byte[]>> m_slabs;
+    std::size_t m_cellBytes, m_slabBytes, m_bytes;
+    int m_columns;
+    std::shared_ptr<std::byte[]> m_memory;
 };
 
 /// The size of a column between its transforms along y and along z.
@@ -41,20 +45,19 @@ struct FieldSums {
 };
 
 /// The first pass. *Throws* Error{outOfMemory}, Cancelled.
-FieldSums transformRows(const volume::Volume &field, const SpectrumLayout &layout,
-                        const CellLayout &cells, const ColumnSlabs &slabs,
+FieldSums transformRows(const volume::Field &field, const SpectrumLayout &layout,
+                        const CellLayout &cells, ColumnMemory &memory,
                         const task::Progress &progress);
 
 /// The output of the second pass.
 struct CellOutput {
-    std::byte *cells;
     float scale = 1.0F; ///< the factor of cells before they are stored
     /// The rounding of the cells around frequency 0, see `Spectrum`; null if nothing is rounded.
     std::complex<float> *rounding = nullptr;
 };
 
 /// The second pass. *Throws* Error{outOfMemory}, Cancelled.
-void transformColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnSlabs &slabs,
+void transformColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnMemory &memory,
                       const CellOutput &out, const task::Progress &progress);
 
 } // namespace pellucid::fourier

@@ -13,6 +13,7 @@
 #include "core/plan/field_roughness.h"
 #include "core/plan/least_projection_energy.h"
 #include "core/plan/line_integral_bound.h"
+#include "core/volume/lane_sum.h"
 
 namespace pellucid::plan {
 
@@ -71,7 +72,7 @@ private:
 // and joined in order: the sums do not depend on the number of threads.
 class FieldStatistics {
 public:
-    FieldStatistics(const volume::Volume &field, const volume::VoxelBox &box)
+    FieldStatistics(const volume::Field &field, const volume::VoxelBox &box)
         : m_field(field), m_lattice(field.lattice()), m_box(box), m_size(box.size()),
           m_center(m_lattice.center().mm),
           m_side((std::max({m_size.i, m_size.j, m_size.k}) + blocksAlong - 1) / blocksAlong),
@@ -90,10 +91,8 @@ public:
     }
 
     EnergyMarginals marginals() {
-        m_field.visit([&](auto samples) {
-            tbb::parallel_for(std::size_t(0), m_layers.size(),
-                              [&](std::size_t n) { sumLayer(samples.data(), int(n)); });
-        });
+        tbb::parallel_for(std::size_t(0), m_layers.size(),
+                          [&](std::size_t n) { sumLayer(int(n)); });
         joinLayers();
         m_spread.shadowMm2 = shadowOf(m_lattice, m_box, m_spread.radiusMm);
         const MassInBalls balls = profileBlocks();
@@ -114,82 +113,115 @@ private:
         std::vector<double> alongI, alongJ; // energies
         std::vector<double> blocks;         // energies, [block along j][block along i]
         std::vector<double> blockMass;
-        std::vector<float> rowMaxima; // [block along j][sample along i]
         double least = 0.0;
         double radiusMm = 0.0;
+    };
+
+    // Sums and maxima over some rows, by sample along i. Few enough rows are added that the
+    // rounding of floats does not matter; the loops over i become vector code.
+    struct RowSums {
+        explicit RowSums(int samples)
+            : energy(std::size_t(samples)), mass(energy.size()), most(energy.size()) {}
+        void clear() {
+            for (std::vector<float> *const each : {&energy, &mass, &most})
+                std::fill(each->begin(), each->end(), 0.0F);
+        }
+        void add(const float *row) {
+            const std::size_t count = energy.size();
+            for (std::size_t i = 0; i < count; ++i) {
+                energy[i] += row[i] * row[i];
+                mass[i] += row[i];
+                most[i] = std::max(most[i], row[i]);
+            }
+        }
+        std::vector<float> energy, mass, most;
     };
 
     int blocksOf(int samples) const { return (samples + m_side - 1) / m_side; }
     // Bounds that hold in every view exist only for fields without negative samples.
     bool isPositive() const { return m_least >= 0.0 && m_mass > 0.0; }
 
-    template <class T> void sumLayer(const T *samples, int n) {
+    void sumLayer(int n) {
         Layer &layer = m_layers[std::size_t(n)];
         layer.alongI.resize(m_size.i);
         layer.alongJ.resize(m_size.j);
         layer.blocks.resize(std::size_t(m_across) * m_down);
         layer.blockMass.resize(layer.blocks.size());
-        layer.rowMaxima.resize(std::size_t(m_size.i) * m_down);
-        for (int k = n * m_side; k < std::min(m_size.k, (n + 1) * m_side); ++k)
-            for (int j = 0; j < m_size.j; ++j) {
-                const T *const row =
-                    samples + m_lattice.size().offsetOf(m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k);
-                sumSamples(row, j, k, layer);
-                const double energy = sumBlocks(row, j, k, n);
-                layer.alongJ[j] += energy;
-                m_result.axis[2][k] += energy;
+        std::vector<float> buffer(std::size_t(m_size.i));
+        RowSums sums(m_size.i);
+        // Maxima by sample along i: of a row of blocks in one plane; of one row in all planes.
+        std::vector<float> inPlane(std::size_t(m_size.i)), inRows(std::size_t(m_side) * m_size.i);
+        for (int down = 0; down < m_down; ++down) {
+            sums.clear();
+            std::fill(inRows.begin(), inRows.end(), 0.0F);
+            const int firstJ = down * m_side, endJ = std::min(m_size.j, firstJ + m_side);
+            for (int k = n * m_side; k < std::min(m_size.k, (n + 1) * m_side); ++k) {
+                std::fill(inPlane.begin(), inPlane.end(), 0.0F);
+                for (int j = firstJ; j < endJ; ++j) {
+                    const float *const row =
+                        m_field.row({m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k}, m_size.i,
+                                    buffer.data());
+                    sums.add(row);
+                    raise(inPlane.data(), row);
+                    raise(inRows.data() + std::size_t(j - firstJ) * m_size.i, row);
+                    const double energy =
+                        double(volume::laneSum(m_size.i, [&](int i) { return row[i] * row[i]; }));
+                    layer.alongJ[j] += energy;
+                    m_result.axis[2][k] += energy;
+                    addEnds(row, j, k, layer);
+                }
+                for (int block = 0; block < m_across; ++block)
+                    m_maxima[2].at(k, down, block) = mostOf(inPlane.data(), block);
             }
-        for (int row = 0; row < m_down; ++row)
-            for (int i = 0; i < m_size.i; ++i)
-                m_maxima[0].at(i, n, row) =
-                    layer.rowMaxima[std::size_t(row) * std::size_t(m_size.i) + i];
+            for (int j = firstJ; j < endJ; ++j)
+                for (int block = 0; block < m_across; ++block)
+                    m_maxima[1].at(j, block, n) =
+                        mostOf(inRows.data() + std::size_t(j - firstJ) * m_size.i, block);
+            addSums(sums, down, n);
+        }
     }
 
-    // Sums and extremes of a row, sample by sample.
-    template <class T> void sumSamples(const T *row, int j, int k, Layer &layer) const {
-        int first = m_size.i, last = -1; // the range of nonzero samples
-        float *const rowMaxima =
-            layer.rowMaxima.data() + std::size_t(j / m_side) * std::size_t(m_size.i);
-        for (int i = 0; i < m_size.i; ++i) {
-            const double f = double(row[i]);
-            layer.alongI[i] += f * f;
-            rowMaxima[i] = std::max(rowMaxima[i], float(row[i]));
-            layer.least = std::min(layer.least, f);
-            if (f != 0.0) {
-                first = std::min(first, i);
-                last = i;
-            }
-        }
-        if (last < 0)
+    void raise(float *maxima, const float *row) const {
+        for (int i = 0; i < m_size.i; ++i)
+            maxima[i] = std::max(maxima[i], row[i]);
+    }
+    float mostOf(const float *maxima, int block) const {
+        return *std::max_element(maxima + block * m_side,
+                                 maxima + std::min(m_size.i, (block + 1) * m_side));
+    }
+
+    // The least value of a row, and the distance of its outermost nonzero samples.
+    void addEnds(const float *row, int j, int k, Layer &layer) const {
+        const float *const end = row + m_size.i;
+        float least = 0.0F;
+        for (int i = 0; i < m_size.i; ++i)
+            least = std::min(least, row[i]);
+        layer.least = std::min(layer.least, double(least));
+        const auto isSet = [](float f) { return f != 0.0F; };
+        const float *const first = std::find_if(row, end, isSet);
+        if (first == end)
             return;
-        for (const int end : {first, last}) {
-            const volume::VoxelIndex at{end + m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k};
+        const float *last = end - 1;
+        while (!isSet(*last))
+            --last;
+        for (const float *const at : {first, last}) {
+            const volume::VoxelIndex sample{int(at - row) + m_box.lo.i, j + m_box.lo.j,
+                                            k + m_box.lo.k};
             layer.radiusMm =
-                std::max(layer.radiusMm, glm::distance(m_center, m_lattice.patient(at).mm));
+                std::max(layer.radiusMm, glm::distance(m_center, m_lattice.patient(sample).mm));
         }
     }
 
-    // Sums and maxima of the blocks that a row crosses, and the row's energy.
-    template <class T> double sumBlocks(const T *row, int j, int k, int n) {
+    // Adds the sums of a row of blocks to layer n.
+    void addSums(const RowSums &sums, int down, int n) {
         Layer &layer = m_layers[std::size_t(n)];
-        double inRow = 0.0;
-        for (int block = 0; block < m_across; ++block) {
-            double energy = 0.0, mass = 0.0;
-            float most = 0.0F;
-            for (int i = block * m_side; i < std::min(m_size.i, (block + 1) * m_side); ++i) {
-                energy += double(row[i]) * double(row[i]);
-                mass += double(row[i]);
-                most = std::max(most, float(row[i]));
-            }
-            const std::size_t at = std::size_t(j / m_side) * m_across + block;
-            layer.blocks[at] += energy;
-            layer.blockMass[at] += mass;
-            for (float *const square :
-                 {&m_maxima[1].at(j, block, n), &m_maxima[2].at(k, j / m_side, block)})
-                *square = std::max(*square, most);
-            inRow += energy;
+        for (int i = 0; i < m_size.i; ++i) {
+            const std::size_t block = std::size_t(down) * m_across + std::size_t(i / m_side);
+            layer.alongI[i] += double(sums.energy[i]);
+            layer.blocks[block] += double(sums.energy[i]);
+            layer.blockMass[block] += double(sums.mass[i]);
+            m_maxima[0].at(i, n, down) = sums.most[i];
         }
-        return inRow;
     }
 
     void joinLayers() {
@@ -250,7 +282,7 @@ private:
                                 (m_result.massMm3 * m_result.massMm3 * minEnergy);
     }
 
-    const volume::Volume &m_field;
+    const volume::Field &m_field;
     const volume::Lattice &m_lattice;
     volume::VoxelBox m_box;
     volume::GridSize m_size;
@@ -295,7 +327,7 @@ EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &
     return spread;
 }
 
-EnergyMarginals energyMarginals(const volume::Volume &field, const volume::VoxelBox &box) {
+EnergyMarginals energyMarginals(const volume::Field &field, const volume::VoxelBox &box) {
     return FieldStatistics(field, box).marginals();
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/plan/field_blocks.h"
-#include "core/volume/volume.h"
+#include "core/volume/field.h"
 
 namespace pellucid::plan {
 
@@ -59,6 +59,6 @@ struct EnergyMarginals {
 };
 
 /// The statistics of a field that is zero outside this box.
-EnergyMarginals energyMarginals(const volume::Volume &field, const volume::VoxelBox &box);
+EnergyMarginals energyMarginals(const volume::Field &field, const volume::VoxelBox &box);
 
 } // namespace pellucid::plan

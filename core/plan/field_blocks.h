@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/volume/volume.h"
+#include "core/volume/field.h"
 
 namespace pellucid::plan {
 
@@ -25,6 +25,6 @@ struct FieldBlock {
 
 /// The nonempty blocks of a field in a box divided by `blockRanges`. There are few of them, because
 /// the planner visits all of them for each layout.
-std::vector<FieldBlock> fieldBlocks(const volume::Volume &field, const volume::VoxelBox &box);
+std::vector<FieldBlock> fieldBlocks(const volume::Field &field, const volume::VoxelBox &box);
 
 } // namespace pellucid::plan

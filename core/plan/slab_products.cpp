@@ -15,35 +15,38 @@ namespace {
 constexpr int maxSlabs = 32;
 
 // The sum of the samples of each slab across an axis, [slab][second other axis][first other axis].
-std::vector<std::vector<float>> slabsAcross(const volume::Volume &field,
+std::vector<std::vector<float>> slabsAcross(const volume::Field &field,
                                             const volume::VoxelBox &box, int axis, int slabs) {
-    const volume::GridSize lattice = field.lattice().size(), size = box.size();
+    const volume::GridSize size = box.size();
     const int samples = size[axis], first = axis == 0 ? size.j : size.i,
               second = axis == 2 ? size.j : size.k;
     std::vector<std::vector<float>> sums(std::size_t(slabs),
                                          std::vector<float>(std::size_t(first) * second, 0.0F));
     const auto firstOf = [&](int slab) { return int(std::int64_t(slab) * samples / slabs); };
-    field.visit([&](auto all) {
+    // Each task writes its own row of the sums.
+    tbb::parallel_for(0, second, [&](int row) {
+        std::vector<float> buffer(std::size_t(size.i));
         const auto rowAt = [&](int j, int k) {
-            return all.data() + lattice.offsetOf(box.lo.i, j + box.lo.j, k + box.lo.k);
+            return field.row({box.lo.i, j + box.lo.j, k + box.lo.k}, size.i, buffer.data());
         };
-        // Each task writes its own row of the sums.
-        tbb::parallel_for(0, second, [&](int row) {
-            for (int slab = 0; slab < slabs; ++slab) {
-                float *const to = sums[std::size_t(slab)].data() + std::size_t(row) * first;
-                if (axis == 0) {
-                    for (int j = 0; j < first; ++j)
-                        to[j] = std::accumulate(rowAt(j, row) + firstOf(slab),
-                                                rowAt(j, row) + firstOf(slab + 1), 0.0F);
-                    continue;
-                }
-                for (int n = firstOf(slab); n < firstOf(slab + 1); ++n) {
-                    const auto *const from = axis == 1 ? rowAt(n, row) : rowAt(row, n);
-                    for (int i = 0; i < first; ++i)
-                        to[i] += float(from[i]);
-                }
+        const auto sumsOf = [&](int slab) {
+            return sums[std::size_t(slab)].data() + std::size_t(row) * std::size_t(first);
+        };
+        if (axis == 0) {
+            for (int j = 0; j < first; ++j) {
+                const float *const from = rowAt(j, row);
+                for (int slab = 0; slab < slabs; ++slab)
+                    sumsOf(slab)[j] =
+                        std::accumulate(from + firstOf(slab), from + firstOf(slab + 1), 0.0F);
             }
-        });
+            return;
+        }
+        for (int slab = 0; slab < slabs; ++slab)
+            for (int n = firstOf(slab); n < firstOf(slab + 1); ++n) {
+                const float *const from = axis == 1 ? rowAt(n, row) : rowAt(row, n);
+                for (int i = 0; i < first; ++i)
+                    sumsOf(slab)[i] += from[i];
+            }
     });
     return sums;
 }
@@ -69,7 +72,7 @@ SlabProducts evenSlabProducts(std::span<const double> energy) {
     return matrix;
 }
 
-std::array<SlabProducts, 3> slabProducts(const volume::Volume &field, const volume::VoxelBox &box) {
+std::array<SlabProducts, 3> slabProducts(const volume::Field &field, const volume::VoxelBox &box) {
     std::array<SlabProducts, 3> result;
     for (int axis = 0; axis < 3; ++axis) {
         SlabProducts &matrix = result[std::size_t(axis)];

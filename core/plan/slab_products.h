@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/volume/volume.h"
+#include "core/volume/field.h"
 
 namespace pellucid::plan {
 
@@ -28,6 +28,6 @@ struct SlabProducts {
 SlabProducts evenSlabProducts(std::span<const double> energy);
 
 /// The products of a field along each axis of a box.
-std::array<SlabProducts, 3> slabProducts(const volume::Volume &field, const volume::VoxelBox &box);
+std::array<SlabProducts, 3> slabProducts(const volume::Field &field, const volume::VoxelBox &box);
 
 } // namespace pellucid::plan

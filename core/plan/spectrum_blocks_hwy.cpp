@@ -76,51 +76,123 @@ Brightest brightestCells(const Cell *cells, const fourier::CellLayout &layout, i
     return brightest;
 }
 
-// The squared errors of the widths at a point, by entry. *Shape*: x, y and z are indices of the
-// first tap, from the first cell.
-template <class Cell>
-void errorsAt(const Cell *cells, const fourier::CellLayout &layout, int widest, int x, int y, int z,
-              const SpectrumBlocks::PointWeights &weights, float *errors) {
-    using Entries = hn::CappedTag<float, SpectrumBlocks::PointWeights::entries>;
-    const Entries e;
-    const Tag d;
-    constexpr std::size_t lanes = hn::MaxLanes(Entries()), perLine = hn::MaxLanes(Tag());
-    constexpr std::size_t vectors = SpectrumBlocks::PointWeights::entries / lanes;
+// What the widths read at a point, by entry.
+struct Readings {
+    HWY_ALIGN float re[SpectrumBlocks::PointWeights::entries];
+    HWY_ALIGN float im[SpectrumBlocks::PointWeights::entries];
+};
+
+// Calls `add` with each line of cells around a point, from its first tap on, and the indices of the
+// taps along y and z. *Shape*: x, y and z are indices of the first tap, from the first cell.
+template <class Cell, class Add>
+HWY_INLINE void visitLines(const Cell *cells, const fourier::CellLayout &layout, int widest, int x,
+                           int y, int z, const Add &add) {
     const int columns = (layout.columns - 1) * layout.step + fourier::CellLayout::columnCells;
     x = std::clamp(x, 0, columns - widest);
     y = std::clamp(y, 0, layout.rows - widest);
     z = std::clamp(z, 0, layout.planes - widest);
     const int column = std::min(x / layout.step, layout.columns - 1);
     const std::size_t inLine = std::size_t(x - column * layout.step);
-    HWY_ALIGN float line[floatsPerLine];
-    HWY_ALIGN float sums[2][SpectrumBlocks::PointWeights::entries];
-    for (std::size_t v = 0; v < vectors; ++v) {
+    for (int k = 0; k < widest; ++k)
+        for (int j = 0; j < widest; ++j)
+            add(cells + layout.line(column, z + k, y + j) * fourier::CellLayout::columnCells +
+                    inLine,
+                std::size_t(j), std::size_t(k));
+}
+
+// The widths in lanes of their own.
+template <class Cell>
+void readWidths(const Cell *cells, const fourier::CellLayout &layout, int widest, int x, int y,
+                 int z, const SpectrumBlocks::PointWeights &weights, Readings &readings) {
+    using Entries = hn::CappedTag<float, SpectrumBlocks::PointWeights::entries>;
+    const Entries e;
+    constexpr std::size_t lanes = hn::MaxLanes(Entries());
+    const hn::FixedTag<float, 2> pair;
+    HWY_ALIGN float line[2 * fourier::Kernel::largestWidth];
+    for (std::size_t v = 0; v < SpectrumBlocks::PointWeights::entries; v += lanes) {
         auto re = hn::Zero(e), im = re;
-        for (int k = 0; k < widest; ++k)
-            for (int j = 0; j < widest; ++j) {
-                const Cell *const from =
-                    cells + layout.line(column, z + k, y + j) * fourier::CellLayout::columnCells;
-                for (std::size_t at = 0; at < floatsPerLine; at += perLine)
-                    hn::Store(loadCells(d, from + at / 2), d, line + at);
-                auto rowRe = hn::Zero(e), rowIm = rowRe;
-                for (std::size_t i = 0; i < std::size_t(widest); ++i) {
-                    const auto weight = hn::Load(e, weights.axis[0][i].data() + v * lanes);
-                    rowRe = hn::MulAdd(weight, hn::Set(e, line[2 * (inLine + i)]), rowRe);
-                    rowIm = hn::MulAdd(weight, hn::Set(e, line[2 * (inLine + i) + 1]), rowIm);
-                }
-                const auto weight =
-                    hn::Mul(hn::Load(e, weights.axis[1][std::size_t(j)].data() + v * lanes),
-                            hn::Load(e, weights.axis[2][std::size_t(k)].data() + v * lanes));
-                re = hn::MulAdd(weight, rowRe, re);
-                im = hn::MulAdd(weight, rowIm, im);
-            }
-        hn::Store(re, e, sums[0] + v * lanes);
-        hn::Store(im, e, sums[1] + v * lanes);
+        visitLines(cells, layout, widest, x, y, z,
+                   [&](const Cell *from, std::size_t j, std::size_t k) HWY_ATTR {
+                       auto rowRe = hn::Zero(e), rowIm = rowRe;
+                       for (std::size_t i = 0; i < std::size_t(widest); ++i) {
+                           hn::Store(loadCells(pair, from + i), pair, line + 2 * i);
+                           const auto weight = hn::Load(e, weights.axis[0][i].data() + v);
+                           rowRe = hn::MulAdd(weight, hn::Set(e, line[2 * i]), rowRe);
+                           rowIm = hn::MulAdd(weight, hn::Set(e, line[2 * i + 1]), rowIm);
+                       }
+                       const auto weight = hn::Mul(hn::Load(e, weights.axis[1][j].data() + v),
+                                                   hn::Load(e, weights.axis[2][k].data() + v));
+                       re = hn::MulAdd(weight, rowRe, re);
+                       im = hn::MulAdd(weight, rowIm, im);
+                   });
+        hn::Store(re, e, readings.re + v);
+        hn::Store(im, e, readings.im + v);
     }
+}
+
+#if HWY_MAX_BYTES >= 32
+// The widths 2 to 5 alone, real and imaginary parts side by side, by half as many instructions.
+// Width 0 reads nothing.
+template <class Cell>
+void readFourWidths(const Cell *cells, const fourier::CellLayout &layout, int widest, int x, int y,
+                     int z, const SpectrumBlocks::PointWeights &weights, Readings &readings) {
+    const hn::FixedTag<float, 8> d;
+    const hn::FixedTag<float, 4> four;
+    const auto twice = [&](const float *entries) HWY_ATTR {
+        const auto once = hn::LoadU(four, entries + SpectrumBlocks::entryOf(2));
+        return hn::Combine(d, once, once);
+    };
+    HWY_ALIGN float all[8];
+    constexpr int loaded = 4; // cells in a vector
+    using Vector = hn::Vec<hn::FixedTag<float, 8>>;
+    decltype(hn::SetTableIndices(d, static_cast<const std::int32_t *>(nullptr))) both[loaded];
+    for (std::int32_t i = 0; i < loaded; ++i) {
+        const std::int32_t re = 2 * i, im = re + 1;
+        HWY_ALIGN const std::int32_t lanes[8] = {re, re, re, re, im, im, im, im};
+        both[i] = hn::SetTableIndices(d, lanes);
+    }
+    Vector along[fourier::Kernel::largestWidth];
+    for (int i = 0; i < widest; ++i)
+        along[i] = twice(weights.axis[0][std::size_t(i)].data());
+    auto sum = hn::Zero(d);
+    visitLines(cells, layout, widest, x, y, z,
+               [&](const Cell *from, std::size_t j, std::size_t k) HWY_ATTR {
+                   auto row = hn::Zero(d);
+                   for (int first = 0; first < widest; first += loaded) {
+                       // A line, or the memory behind the last one, goes on behind the taps.
+                       const auto values = loadCells(d, from + first);
+                       for (int i = 0; i < std::min(loaded, widest - first); ++i)
+                           row = hn::MulAdd(along[first + i],
+                                            hn::TableLookupLanes(values, both[i]), row);
+                   }
+                   const auto weight = hn::Mul(twice(weights.axis[1][j].data()),
+                                               twice(weights.axis[2][k].data()));
+                   sum = hn::MulAdd(weight, row, sum);
+               });
+    hn::Store(sum, d, all);
+    readings = {};
+    std::copy_n(all, 4, readings.re + SpectrumBlocks::entryOf(2));
+    std::copy_n(all + 4, 4, readings.im + SpectrumBlocks::entryOf(2));
+}
+#endif
+
+// The squared errors of the widths at a point, by entry. Every path adds in the same order.
+template <class Cell>
+void errorsAt(const Cell *cells, const fourier::CellLayout &layout, int widest, int x, int y, int z,
+              const SpectrumBlocks::PointWeights &weights, float *errors) {
+    Readings readings;
+#if HWY_MAX_BYTES >= 32
+    if (widest <= 5)
+        readFourWidths(cells, layout, widest, x, y, z, weights, readings);
+    else
+        readWidths(cells, layout, widest, x, y, z, weights, readings);
+#else
+    readWidths(cells, layout, widest, x, y, z, weights, readings);
+#endif
     const auto own = std::size_t(SpectrumBlocks::entryOf(widest));
     for (std::size_t n = 0; n < SpectrumBlocks::PointWeights::entries; ++n)
-        errors[n] = (sums[0][n] - sums[0][own]) * (sums[0][n] - sums[0][own]) +
-                    (sums[1][n] - sums[1][own]) * (sums[1][n] - sums[1][own]);
+        errors[n] = (readings.re[n] - readings.re[own]) * (readings.re[n] - readings.re[own]) +
+                    (readings.im[n] - readings.im[own]) * (readings.im[n] - readings.im[own]);
 }
 
 // Errors by entry at a block's brightest cells, and elsewhere in the block.

@@ -49,7 +49,7 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
     const auto held = [&] {
         std::size_t sum = 0;
         for (const classify::DensityField &field : fields)
-            sum += field.values.bytes();
+            sum += field.values.samples().bytes();
         return sum;
     };
     for (std::size_t n = 0; n < count; ++n) {

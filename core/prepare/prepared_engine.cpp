@@ -14,20 +14,25 @@ namespace {
 
 constexpr int minSamples = 32;
 
-double energy(const volume::Volume &field) {
-    return field.visit([](auto samples) {
-        double sum = 0.0;
-        for (const auto f : samples)
-            sum += double(f) * double(f);
-        return sum;
-    });
+double energy(const classify::DensityField &field) {
+    const volume::VoxelBox &box = field.support;
+    const int columns = box.size().i;
+    std::vector<float> buffer(columns);
+    double sum = 0.0;
+    for (int k = box.lo.k; k < box.hi.k; ++k)
+        for (int j = box.lo.j; j < box.hi.j; ++j) {
+            const float *const row = field.values.row({box.lo.i, j, k}, columns, buffer.data());
+            for (int i = 0; i < columns; ++i)
+                sum += double(row[i]) * double(row[i]);
+        }
+    return sum;
 }
 
 } // namespace
 
 double lostDetail(const classify::DensityField &field, const classify::DensityField &means) {
-    const double all = energy(field.values);
-    const double kept = energy(means.values) * (means.values.lattice().cellVolumeMm3() /
+    const double all = energy(field);
+    const double kept = energy(means) * (means.values.lattice().cellVolumeMm3() /
                                                 field.values.lattice().cellVolumeMm3());
     return all > 0.0 ? std::sqrt(std::max(0.0, 1.0 - kept / all)) : 0.0;
 }
@@ -72,7 +77,7 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                 shadedFields({std::move(reduced), shaded.colors}, scene.shading, shaded.scale);
             for (const auto *const samples : {&coarse.fields, &coarse.gradients})
                 for (const classify::DensityField &field : *samples)
-                    held += field.values.bytes();
+                    held += field.values.samples().bytes();
             // A gradient over a longer step has less energy; a low pass leaves out no more than
             // that.
             for (std::size_t g = 0; g < coarse.gradients.size(); ++g)

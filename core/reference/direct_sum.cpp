@@ -40,43 +40,40 @@ void addProduct(Rotor &sum, const Rotor &a, const Rotor &b) {
 
 } // namespace
 
-void directSum(const volume::Volume &field, const std::vector<glm::dvec3> &frequencies,
+void directSum(const volume::Field &field, const std::vector<glm::dvec3> &frequencies,
                std::vector<std::complex<double>> &values) {
-    assert(field.isFloat());
     const volume::Lattice &lattice = field.lattice();
     const volume::GridSize size = lattice.size();
     const double cell = lattice.cellVolumeMm3();
-    field.visit([&](auto samples) {
-        for (std::size_t start = 0; start < frequencies.size(); start += batch) {
-            std::array<Lanes, 3> q{};
-            const std::size_t count = std::min<std::size_t>(batch, frequencies.size() - start);
-            for (std::size_t b = 0; b < count; ++b)
-                for (int d = 0; d < 3; ++d)
-                    q[d][b] = glm::dot(lattice.step(d), frequencies[start + b]);
-            const auto ex = rotors(size.i, q[0]), ey = rotors(size.j, q[1]),
-                       ez = rotors(size.k, q[2]);
-            Rotor total{};
-            const auto *f = samples.data();
-            for (int k = 0; k < size.k; ++k) {
-                Rotor plane{};
-                for (int j = 0; j < size.j; ++j) {
-                    Rotor row{};
-                    for (int i = 0; i < size.i; ++i, ++f)
-                        for (int b = 0; b < batch; ++b) {
-                            row.re[b] += double(*f) * ex[i].re[b];
-                            row.im[b] += double(*f) * ex[i].im[b];
-                        }
-                    addProduct(plane, row, ey[j]);
-                }
-                addProduct(total, plane, ez[k]);
+    std::vector<float> buffer(std::size_t(size.i));
+    for (std::size_t start = 0; start < frequencies.size(); start += batch) {
+        std::array<Lanes, 3> q{};
+        const std::size_t count = std::min<std::size_t>(batch, frequencies.size() - start);
+        for (std::size_t b = 0; b < count; ++b)
+            for (int d = 0; d < 3; ++d)
+                q[d][b] = glm::dot(lattice.step(d), frequencies[start + b]);
+        const auto ex = rotors(size.i, q[0]), ey = rotors(size.j, q[1]), ez = rotors(size.k, q[2]);
+        Rotor total{};
+        for (int k = 0; k < size.k; ++k) {
+            Rotor plane{};
+            for (int j = 0; j < size.j; ++j) {
+                const float *const f = field.row({0, j, k}, size.i, buffer.data());
+                Rotor row{};
+                for (int i = 0; i < size.i; ++i)
+                    for (int b = 0; b < batch; ++b) {
+                        row.re[b] += double(f[i]) * ex[i].re[b];
+                        row.im[b] += double(f[i]) * ex[i].im[b];
+                    }
+                addProduct(plane, row, ey[j]);
             }
-            for (std::size_t b = 0; b < count; ++b)
-                values[start + b] = cell * std::complex<double>(total.re[b], total.im[b]);
+            addProduct(total, plane, ez[k]);
         }
-    });
+        for (std::size_t b = 0; b < count; ++b)
+            values[start + b] = cell * std::complex<double>(total.re[b], total.im[b]);
+    }
 }
 
-std::vector<double> directSumImage(const volume::Volume &field, const scene::Camera &camera,
+std::vector<double> directSumImage(const volume::Field &field, const scene::Camera &camera,
                                    const scene::ImageDefinition &image) {
     return sliceImage([&](const auto &s, auto &values) { directSum(field, s, values); },
                       field.lattice(), camera, image);

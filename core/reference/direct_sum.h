@@ -2,18 +2,18 @@
 #pragma once
 
 #include "core/reference/slice_image.h"
-#include "core/volume/volume.h"
+#include "core/volume/field.h"
 
 namespace pellucid::reference {
 
 /// The reference image: D(s) by direct summation over all samples in double precision, without
 /// transform or kernel. The cost is samples times frequencies; meant for at most 96 samples a side.
 /// *Shape*: the field is float32. The result is camera.height x camera.width, field times mm.
-std::vector<double> directSumImage(const volume::Volume &field, const scene::Camera &camera,
+std::vector<double> directSumImage(const volume::Field &field, const scene::Camera &camera,
                                    const scene::ImageDefinition &image);
 
 /// The same D(s) at given frequencies.
-void directSum(const volume::Volume &field, const std::vector<glm::dvec3> &frequencies,
+void directSum(const volume::Field &field, const std::vector<glm::dvec3> &frequencies,
                std::vector<std::complex<double>> &values);
 
 } // namespace pellucid::reference

@@ -60,11 +60,11 @@ std::size_t WideKernel::bytes(const volume::VoxelBox &box) {
     return std::size_t(padded.i / 2 + 1) * padded.j * padded.k * sizeof(std::complex<double>);
 }
 
-WideKernel::WideKernel(const volume::Volume &field, const volume::VoxelBox &box,
+WideKernel::WideKernel(const volume::Field &field, const volume::VoxelBox &box,
                        const task::Progress &progress)
     : m_lattice(field.lattice()), m_padded(paddedSizes(box.size())),
       m_rowStride(m_padded.i / 2 + 1) {
-    const volume::GridSize size = box.size(), all = m_lattice.size();
+    const volume::GridSize size = box.size();
     const volume::VoxelIndex middle{size.i / 2, size.j / 2, size.k / 2};
     m_wrapPoint = m_lattice.patient(
         volume::VoxelIndex{box.lo.i + middle.i, box.lo.j + middle.j, box.lo.k + middle.k});
@@ -72,31 +72,30 @@ WideKernel::WideKernel(const volume::Volume &field, const volume::VoxelBox &box,
         m_cells.resize(std::size_t(m_rowStride) * m_padded.j * m_padded.k);
     });
     const double cell = m_lattice.cellVolumeMm3();
-    field.visit([&](auto samples) {
-        for (int k = 0; k < size.k; ++k) {
-            progress.report(0.3 * k / size.k);
-            for (int j = 0; j < size.j; ++j) {
-                const double factor = cell / (apodisation(k - middle.k, m_padded.k) *
-                                              apodisation(j - middle.j, m_padded.j));
-                auto *row = reinterpret_cast<double *>(
-                    m_cells.data() + (std::size_t(modulo(k - middle.k, m_padded.k)) * m_padded.j +
-                                      modulo(j - middle.j, m_padded.j)) *
-                                         m_rowStride);
-                const std::size_t from =
-                    (std::size_t(k + box.lo.k) * all.j + j + box.lo.j) * all.i + box.lo.i;
-                for (int i = 0; i < size.i; ++i)
-                    row[modulo(i - middle.i, m_padded.i)] = double(samples[from + i]) * factor;
-            }
+    std::vector<float> buffer(std::size_t(size.i));
+    for (int k = 0; k < size.k; ++k) {
+        progress.report(0.3 * k / size.k);
+        for (int j = 0; j < size.j; ++j) {
+            const double factor = cell / (apodisation(k - middle.k, m_padded.k) *
+                                          apodisation(j - middle.j, m_padded.j));
+            auto *row = reinterpret_cast<double *>(
+                m_cells.data() + (std::size_t(modulo(k - middle.k, m_padded.k)) * m_padded.j +
+                                  modulo(j - middle.j, m_padded.j)) *
+                                     m_rowStride);
+            const float *const samples = field.row(
+                {box.lo.i, j + box.lo.j, k + box.lo.k}, size.i, buffer.data());
+            for (int i = 0; i < size.i; ++i)
+                row[modulo(i - middle.i, m_padded.i)] = double(samples[i]) * factor;
         }
-        // Computes the factor along x once per column, not once per sample.
-        std::vector<double> hx(m_padded.i, 0.0);
-        for (int i = 0; i < size.i; ++i)
-            hx[modulo(i - middle.i, m_padded.i)] = 1.0 / apodisation(i - middle.i, m_padded.i);
-        tbb::parallel_for(std::size_t(0), std::size_t(m_padded.j) * m_padded.k, [&](std::size_t r) {
-            auto *row = reinterpret_cast<double *>(m_cells.data() + r * m_rowStride);
-            for (int i = 0; i < m_padded.i; ++i)
-                row[i] *= hx[i];
-        });
+    }
+    // Computes the factor along x once per column, not once per sample.
+    std::vector<double> hx(m_padded.i, 0.0);
+    for (int i = 0; i < size.i; ++i)
+        hx[modulo(i - middle.i, m_padded.i)] = 1.0 / apodisation(i - middle.i, m_padded.i);
+    tbb::parallel_for(std::size_t(0), std::size_t(m_padded.j) * m_padded.k, [&](std::size_t r) {
+        auto *row = reinterpret_cast<double *>(m_cells.data() + r * m_rowStride);
+        for (int i = 0; i < m_padded.i; ++i)
+            row[i] *= hx[i];
     });
     progress.report(0.4);
     fourier::forwardTransform3d(m_cells.data(), m_padded, m_rowStride, m_padded.j);

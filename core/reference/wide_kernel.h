@@ -3,7 +3,7 @@
 
 #include "core/reference/slice_image.h"
 #include "core/task/progress.h"
-#include "core/volume/volume.h"
+#include "core/volume/field.h"
 
 namespace pellucid::reference {
 
@@ -13,7 +13,7 @@ namespace pellucid::reference {
 class WideKernel {
 public:
     /// *Shape*: the field is float32; only the box is read, and the rest must be zero.
-    WideKernel(const volume::Volume &field, const volume::VoxelBox &box,
+    WideKernel(const volume::Field &field, const volume::VoxelBox &box,
                const task::Progress &progress = {});
 
     std::vector<double> image(const scene::Camera &camera,

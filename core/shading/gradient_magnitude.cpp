@@ -2,6 +2,7 @@
 #include "core/shading/gradient_magnitude.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -27,13 +28,13 @@ glm::dmat3 differenceFactors(const volume::Lattice &lattice, double stepMm) {
 }
 
 volume::Volume floatsOn(const volume::Lattice &lattice, std::vector<float> samples,
-                        const volume::Volume &like) {
-    return {lattice, std::move(samples), like.unit(), like.notes()};
+                        const volume::Field &like) {
+    return {lattice, std::move(samples), volume::ValueUnit::none, like.samples().notes()};
 }
 
 } // namespace
 
-glm::dvec3 gradientAt(const volume::Volume &field, const VoxelIndex &n, double stepMm) {
+glm::dvec3 gradientAt(const volume::Field &field, const VoxelIndex &n, double stepMm) {
     const auto at = [&](int i, int j, int k) {
         const VoxelIndex where{n.i + i, n.j + j, n.k + k};
         return field.lattice().contains(where) ? field.value(where) : 0.0;
@@ -55,12 +56,10 @@ classify::DensityField grown(const classify::DensityField &field) {
     const GridSize size = lattice.size(), larger{size.i + 2, size.j + 2, size.k + 2};
     return task::orOutOfMemory(task::because::noMemoryForTheLitField, [&] {
         std::vector<float> samples(larger.count(), 0.0F);
-        field.values.visit([&](auto from) {
-            tbb::parallel_for(0, size.k, [&](int k) {
-                for (int j = 0; j < size.j; ++j)
-                    std::copy_n(from.data() + size.offsetOf(0, j, k), size.i,
-                                samples.data() + larger.offsetOf(1, j + 1, k + 1));
-            });
+        tbb::parallel_for(0, size.k, [&](int k) {
+            for (int j = 0; j < size.j; ++j)
+                field.values.copyRow({0, j, k}, size.i,
+                                     samples.data() + larger.offsetOf(1, j + 1, k + 1));
         });
         const auto around =
             volume::Lattice::make(larger, lattice.patient(VoxelIndex{-1, -1, -1}),
@@ -81,38 +80,39 @@ classify::DensityField gradientMagnitude(const classify::DensityField &field, do
     const VoxelBox box{{inner.lo.i - 1, inner.lo.j - 1, inner.lo.k - 1},
                        {inner.hi.i + 1, inner.hi.j + 1, inner.hi.k + 1}};
     const glm::mat3 factors(differenceFactors(lattice, stepMm));
-    const std::ptrdiff_t down = size.i, deep = std::ptrdiff_t(size.i) * size.j;
     return task::orOutOfMemory(task::because::noMemoryForTheGradient, [&] {
         std::vector<float> lengths(size.count(), 0.0F);
-        field.values.visit([&](auto samples) {
-            tbb::parallel_for(box.lo.k, box.hi.k, [&](int k) {
-                progress.check();
-                for (int j = box.lo.j; j < box.hi.j; ++j) {
-                    const std::size_t row = size.offsetOf(0, j, k);
-                    const auto *const f = samples.data() + row;
-                    // The field is zero beyond the lattice's faces and also on them, so a face
-                    // replaces its missing neighbour.
-                    const auto *const above = j > 0 ? f - down : f;
-                    const auto *const below = j + 1 < size.j ? f + down : f;
-                    const auto *const behind = k > 0 ? f - deep : f;
-                    const auto *const before = k + 1 < size.k ? f + deep : f;
-                    const auto length = [&](int i, int left, int right) {
-                        const glm::vec3 d(float(f[right]) - float(f[left]),
-                                          float(below[i]) - float(above[i]),
-                                          float(before[i]) - float(behind[i]));
-                        const glm::vec3 g = factors * d;
-                        return std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z);
-                    };
-                    float *const to = lengths.data() + row;
-                    const int first = std::max(1, box.lo.i), last = std::min(size.i - 1, box.hi.i);
-                    for (int i = first; i < last; ++i)
-                        to[i] = length(i, i - 1, i + 1);
-                    if (box.lo.i == 0)
-                        to[0] = length(0, 0, std::min(1, size.i - 1));
-                    if (box.hi.i == size.i)
-                        to[size.i - 1] = length(size.i - 1, std::max(0, size.i - 2), size.i - 1);
-                }
-            });
+        tbb::parallel_for(box.lo.k, box.hi.k, [&](int k) {
+            progress.check();
+            std::array<std::vector<float>, 5> buffers;
+            buffers.fill(std::vector<float>(std::size_t(size.i)));
+            // The field is zero beyond the lattice's faces and also on them, so a face replaces its
+            // missing neighbour.
+            const auto rowAt = [&](int j, int depth, std::size_t buffer) {
+                return field.values.row(
+                    {0, std::clamp(j, 0, size.j - 1), std::clamp(depth, 0, size.k - 1)}, size.i,
+                    buffers[buffer].data());
+            };
+            for (int j = box.lo.j; j < box.hi.j; ++j) {
+                const float *const f = rowAt(j, k, 0), *const above = rowAt(j - 1, k, 1),
+                                  *const below = rowAt(j + 1, k, 2),
+                                  *const behind = rowAt(j, k - 1, 3),
+                                  *const before = rowAt(j, k + 1, 4);
+                const auto length = [&](int i, int left, int right) {
+                    const glm::vec3 d(f[right] - f[left], below[i] - above[i],
+                                      before[i] - behind[i]);
+                    const glm::vec3 g = factors * d;
+                    return std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z);
+                };
+                float *const to = lengths.data() + size.offsetOf(0, j, k);
+                const int first = std::max(1, box.lo.i), last = std::min(size.i - 1, box.hi.i);
+                for (int i = first; i < last; ++i)
+                    to[i] = length(i, i - 1, i + 1);
+                if (box.lo.i == 0)
+                    to[0] = length(0, 0, std::min(1, size.i - 1));
+                if (box.hi.i == size.i)
+                    to[size.i - 1] = length(size.i - 1, std::max(0, size.i - 2), size.i - 1);
+            }
         });
         return classify::DensityField{floatsOn(lattice, std::move(lengths), field.values), box};
     });

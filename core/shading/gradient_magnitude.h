@@ -9,7 +9,7 @@ namespace pellucid::shading {
 /// times the central difference along d, where the b_d are the rows of the inverse of the matrix
 /// with columns a_d. The field is zero outside its lattice. *Shape*: n within the lattice, or one
 /// sample beyond.
-glm::dvec3 gradientAt(const volume::Volume &field, const volume::VoxelIndex &n, double stepMm);
+glm::dvec3 gradientAt(const volume::Field &field, const volume::VoxelIndex &n, double stepMm);
 
 /// A field on a lattice that is larger by one sample on every side, with the same centre, so that
 /// its gradient fits.

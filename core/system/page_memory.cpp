@@ -65,4 +65,12 @@ std::shared_ptr<std::byte[]> allocatePages(std::size_t bytes, task::Because<0> w
     return memory;
 }
 
+void returnPages([[maybe_unused]] std::byte *from, [[maybe_unused]] std::size_t bytes) {
+#ifdef PELLUCID_LARGE_PAGES
+    const std::size_t before = (largePage - std::uintptr_t(from) % largePage) % largePage;
+    if (bytes > before)
+        ::madvise(from + before, bytes - before, MADV_DONTNEED);
+#endif
+}
+
 } // namespace pellucid::system

@@ -13,4 +13,8 @@ namespace pellucid::system {
 /// `what`.
 std::shared_ptr<std::byte[]> allocatePages(std::size_t bytes, task::Because<0> what);
 
+/// Returns the large pages that lie wholly within a part of such memory to the system. The part's
+/// contents are lost. *Requires*: the memory ends where the part ends.
+void returnPages(std::byte *from, std::size_t bytes);
+
 } // namespace pellucid::system

@@ -12,7 +12,7 @@ namespace {
 // Small arrays cost the allocator next to nothing.
 constexpr std::size_t smallest = std::size_t(256) << 10;
 // A picture on the screen, the next one, its pixels, and those of a study beside.
-constexpr std::size_t mostKept = 6, mostBytes = std::size_t(256) << 20;
+constexpr std::size_t maxKept = 6, maxBytes = std::size_t(256) << 20;
 
 class Kept {
 public:
@@ -41,7 +41,7 @@ public:
         const std::lock_guard lock(m_mutex);
         m_blocks.push_back({memory, bytes});
         m_bytes += bytes;
-        while (m_blocks.size() > mostKept || m_bytes > mostBytes) {
+        while (m_blocks.size() > maxKept || m_bytes > maxBytes) {
             m_bytes -= m_blocks.front().bytes;
             std::free(m_blocks.front().memory);
             m_blocks.erase(m_blocks.begin());
@@ -59,7 +59,7 @@ private:
 
     static std::vector<Block> reserved() {
         std::vector<Block> blocks;
-        blocks.reserve(mostKept + 1); // so that keeping one never throws
+        blocks.reserve(maxKept + 1); // so that keeping one never throws
         return blocks;
     }
 };

@@ -59,6 +59,11 @@ public:
     ValueUnit unit() const { return m_unit; }
     const VolumeNotes &notes() const { return *m_notes; }
     bool isFloat() const { return std::holds_alternative<Samples<float>>(m_samples); }
+    /// The samples if they are floats, else null.
+    const float *floats() const {
+        const auto *const samples = std::get_if<Samples<float>>(&m_samples);
+        return samples == nullptr ? nullptr : (*samples)->data();
+    }
     std::size_t bytes() const;
 
     /// Calls f with a span of the stored samples, int16 or float.

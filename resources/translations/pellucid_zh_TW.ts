@@ -702,10 +702,6 @@
         <translation>不支援浮點像素</translation>
     </message>
     <message>
-        <source>not enough memory for the cropped field</source>
-        <translation>記憶體不足以容納裁切後的場</translation>
-    </message>
-    <message>
         <source>%1; studies are listed only until the program closes</source>
         <translation>%1；檢查僅列出至程式關閉為止</translation>
     </message>

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Every test that tests/complaints.md and SECURITY.md name is there. Usage: complaints.sh SOURCE_ROOT
+# Checks that every test named in tests/complaints.md and SECURITY.md exists. Usage: complaints.sh SOURCE_ROOT
 set -uo pipefail
 cd "$1"
 failed=0

@@ -48,13 +48,13 @@ arrows = sorted(
 floor = {}
 for room in sorted(rooms, key=lambda r: len(everything_below[r])):
     floor[room] = max((floor[other] + 1 for other in uses[room]), default=0)
-# Rooms of the window are as near to their users as they can be.
+# Rooms of the window are placed as close below their users as possible.
 for room in sorted(rooms, key=lambda r: -floor[r]):
     users = [floor[other] for other in rooms if room in uses[other]]
     if room.startswith("ui/") and users:
         floor[room] = min(users) - 1
 
-# A long arrow has a place on every floor that it crosses, so that it goes between the boxes.
+# A long arrow gets a place on every floor that it crosses, so that it passes between the boxes.
 floors = collections.defaultdict(list)
 for room in rooms:
     floors[floor[room]].append(room)
@@ -94,13 +94,13 @@ def settled(row, wanted):
             edge = at[place] + width(place) / 2
         return {place: sign * centre for place, centre in at.items()}
 
-    # Pushed to the right and to the left keep the same distances; so does what is between.
+    # Both pushes keep the distances between the places, and so does their mean.
     right, left = pushed(row, 1), pushed(row[::-1], -1)
     centres = {place: (right[place] + left[place]) / 2 for place in row}
     return centres
 
 
-# Places of a floor are ordered by where their neighbours are, until nothing moves.
+# The places of a floor are ordered by where their neighbours are, until nothing moves.
 x = {}
 for row in floors.values():
     x.update(spread(row))

@@ -35,7 +35,7 @@ THIRD_PARTY = [
     (r"seccomp", r"PkgConfig::SECCOMP", "seccomp"),
     (r"xxhash", r"PkgConfig::XXHASH", "xxhash"),
 ]
-# Only these may stand in a header: GLM everywhere, and Qt in the rooms of the window.
+# Headers may include only these: GLM everywhere, and Qt in the rooms of the window.
 IN_HEADERS = {r"glm/": "", r"Q[A-Z]": "ui/"}
 
 Room = collections.namedtuple("Room", "target links")
@@ -106,7 +106,7 @@ for source in sources:
                 continue
             if target and not any(re.fullmatch(target, link) for link in allowed):
                 wrong.append(f"{place}: includes <{what}>, but {rooms[folder][0].target} does not link {target}")
-            # Programs read and write JSON where they like.
+            # Programs may use JSON in any file.
             if ending and not re.search(rf"_{ending}\.(cpp|h|inc)$", path) and not (ending == "nlohmann" and path.startswith("app/")):
                 wrong.append(f"{place}: includes <{what}>, which only *_{ending}.cpp may")
             if path.endswith(".h") and "_nlohmann.h" not in path and not path.startswith("app/"):
@@ -124,7 +124,7 @@ for folder, several in rooms.items():
         if folder == "app/bench":
             wrong += [f"{room.target} links {link}" for link in linked if re.match(r"Qt6|DCMTK|ITK", link)]
 
-# In the first lines, below the interpreter's and the document's own.
+# The SPDX line is one of the first three, after an interpreter or version line.
 suffixes = (".h", ".cpp", ".inc", ".glsl", ".comp", ".vert", ".frag", ".sh", ".py")
 for top in ("app", "core", "gpu", "ui", "tests", "shaders", "packaging"):
     for source in sorted((root / top).rglob("*")):

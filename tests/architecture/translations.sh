@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Every text of the sources is translated, and no translation is of a text that is gone. What a reason says in words,
-# the command line alone may say, which speaks English, and what reads the files of earlier programs.
+# Checks that every text in the sources is translated and that no translation is obsolete. A reason in plain English is
+# allowed only in the command line, which speaks English, and in code that reads files of earlier versions.
 # Usage: translations.sh SOURCE_ROOT
 set -euo pipefail
 cd "$1"
@@ -11,11 +11,11 @@ cp resources/translations/*.ts "$scratch"
 resources/translations/update.sh "$scratch" -silent 2>"$scratch/said" || { cat "$scratch/said"; exit 1; }
 failed=0
 if grep -rn 'because::inWords' core gpu ui | grep -v '^ui/language/kept_reasons\.cpp:'; then
-    echo 'these say in words what no language but English has: a reason of core/task/reasons.inc says it in all'
+    echo 'these reasons are plain English, which cannot be translated: use a reason of core/task/reasons.inc'
     failed=1
 fi
 for file in "$scratch"/*.ts; do
-    # Places for numbers and names are in both.
+    # A translation has the same placeholders as its source.
     python3 - "$file" resources/translations <<'PYTHON' || failed=1
 import pathlib, re, sys
 import xml.etree.ElementTree as tree
@@ -26,18 +26,18 @@ def messages(path):
 path = pathlib.Path(sys.argv[1])
 wanted = messages(path)
 for _, source, _ in messages(pathlib.Path(sys.argv[2]) / path.name).keys() - wanted.keys():
-    print(f'{path.name}: nothing says any more: {source!r} (./dev translations brings the file up to date)')
+    print(f'{path.name}: no longer in the sources: {source!r} (./dev translations updates the file)')
     wrong = 1
 for (_, source, _), message in wanted.items():
     translation = message.find('translation')
     if translation.get('type') == 'unfinished':
-        print(f'{path.name}: not translated (./dev translations brings the file up to date): {source!r}')
+        print(f'{path.name}: not translated: {source!r} (./dev translations updates the file)')
         wrong = 1
     texts = [form.text or '' for form in translation.findall('numerusform')] or [translation.text or '']
     places = set(re.findall(r'%(?:\d|n)', source))
     for text in texts:
         if text and set(re.findall(r'%(?:\d|n)', text)) != places:
-            print(f'{source!r}: its places are not those of {text!r}')
+            print(f'{source!r}: its placeholders differ from those of {text!r}')
             wrong = 1
 sys.exit(wrong)
 PYTHON

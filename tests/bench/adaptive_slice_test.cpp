@@ -29,8 +29,8 @@ protected:
     std::unique_ptr<bench::AdaptiveSlice> slices;
 };
 
-// The corrected bound of Totsuka and Levoy's equation 16 holds for every slice, and the looser it
-// is the fewer cells are read.
+// The corrected bound of Totsuka and Levoy's equation 16 holds for every slice, and a looser bound
+// reads fewer cells.
 TEST_F(AdaptiveSlice, StaysWithinItsBoundAndSavesCells) {
     for (const glm::dquat &view : views) {
         scene.camera.orientation = view;
@@ -47,7 +47,7 @@ TEST_F(AdaptiveSlice, StaysWithinItsBoundAndSavesCells) {
     }
 }
 
-// Of a slice only one half is kept: all columns but the first stand for their mirror images too.
+// A slice stores one half only: every column but the first also stands for its mirror image.
 TEST(SliceError, IsThatOfTheWholeSlice) {
     bench::AdaptiveSlice::Slice exact{.size = 4};
     exact.samples.assign(4 * 3, {});
@@ -60,21 +60,21 @@ TEST(SliceError, IsThatOfTheWholeSlice) {
     EXPECT_DOUBLE_EQ(bench::relativeL2(second, exact), std::sqrt(0.5 / 3.0));
 }
 
-// The bound that is found is the loosest that keeps the measured error; of a small one too, where
-// the search begins with bounds that spare nothing.
+// The search finds the loosest bound that keeps the measured error. For a small error it begins
+// with bounds that skip no cells.
 TEST_F(AdaptiveSlice, FindsTheBoundOfAMeasuredError) {
     for (const double error : {3e-3, 1e-2}) {
         const auto there = bench::compareFiltersAt(*slices, scene.camera, size, views, error);
         EXPECT_LE(there.relativeL2, error);
         EXPECT_LT(there.share(), 1.0);
-        // The search ends with a bound a fiftieth larger, whose error is above.
+        // The search ended with a bound 2 % larger, which exceeds the error.
         const auto beyond =
             bench::compareFilters(*slices, scene.camera, size, views, 1.02 * there.bound);
         EXPECT_GT(beyond.relativeL2, error);
     }
 }
 
-// An error that the narrow filter alone keeps ends the search too.
+// The search also ends if the narrow filter alone keeps the error.
 TEST_F(AdaptiveSlice, ReadsOneCellWhereThatIsGoodEnough) {
     const auto there = bench::compareFiltersAt(*slices, scene.camera, size, views, 2.0);
     EXPECT_DOUBLE_EQ(there.share(), 1.0 / 27.0);

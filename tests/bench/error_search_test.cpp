@@ -38,12 +38,12 @@ TEST(ErrorSearch, NoFreshFieldAndViewExceedTheBound) {
 TEST(ErrorSearch, TheErrorOfAPictureIsCloseToWhatIsMeasured) {
     const auto factors = bench::picturePredictionFactors(40, 20261123);
     EXPECT_GE(factors.front().factor, 1.0) << factors.front().name;
-    // One of so few may be a part that shows next to nothing; the bench takes 300.
+    // With so few pictures, one may be an almost empty part; the bench takes 300.
     EXPECT_LE(factors[factors.size() * 95 / 100].factor, 5.5);
     EXPECT_LT(factors[factors.size() / 2].factor, 2.5);
 }
 
-// So few pictures have no quantiles: half of them are below what 95 of 100 are below.
+// Ten pictures are too few for quantiles: half of them must meet the limit for 95 %.
 TEST(ErrorSearch, TheErrorOfAFreshPictureIsCloseToWhatIsMeasured) {
     const std::uint64_t seed = test::freshSeed();
     const auto factors = bench::picturePredictionFactors(10, seed);
@@ -51,7 +51,7 @@ TEST(ErrorSearch, TheErrorOfAFreshPictureIsCloseToWhatIsMeasured) {
     EXPECT_LE(factors[factors.size() / 2].factor, 5.5) << "seed " << seed;
 }
 
-// Three kinds of field each; the bench takes 200 fields.
+// Three fields for each seed; the bench takes 200.
 TEST(ErrorSweep, EveryToleranceIsKeptAndNoErrorIsHigherThanStated) {
     int pictures = 0;
     for (const std::uint64_t seed : {std::uint64_t(20261125), test::freshSeed()})
@@ -98,8 +98,8 @@ TEST(ErrorSearch, TwoSamplesInOppositeCorners) {
         }
 }
 
-// Along an axis all the depth is read by one moment kernel, whose error once was in no term of the
-// picture's own.
+// Along an axis one moment kernel reads the whole depth. Its error was once missing from the
+// picture's own prediction.
 TEST(ErrorSearch, AFullLinearCueAlongAnAxis) {
     const auto volume = phantom::makePhantom(
         phantom::Kind::head,
@@ -117,8 +117,9 @@ TEST(ErrorSearch, AFullLinearCueAlongAnAxis) {
         }
 }
 
-// So did every second sample of one or two axes, whose lines lie in the roll-off: the tails of all
-// samples add up in phase. The same of the lattice's own roll-off, in finer pixels.
+// Alternate samples along one or two axes also exceeded their prediction: their spectral lines lie
+// in the roll-off, where the tails of all samples add up in phase. Finer pixels test the same in
+// the lattice's own roll-off.
 TEST(ErrorSearch, PatternsWhoseLinesLieInTheRollOff) {
     for (const double step : {1.02, 1.035})
         for (const bool inBoth : {false, true})
@@ -154,8 +155,8 @@ TEST(ErrorSearch, PatternsWhoseLinesLieInTheRollOff) {
             }
 }
 
-// A few faint samples in a picture of a few pixels, with a bright one beside it: what is in the
-// picture does not tell what tails come from outside.
+// A picture of a few pixels shows faint samples beside a bright one. It does not tell which tails
+// come from outside.
 TEST(ErrorSearch, AFewPixelsBesideABrightSample) {
     const auto lattice = volume::Lattice::centred({33, 33, 33}, {1, 1, 1});
     std::vector<float> samples(lattice.size().count(), 0.0F);
@@ -176,8 +177,8 @@ TEST(ErrorSearch, AFewPixelsBesideABrightSample) {
         }
 }
 
-// So did a thin oblique sheet off the centre, seen edge on: its whole picture is at the edge of the
-// band.
+// A thin oblique sheet off the centre, seen edge on, also exceeded its prediction: its whole
+// picture is at the edge of the band.
 TEST(ErrorSearch, AThinSheetSeenEdgeOn) {
     const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
     const glm::dvec3 normal = glm::normalize(glm::dvec3(1.0, 0.37, 0.21));

@@ -17,7 +17,7 @@ std::string nameOf(const testing::TestParamInfo<std::size_t> &info) {
 
 class HardCase : public testing::TestWithParam<std::size_t> {};
 
-// A plan that accepts a tolerance keeps it, on fields that break projectors. What it predicts
+// On fields that break projectors, a plan keeps every tolerance that it accepts, and its prediction
 // bounds every view of the whole.
 TEST_P(HardCase, KeepsTheToleranceItAccepts) {
     const auto &hard = bench::hardSubjects()[GetParam()];
@@ -38,7 +38,7 @@ TEST_P(HardCase, KeepsTheToleranceItAccepts) {
         }
         EXPECT_LE(*row.relativeL2, *row.predictedError);
         if (*row.relativeL2 > 0.0) { // an empty field's image is empty
-            // The bound is of every view; that of the view stands beside the picture.
+            // The plan's bound holds for every view; each picture has a closer one of its own.
             EXPECT_LE(*row.predictedError, 100.0 * *row.relativeL2);
         }
     }

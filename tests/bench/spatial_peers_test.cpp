@@ -19,8 +19,9 @@ bench::Subject head() {
                                  {.size = volume::GridSize{48, 52, 40}, .tiltRad = 0.2});
 }
 
-// An honest peer: the finer its steps, the nearer to the exact projection of the trilinear field.
-// What remains is the roll-off, which rays through points do not have.
+// The ray sum is an honest peer: finer steps bring it closer to the exact projection of the
+// trilinear field. The rest of the difference is the roll-off, which rays through points do not
+// have.
 TEST(RaySum, ConvergesToTheExactLinearProjection) {
     const bench::Subject subject = head();
     const volume::Lattice &lattice = subject.field.values.lattice();
@@ -44,7 +45,7 @@ TEST(ShearWarpSum, ConservesTheSumForEveryView) {
     const bench::Subject subject = head();
     const bench::SpatialVolume volume(subject.field.values);
     double mass = 0.0;
-    subject.field.values.visit([&](auto samples) {
+    subject.field.values.asVolume().visit([&](auto samples) {
         for (const auto f : samples)
             mass += double(f);
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What cannot be done ends with one line, the documented exit code and nothing half written.
+// A command that cannot succeed ends with one line, the documented exit code and no partial file.
 #include "tests/cli/cli.h"
 
 #include <unistd.h>
@@ -82,7 +82,7 @@ TEST_F(Cli, AFolderWithoutPermissionIsNamed) {
     fs::permissions(folder / "locked", fs::perms::owner_all);
 }
 
-// As another user, where the tests run as root.
+// Root may read every folder, so this test runs the program as another user.
 TEST_F(Cli, AFolderOfAnotherUserIsNamed) {
     if (geteuid() != 0)
         GTEST_SKIP() << "needs root to become another user";
@@ -98,9 +98,9 @@ TEST_F(Cli, AFolderOfAnotherUserIsNamed) {
 }
 
 TEST_F(Cli, AFullDiskLeavesNothingBehind) {
-    // A limit on files is one on the arena of the decoder, too, which has a megabyte.
+    // The limit on the size of files also applies to the decoder's arena, which has a megabyte.
     const fs::path series = phantomFolder("--kind head --size 120x120x80");
-    const std::string full = "ulimit -f 2200;"; // in 512 bytes
+    const std::string full = "ulimit -f 2200;"; // in blocks of 512 bytes
     fs::create_directory(folder / "out");
     for (const char *name : {"o.npy", "o.nrrd"})
         expectOneLine(cli("render " + quoted(series) + " --size 2000x2000 -o " +
@@ -119,8 +119,8 @@ TEST_F(Cli, AFullDiskLeavesNothingBehind) {
 
 TEST_F(Cli, AnInterruptEndsWithOneLineAndNoFile) {
     const fs::path out = folder / "series";
-    // A second thread means that the signals are already taken: a signal sent while the libraries
-    // are still being loaded would end the process without a word.
+    // A second thread means that the program handles signals: a signal sent while the libraries are
+    // still loading would end the process without a message.
     const auto r = run(std::string(PELLUCID_CLI) + " phantom " + out.string() +
                        " --kind head --size 600x600x600 & p=$!; "
                        "until [ \"$(ls /proc/$p/task 2>/dev/null | wc -l)\" -gt 1 ]; do "

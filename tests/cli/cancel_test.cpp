@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How soon work ends that is asked to.
+// Cancelled work ends soon.
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -32,7 +32,7 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// A series and what becomes of it, stage by stage.
+// A series and the stages of the work on it.
 struct Work {
     fs::path series, many, archive, unpacked, out;
     dicom::VolumeEntry entry;
@@ -79,7 +79,7 @@ double millisecondsOf(const Stage &stage) {
     return millisecondsSince(start);
 }
 
-// How long the stage goes on after it is asked to stop at a share of its work.
+// The time from asking the stage to stop, at a share of its work, to its end. *Units*: ms.
 double millisecondsAfterCancel(const Stage &stage, double share, const std::string &name) {
     std::stop_source stop;
     std::optional<Clock::time_point> asked;
@@ -105,7 +105,7 @@ protected:
         work.archive = folder / (name + ".zip");
         work.unpacked = folder / (name + " unpacked");
         work.out = folder / (name + ".nrrd");
-        // Headers are read fast: ten names for each file.
+        // Reading a header takes little time, so each file has ten names.
         fs::create_directories(work.many);
         for (const auto &entry : fs::directory_iterator(work.series))
             for (int n = 0; n < 10; ++n)
@@ -124,31 +124,30 @@ protected:
 
 } // namespace
 
-// Wherever work is when it is asked to stop, it does little more: no more than three times what an
-// eighth of the series takes, however long the whole does, where work that stops at its end takes
-// eight. It leaves no file that is not whole. (The window does not wait for it: see
-// cancelTakesEffectAtOnce.)
+// Work that is asked to stop does little more, wherever it is: at most three times the work on an
+// eighth of the series. Work that stops only at its end takes eight times as long as an eighth. No
+// partial file is left. (The window does not wait for it: see cancelTakesEffectAtOnce.)
 TEST_F(Cancel, EveryStageEndsSoon) {
     const Work whole = workOf("whole", 160), eighth = workOf("eighth", 20);
     const auto stages = whole.stages(), parts = eighth.stages();
     for (const auto &[name, stage] : stages) {
-        stage({}); // plans of transforms are made once
+        stage({}); // transforms are planned once
         const Stage &part = parts.at(name);
         part({});
-        const double mostMs = 3.0 * std::min(millisecondsOf(part), millisecondsOf(part));
+        const double maxMs = 3.0 * std::min(millisecondsOf(part), millisecondsOf(part));
         double slowestMs = 0.0;
         for (const double share : {0.0, 0.2, 0.4}) {
-            // A machine that is busy with something else for a moment is asked again.
+            // The measurement is repeated, because the machine may have been busy for a moment.
             double fastestMs = std::numeric_limits<double>::infinity();
-            for (int attempt = 0; attempt < 3 && fastestMs > mostMs; ++attempt) {
+            for (int attempt = 0; attempt < 3 && fastestMs > maxMs; ++attempt) {
                 fastestMs = std::min(fastestMs, millisecondsAfterCancel(stage, share, name));
                 EXPECT_FALSE(fs::exists(whole.out));
             }
             slowestMs = std::max(slowestMs, fastestMs);
         }
-        std::cout << name << ": " << slowestMs << " ms after it was asked to, of " << mostMs
+        std::cout << name << ": " << slowestMs << " ms after it was asked to, of " << maxMs
                   << " that it may take\n";
-        EXPECT_LT(slowestMs, mostMs) << name;
+        EXPECT_LT(slowestMs, maxMs) << name;
     }
 }
 

@@ -45,7 +45,7 @@ inline std::size_t entries(const fs::path &folder) {
     return std::size_t(std::distance(fs::directory_iterator(folder), {}));
 }
 
-/// One line that names the program, as every failure must end.
+/// Expects a failure that is reported in one line, which names the program.
 inline void expectOneLine(const CommandResult &r, int code, const std::string &part) {
     EXPECT_EQ(r.exitCode, code) << r.error;
     EXPECT_EQ(std::count(r.error.begin(), r.error.end(), '\n'), 1) << r.error;

@@ -73,8 +73,9 @@ TEST_F(Cli, RendersToNumbersThatTheExactReferenceConfirms) {
     }
 }
 
-// A part of a picture that holds less than its share of the whole is planned again, until it keeps
-// the tolerance itself: of a few thick, tilted slices, strips from the middle to beyond the skin.
+// A part of a picture that holds less than its share of the whole is planned again until it keeps
+// the tolerance itself. The parts are strips of a few thick, tilted slices, from the middle to
+// beyond the skin.
 TEST_F(Cli, PlansAPartOfAPictureMoreClosely) {
     const fs::path series =
                        phantomFolder("--kind head --size 160x160x4 --spacing 1,1,4.85 --tilt 15"),
@@ -104,7 +105,7 @@ TEST_F(Cli, PlansAPartOfAPictureMoreClosely) {
         EXPECT_LE(error, predicted) << pan;
         EXPECT_LE(predicted, scene.tolerance) << pan;
     }
-    EXPECT_LT(planned[84.0], 0.7 * planned[56.0]); // the middle keeps it at once
+    EXPECT_LT(planned[84.0], 0.7 * planned[56.0]); // the middle is not planned again
 }
 
 // Real series, cropped to at most 96 samples a side, through NRRD files.
@@ -137,7 +138,7 @@ TEST_F(Cli, RendersCropsOfRealSeriesExactly) {
     }
 }
 
-#ifndef PELLUCID_SANITIZED // which reserve terabytes
+#ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes
 TEST_F(Cli, TheChestTakesItsMemoryAndNoMore) {
     PELLUCID_NEEDS_TEST_DATA();
     const fs::path out = folder / "chest.png";
@@ -293,7 +294,7 @@ TEST_F(Cli, ScenesTurntablesAndFormats) {
     readNpy(folder / "s.npy", height, width);
     EXPECT_EQ(width, 30);
     EXPECT_EQ(height, 20);
-    // A tolerance that the engine cannot meet is met by the exact reference, and said so.
+    // The exact reference meets a tolerance that the engine cannot, and the output says so.
     const auto fine = cli("render " + quoted(series) + " -o " + quoted(folder / "r.npy") +
                           " --quality reference --json");
     EXPECT_EQ(fine.exitCode, 0);
@@ -339,7 +340,7 @@ TEST_F(Cli, BothEnginesGiveOnePicture) {
                   .exitCode,
               0);
     EXPECT_EQ(entries(turn), 3U);
-    // Left to itself, a picture is the processor's, and so are many where the card is of software.
+    // By default the CPU renders one picture, and many where OpenGL runs on a software renderer.
     const auto many = cli("render " + quoted(series) + out + " --frames 2 --turntable --json");
     EXPECT_EQ(json::parse(many.out)["device"], "cpu");
     EXPECT_FALSE(json::parse(many.out)["engine_reason"].get<std::string>().empty());
@@ -354,7 +355,7 @@ TEST_F(Cli, WithoutACardTheProcessorRendersOrAReasonIsGiven) {
     expectOneLine(cli(command + " --engine gpu", old), 5, "OpenGL 3.3");
     EXPECT_FALSE(fs::exists(out));
     EXPECT_EQ(cli(command, old).exitCode, 0);
-    // The reference is no engine's.
+    // The exact reference does not run on the GPU.
     expectOneLine(cli(command + " --engine gpu --quality reference"), 5, "reference");
     EXPECT_EQ(cli(command + " --frames 2 --turntable", old).exitCode, 0);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the world does to a program: kills it, changes its files, locks its folders. Each time it is
-// done or it is not, nothing is half done, and one line says why.
+// Programs are killed, files change, folders are locked. The work is done completely or not at all,
+// and one line gives the reason.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -27,8 +27,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Runs it in a child of its own and kills that after a while. True: it was killed in the
-// middle.
+// Runs the work in a child process and kills it after a while. True if it was killed before it
+// ended.
 template <class F> bool killedAfter(std::chrono::microseconds time, F &&work) {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -68,7 +68,7 @@ TEST_F(Faults, AKilledSaveLeavesTheOldOrTheNewPreset) {
         EXPECT_TRUE(kept.look == before.look || kept.look == after.look);
     }
     EXPECT_EQ(killed, 60);
-    // Unfinished ones have no name. Between two calls of the system a whole one has a hidden one.
+    // An unfinished file has no name. A complete one is hidden between two system calls.
     std::size_t left = 0;
     for (const auto &entry : fs::directory_iterator(folder.path()))
         if (entry.path() != path) {
@@ -77,7 +77,7 @@ TEST_F(Faults, AKilledSaveLeavesTheOldOrTheNewPreset) {
             EXPECT_TRUE(whole.look == before.look || whole.look == after.look);
             ++left;
         }
-    EXPECT_LT(left, 20U); // of 60: most of the time goes by before
+    EXPECT_LT(left, 20U); // of 60: most are killed earlier
 }
 
 TEST_F(Faults, AKilledExportLeavesAWholePictureOrNone) {
@@ -100,7 +100,7 @@ TEST_F(Faults, AKilledExportLeavesAWholePictureOrNone) {
         const auto [ended, seconds] =
             timed("timeout -s KILL " + std::to_string(share * wholeSeconds) + " " + render);
         killed += ended.exitCode == 128 + SIGKILL ? 1 : 0;
-        if (ended.exitCode == 0) // faster than the first time, on a machine that was busy
+        if (ended.exitCode == 0) // the machine was busy the first time
             wholeSeconds = std::min(wholeSeconds, seconds);
         if (!fs::exists(out))
             continue;
@@ -108,7 +108,7 @@ TEST_F(Faults, AKilledExportLeavesAWholePictureOrNone) {
         EXPECT_EQ(png.substr(1, 3), "PNG");
         EXPECT_EQ(png.substr(png.size() - 8, 4), "IEND");
     }
-    EXPECT_GT(killed, 3); // of 25: most are, some end first
+    EXPECT_GT(killed, 3); // of 25: some end first
     whole = run(render);
     EXPECT_EQ(whole.exitCode, 0) << whole.error;
 }
@@ -141,7 +141,7 @@ TEST_F(Faults, AFileThatChangesWhileItIsReadIsAVolumeOrAReason) {
             const auto catalogue = dicom::scan({in});
             const auto loaded = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume);
             const int slices = loaded.volume.lattice().size().k;
-            // All of them, or a reason for the one that is missing.
+            // All slices are there, or a reason is given for the missing one.
             const bool hasReason = !loaded.skipped.empty() || !catalogue.skipped.empty() ||
                                    !loaded.volume.notes().warnings.empty();
             EXPECT_TRUE(slices == 30 || hasReason) << slices;
@@ -154,21 +154,21 @@ TEST_F(Faults, AFileThatChangesWhileItIsReadIsAVolumeOrAReason) {
     }
     isOver = true;
     EXPECT_GT(volumes, 0);
-    EXPECT_GT(reasons, 0); // some round met a change
+    EXPECT_GT(reasons, 0); // a change was noticed
 }
 
-// Deflated to a thousandth it comes in any archive.
+// Zeros compress to a thousandth, so any archive may contain a gigabyte of them.
 TEST_F(Faults, EndlessZerosAreRefusedAndTheDecoderEndsWithTheProgram) {
     const fs::path zeros = folder / "zeros.dcm";
     writeText(zeros, readText(series("few", 2) / "IM0001.dcm").substr(0, 2000));
-    fs::resize_file(zeros, 1U << 30); // of holes
+    fs::resize_file(zeros, 1U << 30); // a sparse file
     const auto said = cli("info " + quoted(zeros));
     expectOneLine(said, 3, "zeros.dcm: ");
     EXPECT_TRUE(said.error.find("has too many data elements for an image") != std::string::npos ||
                 said.error.find("takes too long to read") != std::string::npos)
         << said.error;
 
-    // Its children, by name: one is at work for seconds.
+    // Finds the decoders of a program by name. One of them works for seconds.
     const auto decodersOf = [](pid_t parent) {
         std::vector<pid_t> found;
         for (const auto &entry : fs::directory_iterator("/proc")) {
@@ -187,7 +187,7 @@ TEST_F(Faults, EndlessZerosAreRefusedAndTheDecoderEndsWithTheProgram) {
         ::execl(PELLUCID_CLI, PELLUCID_CLI, "info", zeros.c_str(), nullptr);
         ::_exit(9);
     }
-    const auto isAtWork = [](pid_t pid) { // half a second of its time
+    const auto isAtWork = [](pid_t pid) { // it has used half a second
         const std::string stat = readText(fs::path("/proc") / std::to_string(pid) / "stat");
         std::istringstream fields(stat.substr(std::min(stat.size(), stat.find(')') + 1)));
         std::string skipped;
@@ -211,7 +211,7 @@ TEST_F(Faults, EndlessZerosAreRefusedAndTheDecoderEndsWithTheProgram) {
     };
     for (int n = 0; isThere() && n < 300; ++n)
         std::this_thread::sleep_for(10ms);
-    EXPECT_FALSE(isThere()); // it would go on for seconds
+    EXPECT_FALSE(isThere()); // otherwise it would work for seconds
 }
 
 TEST_F(Faults, ScenesThatArePipesOrEndlessAreRefused) {
@@ -230,7 +230,7 @@ TEST_F(Faults, ScenesThatArePipesOrEndlessAreRefused) {
     expectOneLine(render(folder / "absent.json"), 3, "does not exist");
 }
 
-// Their decoders go on, and say so on a log that nobody reads.
+// The libraries decode these to the end and report the damage only to a log that nobody reads.
 TEST_F(Faults, DamagedCompressedPixelsAreMentioned) {
     for (const auto syntax : {dicom::TransferSyntax::rle, dicom::TransferSyntax::jpegLossless,
                               dicom::TransferSyntax::jpeg2000}) {
@@ -240,7 +240,7 @@ TEST_F(Faults, DamagedCompressedPixelsAreMentioned) {
             return cli("volume " + quoted(in) + " -o " + quoted(folder / "v.nrrd"));
         };
         EXPECT_EQ(volume().error, "") << in;
-        // Zeros before the end; for all but the JPEG files, to the end.
+        // Zeros replace the last bytes; in JPEG files, a few bytes before the end.
         const fs::path victim = in / "IM0004.dcm";
         std::string bytes = readText(victim);
         const std::size_t from = bytes.size() - 900;
@@ -253,7 +253,7 @@ TEST_F(Faults, DamagedCompressedPixelsAreMentioned) {
     }
 }
 
-// Files of a series that are not used are missing from the picture, and of two series one is shown.
+// The picture lacks the unused files of a series, and shows only one of two series.
 TEST_F(Faults, UnusedFilesAndSeriesAreReported) {
     const fs::path in = series("mixed", 8);
     fs::resize_file(in / "IM0001.dcm", 4000);
@@ -276,7 +276,7 @@ TEST_F(Faults, InputsAreNotOverwritten) {
     expectOneLine(cli("render " + quoted(in) + " -o " + quoted(in / "IM0001.dcm")), 2,
                   "is one of the files that are read");
     EXPECT_EQ(readText(in / "IM0001.dcm"), before);
-    // Nor by the frames of a turn.
+    // The frames of a turntable do not overwrite them either.
     fs::rename(in / "IM0001.dcm", in / "turn_0001.dcm");
     expectOneLine(
         cli("render " + quoted(in) + " --turntable --frames 2 -o " + quoted(in / "turn.dcm")), 2,
@@ -289,7 +289,7 @@ TEST_F(Faults, InputsAreNotOverwritten) {
                   "is one of the files that are read");
 }
 
-// One number, two patients: neither is shown for the other.
+// The series of two patients have one number: neither may be shown for the other.
 TEST_F(Faults, ASeriesOfSeveralPatientsIsAskedForByItsUid) {
     const fs::path both = folder / "both";
     for (const char *patient : {"A", "B"})
@@ -300,7 +300,7 @@ TEST_F(Faults, ASeriesOfSeveralPatientsIsAskedForByItsUid) {
     EXPECT_FALSE(fs::exists(folder / "o.png"));
 }
 
-// A terminal obeys what it is shown.
+// A terminal executes control characters.
 TEST_F(Faults, ControlCharactersInFileNamesDoNotReachTheTerminal) {
     const fs::path name = folder / "a\x1b[2J\x07\x9b\xe2\x80\xae\xd8\x9c\xe0\x82\x9b\xc2\x9b"
                                    "31m.dcm";
@@ -310,13 +310,13 @@ TEST_F(Faults, ControlCharactersInFileNamesDoNotReachTheTerminal) {
     for (const std::string &text : {r.out, r.error}) {
         EXPECT_EQ(text.find_first_of("\x1b\x07"), std::string::npos);
         EXPECT_EQ(text.find('\x9b'), std::string::npos);
-        EXPECT_EQ(text.find("\xe2\x80\xae"), std::string::npos); // turns what follows
+        EXPECT_EQ(text.find("\xe2\x80\xae"), std::string::npos); // reverses the text after it
         EXPECT_EQ(text.find("\xd8\x9c"), std::string::npos);
         EXPECT_NE(text.find("31m.dcm"), std::string::npos);
     }
 }
 
-// Another slice of the series, in every way a good one, under the name of the one that was found.
+// After the scan a file is replaced by another valid slice of the same series.
 TEST_F(Faults, ASliceReplacedAfterTheScanIsNamedAndLeftOut) {
     const fs::path in = series("replaced", 30);
     const auto catalogue = dicom::scan({in});
@@ -342,7 +342,7 @@ TEST_F(Faults, TwentyThousandFilesWithLoopsPipesAndDevicesAreScanned) {
     EXPECT_EQ(catalogue.skipped.size(), 20004U);
 }
 
-// Nothing is written, nothing that is there is harmed.
+// Nothing is written, and no existing file is harmed.
 TEST_F(Faults, AReadOnlyFolderIsLeftAsItIs) {
     const fs::path in = series("head", 12), locked = folder / "locked";
     fs::create_directory(locked);
@@ -351,7 +351,7 @@ TEST_F(Faults, AReadOnlyFolderIsLeftAsItIs) {
     preset.name = "Kept";
     presets::writePreset(kept, preset);
     const ReadOnlyFolder lock(locked);
-    // A program that root starts could write all the same.
+    // Root could write here all the same.
     const std::string as = ::geteuid() == 0 ? "setpriv --bounding-set=-dac_override" : "";
     const std::string render = "render " + quoted(in) + " -o ";
     for (const std::string &command :

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What of a volume is shown and how, asked for on the command line.
+// Command-line options for what a picture shows of a volume, and how.
 #include "tests/cli/cli.h"
 
 #include <array>
@@ -67,8 +67,8 @@ TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
             const classify::Color &color = fields.colors[n];
             const std::array<double, 3> parts{color.red, color.green, color.blue};
             for (std::size_t p = 0; p < plane.size(); ++p)
-                for (std::size_t c = 0; c < std::size_t(channels); ++c)
-                    truth[p * std::size_t(channels) + c] += parts[c] * plane[p];
+                for (std::size_t channel = 0; channel < std::size_t(channels); ++channel)
+                    truth[p * std::size_t(channels) + channel] += parts[channel] * plane[p];
         }
         const double error = test::relativeL2(image, truth);
         EXPECT_LE(error, 1.1e-3) << c.options;
@@ -90,7 +90,7 @@ TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
 }
 
 TEST_F(Cli, PresetsAreListedShownCheckedAndMoved) {
-    // A library of its own.
+    // The test has a library of its own.
     setenv("XDG_DATA_HOME", (folder / "data").c_str(), 1);
     const auto list = cli("preset list");
     EXPECT_EQ(list.exitCode, 0);
@@ -100,7 +100,7 @@ TEST_F(Cli, PresetsAreListedShownCheckedAndMoved) {
     ASSERT_EQ(cli("preset export Bone -o " + quoted(file)).exitCode, 0);
     EXPECT_EQ(cli("preset validate " + quoted(file)).exitCode, 0);
     EXPECT_NE(cli("preset show bone").out.find("pellucid-preset/2"), std::string::npos);
-    // What is built in stays; under another name it is kept, once.
+    // A built-in preset is never replaced. Under another name it can be imported, once.
     EXPECT_EQ(cli("preset import " + quoted(file)).exitCode, 2);
     EXPECT_EQ(cli("preset import " + quoted(file) + " --name Mine").exitCode, 0);
     EXPECT_EQ(cli("preset import " + quoted(file) + " --name Mine").exitCode, 2);
@@ -113,7 +113,7 @@ TEST_F(Cli, PresetsAreListedShownCheckedAndMoved) {
     EXPECT_EQ(bad.exitCode, 3);
     EXPECT_NE(bad.error.find("bad.json: line 4: /window: must be two numbers"), std::string::npos)
         << bad.error;
-    // One in the library is passed over with its reason; the others stay usable.
+    // A damaged preset in the library is skipped with a reason; the others stay usable.
     fs::copy_file(folder / "bad.json", folder / "data/pellucid/presets/bad.json");
     const auto warned = cli("preset list");
     EXPECT_EQ(warned.exitCode, 0);
@@ -132,7 +132,7 @@ TEST_F(Cli, APresetMakesThePictureThatItsClassesMake) {
     const auto unknown = cli("render " + quoted(series) + " -o x.png --preset Bonee");
     EXPECT_EQ(unknown.exitCode, 2);
     EXPECT_EQ(cli("render " + quoted(series) + " -o x.png --preset /nowhere/x.json").exitCode, 3);
-    // Edges, with steps of a class: where Canny finds them and nowhere else.
+    // Canny finds edges in a small share of the samples.
     const fs::path nrrd = folder / "edges.nrrd";
     ASSERT_EQ(cli("volume " + quoted(series) + " -o " + quoted(nrrd) + " --edges").exitCode, 0);
     const auto edges = decoder::readVolumeFile(nrrd);
@@ -148,8 +148,8 @@ TEST_F(Cli, APresetMakesThePictureThatItsClassesMake) {
     EXPECT_LT(some, count / 4);
 }
 
-// Cue and light against the exact image of the field shaded in space, as written in the options; by
-// the engine and, at the reference quality, exactly.
+// Cue and light are compared with the exact image of the field shaded in space, both for the engine
+// and at the reference quality.
 TEST_F(Cli, CueAndLightAgainstTheExactReference) {
     const fs::path series = phantomFolder("--kind head --size 48x50x36 --tilt 12");
     const auto catalogue = dicom::scan({series});
@@ -236,7 +236,7 @@ TEST_F(Cli, SceneAndPresetCarryCueAndLights) {
                                      << "}";
     const auto expected = picture(series, options);
     EXPECT_EQ(picture(series, "--preset " + quoted(folder / "p.json")), expected);
-    // An option takes the place of what the preset says.
+    // An option overrides the preset.
     EXPECT_EQ(
         picture(series, "--preset " + quoted(folder / "p.json") + " --depth-cue none --ambient 1"),
         picture(series, "--light -1,1,0.5:#ffffff:0.9"));
@@ -274,7 +274,7 @@ TEST_F(Cli, BadCuesAndLightsAreOneLine) {
                                         "{\"direction\": [0, 0, 0]}]}";
     refuse("--preset " + quoted(folder / "p.json"), 3,
            "p.json: line 3: /lights/1: the direction of a light must be finite and not zero");
-    // A picture of colors needs a kind of file that holds them.
+    // A color picture needs a file format that holds colors.
     const auto grey = cli("render " + quoted(series) + " -o " + quoted(folder / "x.nrrd") +
                           " --light 1,0,0:#ff0000");
     expectOneLine(grey, 2, "colored pictures are written as .png, .npy or .dcm");

@@ -10,8 +10,8 @@ namespace pellucid {
 
 using namespace test;
 
-#ifndef PELLUCID_SANITIZED // which reserve terabytes
-// One file that asks for more than there is costs itself.
+#ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes
+// A file that asks for more memory than there is costs only itself.
 TEST_F(Faults, AFileThatAnnouncesTooMuchCostsNoOther) {
     const fs::path in = series("both", 12, 256), huge = folder / "both/A.dcm";
     std::string type = "ORIGINAL";
@@ -31,7 +31,7 @@ TEST_F(Faults, AFileThatAnnouncesTooMuchCostsNoOther) {
     EXPECT_EQ(dicom::defaultSelection(catalogue).volume->frames.size(), 12U);
 }
 
-// A few kilobytes that announce a hundred thousand frames each.
+// Each file has a few kilobytes and announces a hundred thousand frames.
 TEST_F(Faults, ManyFramesOfSmallFilesStayWithinMemory) {
     const fs::path in = series("frames", 1, 256);
     std::string type = "ORIGINAL";
@@ -54,8 +54,8 @@ TEST_F(Faults, ManyFramesOfSmallFilesStayWithinMemory) {
     }
 }
 
-// From too little to start to enough, in steps: done, or refused in one line with a documented
-// code.
+// Memory grows in steps from too little to start to enough. The work is done, or refused in one
+// line with a documented code.
 TEST_F(Faults, LittleMemoryIsRefusedOrReduced) {
     const fs::path in = series("head", 96, 192), out = folder / "out.png";
     int done = 0, refused = 0;

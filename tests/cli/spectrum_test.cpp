@@ -121,7 +121,7 @@ TEST_F(Cli, OptionsThatASpectrumCannotTakeAreRefused) {
     refused("o.nrrd", "--view left", 2, "--spectrum");
     refused("o.nrrd", "--json", 2, "--spectrum");
     refused("o.nrrd", "--class bone --class fat", 2, "only one class can be written");
-    // Nothing of the head is that dense.
+    // No part of the head is that dense.
     refused("o.png", "--spectrum --window 20000,30000", 3, "the field is empty");
 }
 

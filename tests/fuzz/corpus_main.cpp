@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fuzz_corpus FOLDER: what fuzzing begins with, a folder for each target.
+// fuzz_corpus FOLDER: writes the first inputs for fuzzing, in a folder for each target.
 #include <cstdio>
 #include <filesystem>
 

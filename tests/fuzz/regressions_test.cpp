@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What fuzzing once broke, and what the corpora hold, at every build; and each cut short or with
-// bits turned, which finds the plainest faults without a fuzzer.
+// Every build runs the inputs that once broke a target, and the corpora, also cut short or with
+// changed bytes. This finds the simplest faults without a fuzzer.
 #include <algorithm>
 #include <filesystem>
 #include <random>
@@ -48,7 +48,7 @@ TEST_P(Regressions, areTakenOrRefused) {
     }
 }
 
-// A folder that no target has the name of would never be read.
+// A folder that is not named after a target would never be read.
 TEST(RegressionFolders, areNamedAfterTargets) {
     std::size_t folders = 0;
     for (const auto &entry :

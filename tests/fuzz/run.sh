@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Fuzzes every target, or the named ones, and fails if one breaks.
-# Usage: run.sh BIN SECONDS [TARGET...]; what breaks a target is left in BIN/../fuzz/found.
+# Usage: run.sh BIN SECONDS [TARGET...]; inputs that break a target are left in BIN/../fuzz/found.
 set -uo pipefail
 bin=$1 seconds=$2
 shift 2

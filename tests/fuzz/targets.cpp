@@ -40,7 +40,7 @@ std::string textOf(Bytes bytes) {
     return {reinterpret_cast<const char *>(bytes.data()), bytes.size()};
 }
 
-// The same file over and over: a new one each time would be most of the time.
+// The same file is reused: making a new one each time would take most of the time.
 fs::path fileOf(Bytes bytes, const char *name) {
     static const test::TemporaryFolder folder;
     const fs::path path = folder / name;
@@ -57,8 +57,8 @@ template <class F> void refusing(F &&f) {
     }
 }
 
-// From the bytes of a file to a volume's lattice, by way of what decoder and program tell each
-// other.
+// Goes from the bytes of a file to the lattice of a volume, through the messages between decoder
+// and program.
 void dicom(Bytes bytes) {
     refusing([&] {
         const auto header = parse::parseHeader(bytes);
@@ -67,7 +67,7 @@ void dicom(Bytes bytes) {
         check(decoder::pack(received) == packed);
         if (decoder::whyUnusable(received))
             return;
-        // A stack of it and of its neighbours.
+        // A stack of the slice and two shifted copies.
         std::vector<dicom::SeriesFile> files;
         for (int n = 0; n < 3; ++n) {
             dicom::SeriesFile file{"slice" + std::to_string(n), received};
@@ -102,7 +102,7 @@ void archive(Bytes bytes) {
         std::size_t total = 0;
         parse::readArchive(bytes, [&](const parse::ArchiveFile &, Bytes part, std::int32_t) {
             total += part.size();
-            if (total > (std::size_t(1) << 26)) // the program's own limit is in another place
+            if (total > (std::size_t(1) << 26)) // the program's own limit is elsewhere
                 throw task::Error(task::ErrorCode::unusable,
                                   task::because::unpacksToMoreThanAnnounced);
         });
@@ -149,7 +149,7 @@ void nrrd(Bytes bytes) {
 void preset(Bytes bytes) {
     refusing([&] {
         const auto preset = presets::presetFromJson(textOf(bytes));
-        // What is taken can be kept and is then the same.
+        // An accepted preset can be saved and read back unchanged.
         const std::string kept = presets::toJson(preset);
         check(presets::toJson(presets::presetFromJson(kept)) == kept);
     });
@@ -182,7 +182,7 @@ void session(Bytes bytes) {
     });
 }
 
-// The list of a study library: read, rebuilt or left alone, and then it can be asked.
+// The list of a study library is read, rebuilt or left alone; then it can be searched.
 void library(Bytes bytes) {
     needApplication();
     const test::TemporaryFolder folder;
@@ -202,7 +202,7 @@ void library(Bytes bytes) {
     });
 }
 
-// FFTW reads it: a wrong one must leave right transforms.
+// FFTW reads this file: wrong wisdom must not make transforms wrong.
 void wisdom(Bytes bytes) {
     refusing([&] { fourier::keepWisdomIn(fileOf(bytes, "wisdom")); });
 }

@@ -8,7 +8,7 @@
 
 namespace pellucid::fuzz {
 
-/// What is done with any bytes: it may refuse them with task::Error, and nothing else.
+/// Processes any bytes; it may only refuse them with task::Error.
 using Target = void (*)(std::span<const std::byte> bytes);
 
 struct NamedTarget {
@@ -16,10 +16,10 @@ struct NamedTarget {
     Target run;
 };
 
-/// Every target; its corpus and its regressions lie in folders of its name.
+/// Every target; its corpus and its regressions are in folders of its name.
 const std::vector<NamedTarget> &targets();
 
-/// Qt's, whose plugins have SQLite; made once.
+/// Creates the Qt application, whose plugins include SQLite, on the first call.
 void needApplication();
 
 } // namespace pellucid::fuzz

@@ -36,7 +36,7 @@ TEST_F(FetchPlan, FiltersWhereTheToleranceHasRoom) {
     EXPECT_GT(gpu::planFetch(plan, 1e-2).predictedError, plan.predictedError);
     EXPECT_EQ(gpu::planFetch(plan, plan.predictedError).fetch, gpu::Fetch::exact);
     EXPECT_EQ(gpu::planFetch(plan, plan.predictedError).predictedError, plan.predictedError);
-    // Under light the share of what is rounded is not known.
+    // With light the share of the rounded part is not known.
     EXPECT_EQ(gpu::planFetch(plan, 1e-2, {.ambient = 0.5}).fetch, gpu::Fetch::exact);
 }
 
@@ -47,14 +47,14 @@ TEST_F(FetchPlan, KernelsWithNegativeTapsAreReadCellByCell) {
         EXPECT_EQ(gpu::planFetch(planFor(fields, kernel), 1.0).fetch, gpu::Fetch::exact) << kernel;
 }
 
-// Cells read at random places as a card reads them whose filter has 8 bits, in double beside it:
-// what is predicted is what its rounding leaves.
+// Cells at random places are read as by a card whose filter has 8 bits, and in double. The
+// prediction equals the difference.
 TEST_F(FetchPlan, TheRoundingOfTheFilterIsPredicted) {
-    // Without a mean, which a few places near frequency 0 would see, and no other.
+    // The mean is removed: only a few places near frequency 0 would see it.
     auto fields = noise();
     classify::DensityField &field = fields.channels.front();
     std::vector<float> samples;
-    field.values.visit([&](auto values) {
+    field.values.samples().visit([&](auto values) {
         for (const auto f : values)
             samples.push_back(float(f) - 0.5F);
     });
@@ -114,8 +114,8 @@ TEST_F(FetchPlan, TheRoundingDependsOnWhereTheEnergyIs) {
     EXPECT_GT(plan::filterError(kernel, 60, faces), 100.0 * plan::filterError(kernel, 60, middle));
 }
 
-// With filtered fetches the picture of a view keeps what is predicted for the mean of all views,
-// and a quarter more.
+// With filtered fetches the error of a view is at most 1.25 times the prediction for the mean of
+// all views.
 void expectKeepsPrediction(const std::shared_ptr<gpu::FramePasses> &card,
                            const classify::ShownFields &fields, const char *kernel,
                            const glm::dquat &view) {
@@ -148,7 +148,7 @@ TEST_F(FetchPlan, FilteredFetchesKeepWhatIsPredicted) {
     }
 }
 
-// A field and a view that the quarter was not fitted to.
+// The factor 1.25 was not fitted to this field and view.
 TEST_F(FetchPlan, FilteredFetchesOfAFreshFieldKeepWhatIsPredicted) {
     std::mt19937 random{static_cast<std::mt19937::result_type>(test::freshSeed())};
     const classify::ShownFields fields{

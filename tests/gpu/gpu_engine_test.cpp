@@ -18,8 +18,8 @@ using fourier::Storage;
 using shading::CueKind;
 using shading::Shading;
 
-// What both engines promise of each other under the same plan. Both read the same bits and sum in
-// float, so that binary16 leaves no more than float32.
+// The largest difference of both engines under the same plan. Both read the same bits and sum in
+// float, so binary16 leaves no more than float32.
 constexpr double withinFloat32 = 2e-5, withinBinary16 = 2e-5;
 
 class GpuEngine : public test::CardTest {
@@ -58,7 +58,7 @@ protected:
     static scene::Scene sceneOf(const classify::ShownFields &fields) {
         scene::Scene scene;
         scene.camera = scene::defaultCamera(fields.channels.front().values.lattice());
-        // A software renderer compiles wider slices for minutes; `EveryWidth` has them all.
+        // A software renderer takes minutes to compile wider slices; `EveryWidth` has them all.
         scene.interpolation.kernel = fourier::kernelFromName("LS4");
         return scene;
     }
@@ -143,7 +143,7 @@ TEST_F(GpuEngine, CuesAndLights) {
           Shading{.cue = linear, .ambient = 0.5, .lights = colored},
           Shading{.cue = sine, .ambient = 0.5, .lights = colored}})
         for (const Storage storage : {Storage::float32, Storage::binary16}) {
-            // A software renderer compiles for each format anew, which takes seconds.
+            // A software renderer compiles again for each format, which takes seconds.
             if (storage == Storage::binary16 && shading.lights.size() != 1)
                 continue;
             scene::Scene scene = sceneOf(fields);
@@ -176,7 +176,7 @@ TEST_F(GpuEngine, Colors) {
         }
 }
 
-// As many layers as the card reads at once, with shares that move.
+// There are as many layers as the card reads at once, and their channel weights change.
 TEST_F(GpuEngine, LayersWithMovingShares) {
     const auto lattice = test::tiltedLattice({20, 22, 15}, {0.8, 1.0, 2.1}, 20.0);
     std::vector<classify::DensityField> fields;
@@ -261,7 +261,7 @@ TEST_F(GpuEngine, LightsGoOut) {
     EXPECT_LE(test::relativeL2(found.samples, expected.samples), withinBinary16);
 }
 
-// What is shown is not written over while it is held.
+// A picture must not be overwritten while it is held.
 TEST_F(GpuEngine, PicturesKeepTheirPixels) {
     const auto fields = tiltedNoise();
     scene::Scene scene = sceneOf(fields);
@@ -295,12 +295,12 @@ TEST_F(GpuEngine, TooLargeSpectraAndSlicesAreRefused) {
             EXPECT_EQ(error.code(), task::ErrorCode::outOfMemory) << error.what();
         }
     };
-    // More textures than there are units.
+    // The spectrum needs more textures than there are units.
     expectTooLarge([&] {
         gpu::SpectrumTextures::upload(card, prepared.engine->parts().spectra, {},
                                       std::size_t(1) << 15);
     });
-    // A slice beyond a buffer, and then the engine still works.
+    // A slice that exceeds a buffer is refused, and then the engine still works.
     const auto engine = gpu::copyToCard(card, *prepared.engine);
     const double cells = double(card->device().capabilities().storageBytes) / 8.0;
     const double side = 1.2 * std::sqrt(2.0 * cells); // half the columns

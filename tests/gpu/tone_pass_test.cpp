@@ -28,7 +28,7 @@ protected:
     gpu::SurfacelessContext context;
 };
 
-// What `draw` draws into a framebuffer of a size, rows from the top.
+// Runs `draw` on a framebuffer of a size and returns its pixels, rows from the top.
 std::vector<std::uint8_t> drawnBy(int width, int height, const std::function<void()> &draw) {
     unsigned framebuffer = 0, target = 0;
     glGenFramebuffers(1, &framebuffer);

@@ -32,7 +32,7 @@ protected:
                              std::size_t(grid.rows) +
                          std::size_t(row)];
         };
-        // Of a real image: column 0 is the conjugate of its mirror.
+        // The image is real, so column 0 is the conjugate of its mirror.
         for (int image = 0; image < images; ++image)
             for (int row = 0; row <= grid.rows / 2; ++row) {
                 auto &value = at(image, 0, row),
@@ -96,7 +96,7 @@ TEST_F(TransformPasses, EverySizeAlongBothDirections) {
     }
 }
 
-// Pictures wider than the lines of a column may be: their rows are half as long.
+// Rows may be longer than columns, because the transform of a row has half its length.
 TEST_F(TransformPasses, RowsUpToTheSharedMemory) {
     for (int n = fourier::smoothEvenSize(2050); n <= 4096; n = fourier::smoothEvenSize(n + 1))
         EXPECT_LT(error({n, 6}, 1, n, 6), rounding) << n;

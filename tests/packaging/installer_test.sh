@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The installer's scripts with a program of a few lines in the place of Pellucid: what they make goes
-# again, to the last folder, and what is somebody's stays. The whole packages are tried in bare
-# systems by `./dev install-test`.
+# Tests the installer's scripts with a program of a few lines in place of Pellucid: uninstalling removes everything that
+# they made, to the last folder, and leaves other files alone. `./dev install-test` tries the whole packages in bare
+# systems.
 #   installer_test.sh SOURCE
 set -euo pipefail
 linux=$(realpath "$1")/packaging/linux
@@ -10,7 +10,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() { echo "installer_test: $*" >&2; exit 1; }
 
-# As the archive unpacks it; VERSION is a file that only this one has.
+# The tree as the archive unpacks it; VERSION is a file that only this version has.
 unpacked() { # VERSION
     local tree=$work/unpacked
     rm -rf "$tree"
@@ -24,13 +24,13 @@ unpacked() { # VERSION
     touch "$tree/share/icons/hicolor/16x16/apps/pellucid.png" "$tree/share/icons/hicolor/scalable/apps/pellucid.svg" "$tree/$1"
     cp "$linux/install.sh" "$linux/uninstall.sh" "$tree"
 }
-# An ordinary user's, whoever runs this: the superuser's own folders are not for tests.
+# The tests act as an ordinary user, because they must not touch root's own folders.
 mkdir "$work/tools"
 printf '#!/bin/sh\necho 1000\n' >"$work/tools/id"
 chmod 755 "$work/tools/id"
 as_user() { env -i HOME="$home" PATH="$work/tools:$PATH" USER_PWD="$work" "$@"; }
 install() { (umask 077 && cd "$work/unpacked" && as_user sh ./install.sh "$@" >"$work/said" 2>&1); }
-# Names, what links point at, and what files hold.
+# Lists names, the targets of links and the contents of files.
 all_of() { (cd "$1" && find . -printf '%p %y %l\n' | sort && find . -type f -print0 | sort -z | xargs -0 -r cksum); }
 refuses() { # WHY ARGUMENTS...
     local why=$1 before
@@ -53,11 +53,11 @@ for name in plain "two words" "o'brien & söhne|x"; do
     [[ $(stat -c %a "$prefix/bin/pellucid") == 755 && $(stat -c %a "$home/.local/bin") == 755 ]] || fail "$name: not for others to read"
     entry=$home/.local/share/applications/org.pellucid.Pellucid.desktop
     grep -qxF "Exec=\"$prefix/bin/pellucid\" %F" "$entry" || fail "$name: $(grep Exec "$entry")"
-    # What is somebody's: in the folder, beside it, and a program that took a name since.
+    # Files of the user: in the folder, beside it, and a program that has taken a name since.
     touch "$prefix/mine" "$home/.local/bin/mine"
     mkdir -p "$home/.local/share/pellucid/presets" "$home/.cache/pellucid"
     touch "$home/.cache/pellucid/log"
-    # Over itself: what only the former one had goes.
+    # An upgrade removes the files that only the former version had.
     unpacked "second $((++n))"
     install || fail "$name, again: $(cat "$work/said")"
     [[ -e "$prefix/second $n" && ! -e $prefix/first ]] || fail "$name: not renewed"
@@ -93,12 +93,12 @@ refuses "is not Pellucid's"
 ln -sf ../../src/bin/pellucid "$home/.local/bin/pellucid"
 refuses "is not Pellucid's"
 rm -r "$home/.local"
-# What fails on the way is taken back: a file where a folder has to be.
+# A failed installation is undone: here a file is in place of a folder.
 mkdir -p "$home/.local/share"
 touch "$home/.local/share/icons"
 refuses "was not installed"
 rm -r "$home/.local"
-# One at a time, and a folder as it was typed.
+# Only one installation is allowed, in the folder as it was typed.
 install --prefix "refused/./here" || fail "$(cat "$work/said")"
 [[ -x $home/here/bin/pellucid ]] || fail "not where it was asked for"
 refuses "already installed in $home/here"
@@ -109,7 +109,7 @@ rm "$home/.local/share/mime/packages/pellucid.xml"
 mkdir "$home/.local/share/mime/packages/pellucid.xml"
 refuses "was not installed" --prefix "$home/here"
 rmdir "$home/.local/share/mime/packages/pellucid.xml"
-# One that succeeds removes what the former one had elsewhere, and repairs.
+# A successful upgrade removes what the former version had elsewhere, and repairs.
 rm "$home/here/bin/pellucid" "$work/unpacked/share/icons/hicolor/scalable/apps/pellucid.svg"
 mkdir "$home/data"
 as_user XDG_DATA_HOME="$home/data" sh "$work/unpacked/install.sh" --prefix "$home/here" >/dev/null
@@ -118,7 +118,7 @@ as_user sh "$home/here/uninstall.sh" >/dev/null
 left=$(cd "$home" && find . -iname '*pellucid*' -not -path './src/*' -print -o -path './.local/*' -print)
 [[ -z $left ]] || fail "left behind: $left"
 
-# A copy has nothing elsewhere, and what is relative counts for nothing.
+# A copy owns nothing elsewhere, and relative paths in the environment are ignored.
 install || fail "$(cat "$work/said")"
 cp -a "$home/.local/opt/pellucid" "$home/copy"
 as_user sh "$home/copy/uninstall.sh" >/dev/null
@@ -128,7 +128,7 @@ mkdir -p "$work/here/pellucid"
 [[ -d $work/here/pellucid ]] || fail "a folder of the place where it was started is gone"
 [[ ! -e $home/.local/opt/pellucid ]] || fail "still there"
 
-# Stopped at any time, or killed: as before or as after, and the next one is whole.
+# Stopped at any time, or killed, it leaves the former or the new state, and the next installation is complete.
 home=$work/stopped
 mkdir -p "$home/.config"
 before=$(all_of "$home")
@@ -160,7 +160,7 @@ for signal in TERM KILL; do
         done
     done
 done
-# Two at once take turns.
+# Two installations at once take turns.
 for round in 1 2 3; do
     for one in a b; do
         (cd "$work/unpacked" && as_user sh ./install.sh >"$work/said.$one" 2>&1) &

@@ -12,7 +12,7 @@
 
 namespace pellucid::test {
 
-/// How a command ended and what it said.
+/// The exit code and the output of a command.
 struct CommandResult {
     int exitCode = -1; ///< 128 + signal if it was killed
     std::string out, error;

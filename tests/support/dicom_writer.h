@@ -21,12 +21,12 @@
 
 namespace pellucid::test {
 
-/// A DICOM file written byte by byte, without any library that could correct what is wrong in it.
+/// A DICOM file written byte by byte, without any library that could correct its errors.
 class DicomWriter {
 public:
     using Tag = std::pair<std::uint16_t, std::uint16_t>;
 
-    /// What a file does that the standard forbids, or what it does instead.
+    /// The form of a file, which may deviate from the standard.
     struct Form {
         std::string syntax = "1.2.840.10008.1.2.1"; ///< as stated in the meta header
         bool isImplicit = false;                    ///< the data set, whatever is stated
@@ -156,13 +156,13 @@ struct SeriesKnobs {
     bool oneInstance = false; ///< one instance UID in all
     double axisJitterRad = 0.0;
     double pixelJitter = 0.0; ///< relative
-    /// Of each slice: (centre, width); none by default.
+    /// The (centre, width) of each slice; none by default.
     std::function<glm::dvec2(int slice)> window;
     /// The stored values, 16 bits signed.
     std::function<int(int column, int row, int slice)> value = [](int i, int j, int k) {
         return 100 * k + 10 * j + i;
     };
-    /// The last word on each file.
+    /// Changes each file last.
     std::function<void(DicomWriter &, int slice)> change;
 };
 
@@ -213,7 +213,7 @@ inline DicomWriter sliceOf(const SeriesKnobs &knobs, int k) {
     return w;
 }
 
-/// Files S001.dcm and on.
+/// Writes files S001.dcm, S002.dcm, ...
 inline void writeSeries(const std::filesystem::path &folder, const SeriesKnobs &knobs,
                         const DicomWriter::Form &form = DicomWriter::Form()) {
     std::filesystem::create_directories(folder);

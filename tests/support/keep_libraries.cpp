@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Libraries stay loaded in sanitized tests: what one that is gone has left cannot be named, nor be
-// suppressed by its name.
+// Libraries stay loaded in sanitized tests: leaks of an unloaded library have no names, neither to
+// report nor to suppress.
 #include <dlfcn.h>
 
 extern "C" int dlclose(void *) noexcept {

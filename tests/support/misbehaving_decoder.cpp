@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A decoder that a file has taken over: it is confined as the real one is, and does what the word
-// behind the file's preamble says.
+// A decoder that a file has taken over. It is confined like the real one, and does what the word
+// after the file's preamble says.
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -56,7 +56,7 @@ void act(std::string_view word) {
     else if (word == "hang")
         for (const itimerval never{};;)
             ::setitimer(ITIMER_PROF, &never, nullptr);
-    else if (word == "dawdle") { // under the clock of its own
+    else if (word == "dawdle") { // until its own clock ends it
         parse::Watch watch;
         watch.allow(decoder::decodingSeconds({Message::Kind::header, 0, 0, 0}));
         for (;;)
@@ -147,7 +147,7 @@ void act(std::string_view word) {
         decoder::send(decoder::socketDescriptor, {Message::Kind::part, 0, 0, 1 << 16});
     else if (word == "half-a-sample")
         decoder::send(decoder::socketDescriptor, {Message::Kind::part, 0, 0, 3});
-    else if (word == "no-samples") // and so for ever
+    else if (word == "no-samples") // and so on for ever
         decoder::send(decoder::socketDescriptor, {Message::Kind::part, 0, 0, 0});
     else if (word == "fewer-samples")
         decoder::send(decoder::socketDescriptor, {Message::Kind::done, 0, 0, 0});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two studies side by side: what moves along, and what is matched by hand.
+// Two studies side by side: they move together and can be matched by hand.
 #include "tests/ui/studies_window.h"
 
 #include <QLabel>
@@ -20,7 +20,7 @@ private slots:
         StudiesWindow::initTestCase();
         writeChests();
     }
-    // One after the other beside one study; what follows a step that fails is not tried.
+    // The steps follow each other beside one study; the first that fails ends the test.
     void aPriorIsShownBesideAndMovesAlong() {
         using Step = void (BesideTest::*)();
         for (const Step step :
@@ -47,7 +47,7 @@ private:
         QCOMPARE(now().scene().camera.panMm, camera.panMm);
     }
 
-    // From either side.
+    // Either projection turns the other.
     void turnTheProjections() {
         dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {60, 20});
         QVERIFY(prior().scene().camera.orientation == now().scene().camera.orientation);
@@ -72,7 +72,7 @@ private:
         QCOMPARE(moved.size(), 0);
     }
 
-    // Each about its own, which are at the same place of the pictures.
+    // Each turns about its own crosshair, and both are at the same place of the pictures.
     void turnAboutTheCrosshairs() {
         find<QAction>("orbitCrosshairAction")->trigger();
         auto *axial = find<QWidget>("axialView");
@@ -95,7 +95,7 @@ private:
         find<QAction>("orbitCrosshairAction")->trigger();
     }
 
-    // The window of either is one step to undo.
+    // Windowing either study is one step to undo.
     void movePlanesAndWindows() {
         const glm::dvec3 before = apart();
         turnWheel(find<QWidget>("axialView"), 2);
@@ -126,7 +126,7 @@ private:
         QVERIFY(other()->isVisible());
     }
 
-    // Unlinked, moved, linked again.
+    // The studies are unlinked, moved and linked again.
     void matchByHand() {
         const glm::dvec3 before = apart();
         QTest::mouseClick(find<QToolButton>("linkButton"), Qt::LeftButton);
@@ -145,7 +145,8 @@ private:
         QVERIFY(glm::distance(apart(), matched) < 1e-6);
     }
 
-    // The former study comes back as the leader is looked at now, and leaves the leader alone.
+    // The former study comes back in the pose that the leader has now, and the leader stays as it
+    // is.
     void cancelAnotherStudy() {
         QTRY_VERIFY(!beside()->jobs().isRunning());
         choose(volumeRow("Miller Ann"), "openBesideAction");
@@ -175,7 +176,7 @@ private:
     ui::ProjectionView *other() { return find<ui::ProjectionView>("beside_projectionView"); }
     ui::Document &now() { return mainWindow().document(); }
     ui::Document &prior() { return beside()->document(); }
-    // Of the crosshairs. *Units*: mm.
+    // The distance of the crosshairs. *Units*: mm.
     glm::dvec3 apart() { return prior().crosshair().mm - now().crosshair().mm; }
     void settleBeside() {
         QTRY_VERIFY_WITH_TIMEOUT(other()->showsWhatIsAskedFor() && !beside()->jobs().isRunning(),

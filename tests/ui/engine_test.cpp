@@ -164,7 +164,7 @@ private slots:
             return QTest::qWaitFor([&] { return !frames.empty(); }, patienceMs) ? frames.front()
                                                                                 : nullptr;
         };
-        // The card compiles for longer than a hand waits: the processor makes the first frame.
+        // Compiling on the GPU takes longer than a user waits: the CPU makes the first frame.
         auto onCard = next();
         QVERIFY(onCard &&
                 (onCard->onCard || onCard->refusal == task::because::cardIsBeingPrepared));
@@ -184,7 +184,7 @@ private slots:
         QVERIFY(later && !later->refusal); // the lost one is not asked again
     }
 
-    // As when a pane is dragged to a second screen.
+    // The pane moves to another window, as when it is dragged to a second screen.
     void thePictureSurvivesAMoveToAnotherWindow() {
         needCard();
         open(headPath());

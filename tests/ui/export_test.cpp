@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What leaves the workstation: pictures in every format, captures, turntables.
+// Exports: pictures in every format, captures, turntables.
 #include "tests/ui/workstation.h"
 
 #include <QCheckBox>
@@ -36,14 +36,14 @@ private slots:
         const QSize pane = projection()->size();
         const QImage plain = exported("Projection", 0, 1, false);
         QCOMPARE(plain.size(), pane);
-        // In a large pane a small volume is shown with fewer pixels than it is written with.
+        // In a large pane a small volume is shown with fewer pixels than it is exported with.
         const QImage shown =
             projection()->picture().scaled(pane, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
         QVERIFY(changed(plain, shown) < 0.02);
         QCOMPARE(plain.text("Comment"), QString("Not for diagnostic use"));
         const QImage annotated = exported("Projection", 0, 2, true);
         QCOMPARE(annotated.size(), 2 * pane);
-        // Computed, not magnified: small it is the same, and it has the letters.
+        // The picture is computed, not magnified: scaled down it is the same, with letters.
         const QImage small =
             annotated.scaled(pane, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
         QVERIFY(changed(small, plain) > 0.002 && changed(small, plain) < 0.1);
@@ -92,19 +92,20 @@ private slots:
         QVERIFY(said.contains("[" + study.uid + "]"));
         QVERIFY(said.contains("[Secret^Name]"));
         QVERIFY(said.contains("[L\\F]"));
-        // Letters are colored, a grey projection is grey: everybody reads it, this program too.
+        // The capture of a grey projection is grey, despite colored letters: every program reads
+        // it, this one too.
         QVERIFY(said.contains("MONOCHROME2"));
         const auto &sources = mainWindow().document().sources();
         QCOMPARE(sources.size(), std::size_t(2));
         QVERIFY(!sources[1].volume.placed);
         QCOMPARE(sources[1].study.uid, study.uid);
-        // Read by somebody else it is the picture.
+        // Another program reads the same picture.
         const QString png = file + ".png";
         QCOMPARE(QProcess::execute("dcm2pnm", {"+on", file, png}), 0);
         const QImage back(png), direct = exported("Projection", 0, 1, true);
         QCOMPARE(back.size(), direct.size());
         QVERIFY(changed(back, direct.convertToFormat(QImage::Format_Grayscale8)) < 0.001);
-        // Without annotations it is grey, and of a plane as well.
+        // A plane without annotations is grey as well.
         exported("Axial", 4, 1, false);
         dump.start("dcmdump", {"-q", "+P", "0028,0004", file});
         QVERIFY(dump.waitForFinished() && dump.exitCode() == 0);
@@ -177,9 +178,9 @@ private slots:
         QVERIFY(frame(4).isNull());
         QVERIFY(changed(frame(0), exported("Projection", 0, 1, false)) == 0.0);
         QVERIFY(changed(frame(0), frame(1)) > 0.05);
-        // Half a turn is the mirrored view: rays run both ways through the same.
+        // Half a turn gives the mirrored view: rays pass through the same samples either way.
         QVERIFY(changed(frame(2), frame(0).mirrored(true, false)) < 0.02);
-        // A longer turn under the same name, cancelled: what was there stays as it was.
+        // A longer turntable of the same name is cancelled: the former frames stay.
         const QImage before = frame(0);
         dialogFor("Projection", 5, 4, true);
         find<QSpinBox>("exportFramesBox")->setValue(200);
@@ -245,7 +246,7 @@ private:
         path->setText(QString::fromStdString((m_folder / "out.png").string()));
         find<QComboBox>("exportFormatBox")->setCurrentIndex(format);
     }
-    // To the question that the next click asks.
+    // Answers the question that the next click asks.
     void answerWith(QMessageBox::StandardButton button) {
         QTimer::singleShot(0, this, [button] {
             auto *const box = qobject_cast<QMessageBox *>(QApplication::activeModalWidget());
@@ -253,7 +254,7 @@ private:
             QTest::mouseClick(box->button(button), Qt::LeftButton);
         });
     }
-    // Written, and the dialog is gone.
+    // Exports and waits until the dialog is closed.
     void finish() {
         find<QPushButton>("exportWriteButton")->click();
         QTRY_VERIFY_WITH_TIMEOUT(mainWindow().findChild<QDialog *>("exportDialog") == nullptr,

@@ -12,7 +12,7 @@
 #include <QWheelEvent>
 #include <QtTest>
 
-/// What a person's hand does to widgets.
+/// Acts on widgets as a person does, by mouse.
 namespace pellucid::test {
 
 /// Drops files and folders on a window.

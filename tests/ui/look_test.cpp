@@ -57,7 +57,8 @@ private slots:
         settle();
         QVERIFY(find<QLabel>("planLabel")->text().startsWith("trilinear"));
         QVERIFY(predicted() > 1.0);
-        QVERIFY(find<QLabel>("planReasonLabel")->text().startsWith("The error exceeds the tolerance"));
+        QVERIFY(
+            find<QLabel>("planReasonLabel")->text().startsWith("The error exceeds the tolerance"));
         save("quality_trilinear");
 
         auto *tolerance = find<QLineEdit>("toleranceEdit");
@@ -128,7 +129,7 @@ private slots:
         QCOMPARE(weights[2], 0.0);
         // Two clicks keep the look.
         QTest::mouseClick(find<QPushButton>("saveLookButton"), Qt::LeftButton);
-        QTest::mouseClick(find<QPushButton>("keepLookButton"), Qt::LeftButton);
+        QTest::mouseClick(find<QPushButton>("confirmLookButton"), Qt::LeftButton);
         auto *gallery = find<QListWidget>("presetGallery");
         QCOMPARE(int(gallery->findItems("Custom look 1", Qt::MatchExactly).size()), 1);
         while (document().undoStack()->canUndo())
@@ -196,8 +197,8 @@ private slots:
         auto *name = find<QLineEdit>("lookNameEdit");
         name->setText("X-ray");
         QTest::keyClick(name, Qt::Key_Return);
-        QVERIFY(find<QLabel>("presetSaid")->isVisible());
-        QVERIFY(find<QLabel>("presetSaid")->text().contains("is built in"));
+        QVERIFY(find<QLabel>("presetMessage")->isVisible());
+        QVERIFY(find<QLabel>("presetMessage")->text().contains("is built in"));
         QVERIFY(name->isVisible()); // still there for a different name
         QTest::keyClick(name, Qt::Key_Escape);
         QVERIFY(!name->isVisible());

@@ -190,7 +190,7 @@ private slots:
         other.resize(m_area->size());
         other.show();
         QVERIFY(QTest::qWaitForWindowExposed(&other));
-        // As studies side by side are linked: both ways.
+        // The areas follow each other, as for studies side by side.
         connect(m_area.get(), &PaneArea::arranged, &other, [&] { other.arrangeAs(*m_area); });
         connect(&other, &PaneArea::arranged, m_area.get(), [&] { m_area->arrangeAs(other); });
         dragHandle(handleOf(*m_area, "paneColumns", 1), {80, 0});

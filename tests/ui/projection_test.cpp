@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The projection: what it turns about, what part of the volume it shows, and looks compared.
+// The projection: its center of rotation, the part of the volume that it shows, and the comparison
+// of looks.
 #include "tests/ui/workstation.h"
 
 #include <QLabel>
@@ -118,7 +119,7 @@ private slots:
         auto *axial = find<ui::MprView>("axialView");
         QTest::keyClick(&mainWindow(), Qt::Key_K);
         QVERIFY(find<QAction>("cropToolAction")->isChecked());
-        // The left side of the box, to the middle: the patient's right half goes.
+        // Dragging the left side of the box to the middle removes the patient's right half.
         const volume::Lattice &lattice = mainWindow().document().volume()->lattice();
         const auto at = [&](double column) {
             return axial->mapping()
@@ -137,8 +138,8 @@ private slots:
         settle();
         const QImage half = projection()->picture();
         const int w = half.width(), h = half.height();
-        // Nothing is left at the left of the picture, and the right is as it was, but for the
-        // brightness, which is measured again.
+        // The left of the picture is empty. The right is unchanged except for the brightness, which
+        // is measured again.
         QVERIFY(meanGrey(half, QRect(0, h / 4, w / 2 - 12, h / 2)) < 2.0);
         QVERIFY(meanGrey(half, QRect(w / 2, h / 4, w / 4, h / 2)) > 20.0);
         save("crop");
@@ -185,7 +186,8 @@ private slots:
         QVERIFY(projection()->isComparing());
         settle(); // the former look is made, too
         const QImage both = grab("projectionView");
-        // The middle of the former at the left, of this one at the right.
+        // The left half shows the middle of the former look, the right half that of the present
+        // one.
         const int w = both.width(), h = both.height();
         const QRect area(0, h / 4, w / 2 - 4, h / 2), middle(w / 4, h / 4, w / 2 - 4, h / 2);
         QVERIFY(changed(both.copy(area), xRay.copy(middle)) < 0.05);
@@ -203,7 +205,7 @@ private slots:
         QVERIFY(changed(both, grab("projectionView")) > 0.05);
     }
 
-    // One after the other they would be shown as if at one place.
+    // Played as phases, they would seem to be in one place.
     void stacksInDifferentFramesOfReferenceAreNoPhases() {
         writePhases("spaces", false);
         open(QString::fromStdString((m_folder / "spaces").string()));

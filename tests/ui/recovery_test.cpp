@@ -176,7 +176,7 @@ private slots:
         QVERIFY(changed(projection()->picture(), picture) < 0.001);
         auto *overlay = projection()->findChild<QWidget *>("projectionOverlay");
         const QImage shown = overlay->grab().toImage();
-        // As it is after another view.
+        // Another view and back gives the same overlay.
         const ui::Pose pose = document().pose();
         document().setPose(turned());
         const QImage other = overlay->grab().toImage();

@@ -20,7 +20,7 @@
 #include "ui/views/mpr_view.h"
 #include "ui/window/workstation.h"
 
-#ifdef PELLUCID_SANITIZED // whose allocator the C library knows nothing of
+#ifdef PELLUCID_SANITIZED // the C library does not know the sanitized allocator
 extern "C" std::size_t __sanitizer_get_current_allocated_bytes();
 static std::size_t bytesInUse() {
     return __sanitizer_get_current_allocated_bytes();
@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// How long the event loop was kept by one event. *Units*: ms.
+// Measures how long each event keeps the event loop busy. *Units*: ms.
 class WatchedApplication : public ui::Application {
 public:
     using Application::Application;
@@ -89,7 +89,7 @@ int openDescriptors() {
     return count;
 }
 
-// What Qt warns of while it is watched, whichever thread it happens on.
+// Collects Qt's warnings on all threads.
 class WatchedWarnings {
 public:
     WatchedWarnings() { s_before = qInstallMessageHandler(take); }
@@ -116,17 +116,16 @@ private:
     static inline QStringList s_texts;
 };
 
-// How much is done, and what it may leave. Every pass does the same operations, and the first is
-// not measured: what it leaves is kept on purpose.
+// The amount of work, and the growth that it may leave. Every pass does the same operations. The
+// first is not measured, because it fills the caches.
 struct Effort {
-    int operations; ///< of a pass
-    int passes;     ///< that are measured
-    int everyLook;  ///< one look of so many is used
-    /// What is in use on the heap returns to its level. Where fewer operations are measured, what
-    /// happens to be running when a pass ends weighs more.
+    int operations; ///< in a pass
+    int passes;     ///< measured ones
+    int everyLook;  ///< uses every n-th look
+    /// The heap in use returns to its level. With fewer operations, jobs that still run at the end
+    /// of a pass weigh more.
     double heapGrowth;
-    double
-        waitMs; ///< longer than this an event must not keep the window, but for one of a thousand
+    double waitMs; ///< limit on an event; one in a thousand may take longer
 };
 constexpr Effort brief{50, 2, 4, 1.1, 250.0}, thorough{500, 2, 1, 1.05, 100.0};
 
@@ -158,7 +157,7 @@ private slots:
         QVERIFY(QTest::qWaitForWindowExposed(&m_program->window()));
         const picture::Samples picture = pictureOfTheFirstStudy();
         QVERIFY(!picture.empty());
-        // Caches and kept studies have their size after a while: memory is compared from there on.
+        // Caches and kept studies reach their size first: memory is compared from then on.
         fillCaches();
         runPass();
         const double before = memoryAtRestMb(), inUseBefore = m_inUseMb;
@@ -185,19 +184,19 @@ private slots:
               spans.size(), at(0.5), at(0.99), at(0.999), application().worst,
               qPrintable(application().worstWas));
         qInfo("above 16 ms: %zu, above 100 ms: %zu", above(16.0), above(100.0));
-        // Beside the heap, the software renderer's code and what the allocator cannot give back are
-        // resident.
+        // Resident memory also has the software renderer's code and what the allocator cannot give
+        // back.
         QVERIFY2(m_inUseMb < m_effort.heapGrowth * inUseBefore, "memory grows");
         QVERIFY2(after < 1.2 * before, "resident memory grows");
         QVERIFY2(openDescriptors() <= descriptors + 3, "descriptors stay open");
 #ifndef PELLUCID_SANITIZED // ten times slower
-        // None is the aim; a busy machine takes the processor away now and then.
+        // The aim is none, but a busy machine takes the processor away now and then.
         QVERIFY2(above(m_effort.waitMs) <= spans.size() / 1000, "operations block the window");
 #endif
         // A software renderer draws nothing while the processor makes the pictures.
         const auto &window = ui::windowCapabilities();
         QVERIFY(glObjects > 0 || !window || window->software);
-        // A pane that was never shown before makes its own.
+        // A pane that is shown for the first time makes objects of its own.
         QVERIFY2(sharedGlObjects() <= glObjects + 8, "objects of OpenGL stay");
         QCOMPARE(failed.size(), 0);
         QCOMPARE(said.size(), 0);
@@ -270,7 +269,7 @@ private:
             operate(random());
     }
 
-    // Results of steps are kept by content: every look in use, of every study, once.
+    // Results of steps are kept by content: every look in use is chosen once for every study.
     void fillCaches() {
         for (int study = 0; study < 3; ++study) {
             openStudy(study);
@@ -288,7 +287,7 @@ private:
         return gallery.visualItemRect(gallery.item(row)).center();
     }
 
-    // With nothing open, and what the allocator keeps for later given back.
+    // Resident memory when nothing is open, after the allocator has given back its reserve.
     double memoryAtRestMb() {
         settleDown();
         const int count = int(document().sources().size());
@@ -301,7 +300,7 @@ private:
         return residentMb();
     }
 
-    // Not waited for its end, most of the time: users do not either.
+    // Most operations do not wait for the former one to end, and neither do users.
     void operate(unsigned what) {
         const unsigned detail = what / 16;
         const bool isOpen = document().volume().has_value();

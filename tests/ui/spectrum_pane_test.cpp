@@ -41,7 +41,7 @@ private slots:
         QVERIFY(!dock()->isVisible());
     }
 
-    // Many views at once are the first and the last.
+    // Of many views at once only the first and the last are sampled.
     void onlyTheLatestViewIsSampledWhileItTurns() {
         open(headPath());
         find<QAction>("spectrumAction")->trigger();

@@ -54,7 +54,7 @@ inline void keepToFolder(const test::TemporaryFolder &folder) {
     QStandardPaths::setTestModeEnabled(true);
     QSettings().clear();
     qputenv("XDG_DATA_HOME", QByteArray::fromStdString((folder / "data").string()));
-    // As the programs do: one plan of FFTW, and so the same bits, for all of them.
+    // The tests share one plan of FFTW, as the programs do, and so compute the same bits.
     qputenv("XDG_CACHE_HOME", QByteArray::fromStdString((folder / "cache").string()));
     fourier::keepWisdomIn(*files::userCacheFolder() / "fftw-wisdom");
 }

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of the first signal.
+// The reason in the first signal.
 const task::Reason &reasonOf(const QSignalSpy &failures) {
     return *static_cast<const task::Reason *>(failures[0][0].constData());
 }
@@ -104,7 +104,7 @@ private slots:
                                  patienceMs);
     }
 
-#ifndef PELLUCID_SANITIZED // which reserve terabytes
+#ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes
     void aFailedPreparationIsReportedAndRepeatedByF5() {
         restart();
         open(headPath());
@@ -138,8 +138,8 @@ private slots:
         }
     }
 
-    // From too little to enough, in steps: a study is open or a reason is given, and with memory
-    // the next one opens.
+    // Memory grows in steps from too little to enough: a study opens or a reason is given, and once
+    // there is memory, the next one opens.
     void aLackOfMemoryIsReportedAndTheNextStudyOpens() {
         const fs::path large = m_folder / "large";
         dicom::writeCtSeries(large,

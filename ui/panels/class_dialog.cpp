@@ -86,7 +86,7 @@ ClassDialog::ClassDialog(Document &document, const classify::TissueClass &tissue
     removal->setObjectName("removeStepButton");
     removal->setAutoDefault(false);
     m_color->setAutoDefault(false);
-    m_message->setObjectName("classSaid");
+    m_message->setObjectName("classMessage");
     m_message->setProperty("role", "warning");
     m_message->setWordWrap(true);
 

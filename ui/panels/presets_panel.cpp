@@ -68,8 +68,8 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     m_name->setAccessibleName(tr("Name of the look"));
     m_name->setMaxLength(60);
     m_name->installEventFilter(this);
-    m_confirm->setObjectName("keepLookButton");
-    m_message->setObjectName("presetSaid");
+    m_confirm->setObjectName("confirmLookButton");
+    m_message->setObjectName("presetMessage");
     m_message->setProperty("role", "warning");
     m_message->setWordWrap(true);
     m_message->hide();

@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"cuedAndLit", lit(cued(shading::CueKind::linear), {1.0, 1.0, 1.0})}),
     [](const auto &tested) { return std::string(tested.param.name); });
 
-// Float cells keep no rounding, so there is nothing to tell.
+// Float cells keep no rounding, so there is nothing to predict.
 TEST(CentralRoundingOfFloats, IsZeroForFloatCells) {
     scene::Scene scene;
     const DensityField field = blob();

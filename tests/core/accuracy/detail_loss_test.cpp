@@ -21,7 +21,7 @@ using render::ChannelWeights;
 
 constexpr classify::FieldWindow window{-900.0, 2000.0};
 constexpr ChannelWeights grey{1.0, 1.0, 1.0};
-// A wide roll-off has short tails, so exact pictures are cheap; what is lost is the same.
+// A wide roll-off has short tails, so exact pictures are cheap; the loss of detail is the same.
 constexpr scene::ImageDefinition fading{scene::Reconstruction::cubic, 0.5};
 
 volume::Volume phantomOf(phantom::Kind kind, const volume::GridSize &size, double tiltDeg) {
@@ -67,7 +67,7 @@ struct Case {
 
 class DetailLoss : public testing::TestWithParam<Case> {};
 
-// What is said is never less than what the worst of some views measures, and of its order: the
+// The stated loss is at least the worst measured in some views, and at most three times that: the
 // margin for views is 1.25, and pixels as large as the samples leave out detail that the samples
 // have, which makes a factor of three for edges.
 TEST_P(DetailLoss, BoundsWhatCoarsePicturesMeasure) {
@@ -141,7 +141,7 @@ TEST(DetailLossOfLayers, FollowsTheWeights) {
     }
 }
 
-// Under light edges show, and more is lost than of the plain picture.
+// Light brings out edges, so more is lost than in the plain picture.
 TEST(DetailLossUnderLight, BoundsWhatCoarsePicturesMeasure) {
     const volume::Volume fine = phantomOf(phantom::Kind::head, {56, 56, 40}, 0.0),
                          coarse = classify::coarseVolume(fine, 22);
@@ -214,7 +214,7 @@ TEST(DetailLossOfParts, BoundsWhatPartsAndCuesMeasure) {
                                     scale.stepMm);
     struct Part {
         double share;
-        glm::dvec2 off; // of half the whole
+        glm::dvec2 off; // relative to half the whole
     };
     double largest = 0.0;
     for (const shading::CueKind kind :
@@ -241,7 +241,7 @@ TEST(DetailLossOfParts, BoundsWhatPartsAndCuesMeasure) {
                 const double measured = relativeL2(shown, truth);
                 EXPECT_GE(loss.relativeError(image, std::vector{grey}, shading), measured)
                     << int(kind) << ' ' << part.share;
-                if (part.share == 1.0) // of other parts the bound may be far above
+                if (part.share == 1.0) // for other parts the bound may be far above
                     EXPECT_GE(loss.relativeError(std::vector{grey}, shading), measured);
                 largest = std::max(largest, measured);
             }

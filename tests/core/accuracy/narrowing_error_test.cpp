@@ -73,8 +73,8 @@ TEST_P(NarrowingError, IsEstimatedFromASample) {
             for (const ChannelWeights &color :
                  {ChannelWeights{1.0, 1.0, 1.0}, {1.0, 0.0, 0.0}, {0.9, 0.4, 0.1}}) {
                 const Seen found = seen(shading, color, tolerance);
-                // 800 samples know a sum to 5 %, and the margin of the picture's figure is 40 %.
-                // The error spreads over the whole period, of which the picture shows a third or
+                // 800 samples estimate a sum to 5 %, and the margin of the picture's figure is 40
+                // %. The error spreads over the whole period, of which the picture shows a third or
                 // more.
                 EXPECT_GT(found.estimated, 0.75 * found.measured)
                     << tolerance << " " << color[1] << " " << toJson(shading);

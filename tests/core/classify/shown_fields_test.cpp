@@ -97,7 +97,7 @@ TEST(ShownFields, AreAsManyAsTheColorsHaveRank) {
     const auto primary = classify::inPrimaries(mixed);
     ASSERT_EQ(primary.channels.size(), 3U);
     TissueClass third{"third", -100, 400, 100, 1.0, Color{0.5, 0.5, 0.5}};
-    // Half of each of the others, in a plane with them.
+    // The third color is half of each of the others, hence in a plane with them.
     EXPECT_EQ(classify::channelsOf({{}, {low, high, third}}), 2U);
     third.color.green = 0.6;
     const auto three = classify::shownFields(volume, window, {{}, {low, high, third}}, nullptr);

@@ -16,7 +16,7 @@ using classify::Step;
 using classify::StepEffect;
 using classify::StepKind;
 
-// What files of earlier programs hold.
+// Files of earlier programs contain these names.
 const std::vector<std::pair<StepKind, std::string>> names{
     {StepKind::gaussian, "gaussian"},   {StepKind::median, "median"},
     {StepKind::diffusion, "diffusion"}, {StepKind::gradient, "gradient"},
@@ -68,7 +68,7 @@ TEST(Step, GoesThroughTextAndJson) {
               std::string::npos)
         << json;
     EXPECT_EQ(classify::lookFromJson(json), look);
-    // A default is not written.
+    // Default values are not written.
     EXPECT_EQ(classify::stepText({StepKind::edges, {{"low", 20.0}}}), "edges");
 }
 
@@ -82,7 +82,7 @@ TEST(Step, InvalidStepsAreRefusedWithTheReason) {
                   std::string::npos)
             << reasonOf(text);
     }
-    // Infinity is a number, but of no range.
+    // Infinity is a number outside every range.
     EXPECT_EQ(reasonOf("gaussian(sigma_mm=inf)"),
               "sigma_mm of the step 'gaussian' is inf, not between 0.1 and 20");
     EXPECT_EQ(reasonOf("gaussian(sigma_mm=nan)"),

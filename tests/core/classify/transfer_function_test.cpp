@@ -89,7 +89,7 @@ TEST(TransferFunction, WeightedFieldIsTheDensityTimesTheCurve) {
     for (const auto &function :
          {TransferFunction{}, alternating(6), alternating(16), TransferFunction{{0.0, 0.0}}}) {
         const auto weighted =
-            classify::shownFields(field.values, {0.0, 1.0}, {function, {}}, nullptr)
+            classify::shownFields(field.values.samples(), {0.0, 1.0}, {function, {}}, nullptr)
                 .channels.front();
         for (int n = 0; n < 13 * 9 * 7; ++n) {
             const volume::VoxelIndex at{n % 13, n / 13 % 9, n / 117};
@@ -99,7 +99,7 @@ TEST(TransferFunction, WeightedFieldIsTheDensityTimesTheCurve) {
         }
     }
     const auto nothing =
-        classify::shownFields(field.values, {0.0, 1.0}, {TransferFunction{{0.0, 0.0}}, {}}, nullptr)
+        classify::shownFields(field.values.samples(), {0.0, 1.0}, {TransferFunction{{0.0, 0.0}}, {}}, nullptr)
             .channels.front();
     EXPECT_EQ(nothing.support.size().count(), 1U);
 }

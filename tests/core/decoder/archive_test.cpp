@@ -22,7 +22,7 @@ namespace {
 
 class Archive : public testing::Test {
 protected:
-    // A ZIP archive of what `fill` adds to it.
+    // Writes a ZIP archive with the files that `fill` adds.
     fs::path make(const std::function<void(struct archive *)> &fill, const char *options = nullptr,
                   const char *password = nullptr) {
         const fs::path path = m_folder / "test.zip";
@@ -126,7 +126,7 @@ TEST_F(Archive, zipBombsAreRefused) {
     EXPECT_TRUE(isOutEmpty());
 }
 
-// The directory says ten bytes, the data are a mebibyte.
+// The directory states ten bytes, but the file has a mebibyte.
 TEST_F(Archive, aFalseSizeUnpacksNoMoreThanTheLimit) {
     const fs::path path =
         make([](auto *w) { add(w, "liar", std::string(std::size_t(1) << 20, '\0')); }, "zip:store");
@@ -157,7 +157,7 @@ TEST_F(Archive, encryptedAndDamagedArchivesAreRefused) {
     EXPECT_THAT(refusal(path), testing::HasSubstr("damaged"));
 }
 
-// A file whose sum is wrong, and one whose data are no data of a compressor.
+// One file has a wrong checksum, and another cannot be decompressed.
 TEST_F(Archive, aDamagedFileCostsItself) {
     const auto content = [](int n) { return std::string(50000, char('a' + n)); };
     const fs::path path = make([&](auto *w) {
@@ -170,7 +170,7 @@ TEST_F(Archive, aDamagedFileCostsItself) {
         bytes.assign(std::istreambuf_iterator<char>(in), {});
     }
     const auto dataOf = [&](const std::string &name) {
-        const auto at = bytes.find(name); // behind the name and what else its header has
+        const auto at = bytes.find(name); // data follows the name and the extra field
         return at + name.size() + std::size_t(static_cast<unsigned char>(bytes[at - 2])) +
                256U * static_cast<unsigned char>(bytes[at - 1]);
     };

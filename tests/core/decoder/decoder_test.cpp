@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The process that decodes: what it may not do, and what is left of a file that has taken it over.
+// The decoder's process is confined: a file that takes it over costs only itself.
 #include "core/decoder/decoder.h"
 
 #include <algorithm>
@@ -77,7 +77,7 @@ TEST(Decoder, aMissingProgramIsNamed) {
     }
 }
 
-// Half of the old pixels and half of the new would be a picture, too.
+// A mix of old and new pixels would look like a picture.
 TEST(Decoder, aFileThatChangesWhileItIsReadIsRefused) {
     const test::TemporaryFolder folder;
     const auto lattice = volume::Lattice::centred({2048, 2048, 1}, {1, 1, 1});
@@ -90,7 +90,7 @@ TEST(Decoder, aFileThatChangesWhileItIsReadIsRefused) {
                          {}, dicom::TransferSyntax::jpeg2000);
     const fs::path path = folder / "IM0001.dcm";
     EXPECT_NO_THROW(Decoder::shared().image(path));
-    std::jthread writer([&](const std::stop_token &stop) { // as it takes most of a second
+    std::jthread writer([&](const std::stop_token &stop) { // decoding takes most of a second
         while (!stop.stop_requested()) {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
             std::fstream(path, std::ios::in | std::ios::out | std::ios::binary).put('\0');
@@ -116,7 +116,7 @@ TEST_F(TakenOver, itReachesNothing) {
     for (const char *const word : {"open-file", "new-file", "unlink", "write-arena-size", "code",
                                    "uncounted", "kill-parent"})
         EXPECT_EQ(said(word), "Operation not permitted") << word;
-    // What no decoder ever tries ends it.
+    // A system call that no decoder needs ends the process.
     for (const char *const word : {"socket", "process", "program"})
         EXPECT_THAT(said(word), HasSubstr("a forbidden system call")) << word;
     EXPECT_FALSE(fs::exists("pwned"));
@@ -195,7 +195,7 @@ TEST_F(TakenOver, cancellingDoesNotWaitForIt) {
     EXPECT_EQ(said("well"), "decoded by hand");
 }
 
-// What never answers is ended by its own clock, and where it has stopped that, by ours.
+// A decoder that never answers is ended by its own clock, or by ours if it has stopped that one.
 TEST_F(TakenOver, aHangIsEndedByTheClock) {
     if (std::getenv("PELLUCID_LONG_TESTS") == nullptr)
         GTEST_SKIP() << "takes twenty seconds, with the long tests";
@@ -225,13 +225,13 @@ TEST_F(TakenOver, aHangIsEndedByTheClock) {
     EXPECT_EQ(said("well"), "decoded by hand");
 }
 
-// The slice that takes the decoder over is named, the others are a volume.
+// The slice that takes over the decoder is named; the others form a volume.
 TEST_F(TakenOver, aSeriesLosesOneSlice) {
     const auto lattice =
         phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{32, 32, 20}});
     dicom::writeCtSeries(m_folder / "series", phantom::makePhantom(phantom::Kind::head, lattice),
                          {}, dicom::TransferSyntax::explicitLittle);
-    // Sequences in sequences until the stack would end.
+    // Sequences nested until the stack would overflow.
     std::string nested = test::readText(m_folder / "series/IM0007.dcm").substr(0, 132);
     nested += std::string("\x02\0\x10\0UI\x14\0"
                           "1.2.840.10008.1.2.1\0",
@@ -247,7 +247,7 @@ TEST_F(TakenOver, aSeriesLosesOneSlice) {
     EXPECT_EQ(dicom::defaultSelection(catalogue).volume->geometry.lattice.size().k, 20);
 }
 
-// What is decoded in another process is what is decoded in this one.
+// Decoding in another process gives the same samples as in this one.
 TEST(Decoder, givesTheSameSamples) {
     const auto lattice =
         phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 64, 3}});
@@ -265,8 +265,8 @@ TEST(Decoder, givesTheSameSamples) {
     }
 }
 
-// What the other process costs of a series' load; cold decoders included. The figures are printed,
-// the bound leaves room for a busy machine.
+// The other process costs little of a series' load, cold decoders included. The figures are
+// printed; the bound leaves room for a busy machine.
 TEST(Decoder, costsLittleOfALoad) {
     const bool isLong = std::getenv("PELLUCID_LONG_TESTS") != nullptr;
     const int slices = isLong ? 300 : 40;
@@ -310,7 +310,7 @@ TEST(Decoder, costsLittleOfALoad) {
             return v[2];
         };
         const double more = median(there) - median(here);
-        // A decoder is started once for all slices, however few: counted in a long load alone.
+        // A decoder is started once for all slices, so only a long load has to pay for it.
         const double start = median(starts);
         std::cout << slices << " slices: start " << 1e3 * start << " ms, here "
                   << 1e3 * median(here) << " ms, confined " << 1e3 * median(there)

@@ -79,7 +79,7 @@ auto fieldsOf(IsA<ArchiveFile> auto &f) {
     return std::tie(name, bytes, isEncrypted, isLink);
 }
 
-// Gives each field a valid value that no other field has, and that it does not begin with.
+// Gives each field a valid value that differs from its default and from all other fields.
 class Fill {
 public:
     template <class T>
@@ -173,7 +173,7 @@ std::span<const std::byte> bytesOf(const std::string &body) {
 } // namespace
 
 TEST(Message, everyFieldOfAHeaderComesThrough) {
-    InstanceHeader plain; // without the values that are optional
+    InstanceHeader plain; // without optional values
     plain.frames.resize(1);
     for (const InstanceHeader &sent : {filled<InstanceHeader>(), plain})
         expectSameFields(unpackHeader(bytesOf(pack(sent))), sent);
@@ -194,7 +194,8 @@ TEST(Message, aDirectoryComesThrough) {
     EXPECT_EQ(got.files, sent.files);
 }
 
-// Whatever a decoder sends that a file has taken over: a header or a refusal, in little memory.
+// A decoder that a file has taken over may send any bytes: they are a header or are refused, in
+// little memory.
 TEST(Message, nonsenseIsRefused) {
     const std::string good = pack(someHeader());
     for (std::size_t size = 0; size < good.size(); ++size)
@@ -216,7 +217,7 @@ TEST(Message, nonsenseIsRefused) {
             ++refused;
         }
     }
-    EXPECT_GT(taken, 0); // another letter in a name
+    EXPECT_GT(taken, 0); // a name with another letter is valid
     EXPECT_GT(refused, 0);
     InstanceHeader endless = someHeader();
     endless.frames[0].rescale.slope = std::numeric_limits<double>::infinity();
@@ -249,7 +250,7 @@ TEST(Message, reasonsComeThroughOnOneLine) {
     EXPECT_EQ(got(nested), nested);
     EXPECT_EQ(got(because::isDamagedBy("broken\n\x1B[2Jhere")),
               because::isDamagedBy("broken  [2Jhere"));
-    // The longest that a text of a header makes.
+    // The longest reason with a text from a header.
     const auto longest = because::isAColorImage(std::string(1024, 'x'));
     EXPECT_EQ(got(longest), longest);
 }

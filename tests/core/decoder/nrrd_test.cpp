@@ -47,7 +47,7 @@ protected:
 
 TEST_F(Nrrd, RoundTripsBothTypesAndEncodingsOnATiltedLattice) {
     const auto lattice = test::tiltedLattice({5, 4, 3}, {0.7, 0.9, 2.5}, 20.0);
-    const auto floats = test::noiseField(lattice).values;
+    const Volume floats = test::noiseField(lattice).values.samples();
     std::vector<std::int16_t> shorts(60);
     for (int n = 0; n < 60; ++n)
         shorts[n] = std::int16_t(n * 1000 - 30000);
@@ -176,7 +176,7 @@ TEST_F(Nrrd, ReadsDetachedGzipWithSpacings) {
     EXPECT_EQ(volume.lattice().spacingMm(2), 3.0);
 }
 
-// A byte of what is stored, not deflated: only the sum at the end of the file tells.
+// The data is stored, not deflated, so only the checksum at the end of the file reveals the change.
 TEST_F(Nrrd, AFlippedByteOfCompressedSamplesIsNoticed) {
     gzFile gz = gzopen((folder / "f.raw.gz").c_str(), "wb0"); // stored
     gzwrite(gz, "abcdef", 6);
@@ -190,7 +190,7 @@ TEST_F(Nrrd, AFlippedByteOfCompressedSamplesIsNoticed) {
     bytes[bytes.find("abcdef") + 2] = 'C';
     write(folder / "f.raw.gz", bytes);
     EXPECT_THROW(readVolumeFile(folder / "f.nhdr"), task::Error);
-    bytes.resize(bytes.size() - 4); // and without its end
+    bytes.resize(bytes.size() - 4); // truncated
     write(folder / "f.raw.gz", bytes);
     EXPECT_THROW(readVolumeFile(folder / "f.nhdr"), task::Error);
 }
@@ -235,7 +235,7 @@ TEST_F(Nrrd, RefusesWhatItCannotReadAndNamesTheFile) {
     EXPECT_THROW(readVolumeFile(folder / "absent.nrrd"), task::Error);
 }
 
-// A header may not have another file shown, nor be read for ever, nor waited for.
+// A header must not make the program show another file, read for ever or wait.
 TEST_F(Nrrd, DataFilesAreBesideOrBelowTheHeader) {
     std::filesystem::create_directories(folder / "study/below");
     write(folder / "secret.raw", "abcdef");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NIfTI and MetaImage against files that ITK writes, which shares no code with ours, and against
-// bytes by the letter of the formats.
+// NIfTI and MetaImage are compared with files written by ITK, which shares no code with ours, and
+// with bytes laid out as the formats specify.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -29,7 +29,7 @@ using volume::Volume;
 
 template <class T> using Image = itk::Image<T, 3>;
 
-// Values 1, 2, ... on a lattice with right angles: ITK's images have no others.
+// Values 1, 2, ... on a lattice with right angles, the only kind that ITK's images have.
 template <class T> typename Image<T>::Pointer imageOn(const volume::Lattice &lattice) {
     auto image = Image<T>::New();
     typename Image<T>::SizeType size;
@@ -110,7 +110,7 @@ TEST_F(VolumeFormats, WhatItkWritesIsReadWithItsPlace) {
     each(double());
 }
 
-// A header of NIfTI by its offsets, in either byte order.
+// A NIfTI header, written at its offsets, in either byte order.
 class NiftiBytes {
 public:
     explicit NiftiBytes(bool isVersion2, bool isBig = false)
@@ -217,7 +217,7 @@ TEST_F(VolumeFormats, NiftiIsRescaledAndKeepsWholeNumbersAsSuch) {
     }
 }
 
-// A series of four dimensions is one series with a volume for each time.
+// A file of four dimensions is one series with a volume for each time.
 TEST_F(VolumeFormats, VolumesOfAFourthAxisArePhases) {
     test::writeText(folder / "t.nii", NiftiBytes(true).file());
     const auto catalogue = dicom::scan({folder / "t.nii"});
@@ -265,8 +265,8 @@ TEST_F(VolumeFormats, UnsupportedFilesAreRefusedWithTheReason) {
               "is truncated");
 }
 
-// Values that are one number in 24 bits are refused, by the range that they have, or are shown with
-// a warning where other values make the range.
+// Values that are one number in 24 bits are refused if they make up the whole range. If other
+// values widen the range, they are shown with a warning.
 TEST_F(VolumeFormats, ValuesThatFloatsCannotDistinguishAreReported) {
     const auto read = [&](const std::function<double(int)> &value) -> std::string {
         std::string bytes = "NRRD0004\ntype: double\ndimension: 3\nsizes: 10 10 10\nencoding: "

@@ -43,8 +43,8 @@ TEST_P(OtherReader, GdcmReadsEverySliceWithItsPlace) {
     }
 }
 
-// GDCM's own RLE and JPEG-LS readers are older than our encoders and correct; deflated is not read
-// by it.
+// GDCM's own RLE and JPEG-LS readers are older than our encoders and correct. It does not read the
+// deflated syntax.
 INSTANTIATE_TEST_SUITE_P(TransferSyntaxes, OtherReader,
                          testing::Values("implicit", "explicit", "big-endian", "rle",
                                          "jpeg-lossless", "jpeg-ls", "jpeg-2000"),

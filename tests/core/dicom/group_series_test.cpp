@@ -43,7 +43,7 @@ TEST(GroupSeries, EveryVolumeOfASeriesHasALabelOfItsOwn) {
     EXPECT_EQ(dicom::labelText(entries[3].label), "axial 2");
 }
 
-// Phases of one stack share its name; a stack of another space is none of them.
+// Phases of one stack share its name; a stack with another frame of reference is not one of them.
 TEST(GroupSeries, PhasesOfOneStackSayThatTheyAre) {
     auto files = stack({0, 2, 4, 0, 2, 4, 0, 2, 4});
     for (int n = 0; n < 9; ++n) {
@@ -58,7 +58,7 @@ TEST(GroupSeries, PhasesOfOneStackSayThatTheyAre) {
                                                 "temporal position 2, axial 1"}));
 }
 
-// Thousands of images at a handful of places, as of a long perfusion without any times.
+// Thousands of images at a few positions, as in a long perfusion without any times.
 TEST(GroupSeries, ManyImagesAtOnePlaceAreSetsInTheOrderOfTheirNumbers) {
     constexpr int places = 3;
     const auto seconds = [](int sets) {
@@ -72,7 +72,7 @@ TEST(GroupSeries, ManyImagesAtOnePlaceAreSetsInTheOrderOfTheirNumbers) {
         std::reverse(files.begin(), files.end());
         double fastest = 1e9;
         for (int round = 0; round < 3; ++round) {
-            const std::clock_t start = std::clock(); // of this process, whatever runs beside it
+            const std::clock_t start = std::clock(); // CPU time of this process alone
             const auto entries = group(files);
             fastest = std::min(fastest, double(std::clock() - start));
             EXPECT_EQ(entries.size(), std::size_t(sets));
@@ -83,11 +83,12 @@ TEST(GroupSeries, ManyImagesAtOnePlaceAreSetsInTheOrderOfTheirNumbers) {
         }
         return fastest;
     };
-    // Sixteen times as many take 16 times as long, twice that beyond the caches; not 256 times.
+    // 16 times as many images take 16 times as long, or twice that beyond the caches; not 256
+    // times.
     EXPECT_LT(seconds(8000), 90.0 * seconds(500));
 }
 
-// Places that jitter by less than a slice is thick, each twice.
+// Positions jitter by less than the slice thickness, and each occurs twice.
 TEST(GroupSeries, ASetHasEachPositionOnceDespiteJitter) {
     std::vector<SeriesFile> files = stack({0, .012, .001, .006, 2, 2.012, 2.001, 2.006});
     for (std::size_t n = 0; n < files.size(); ++n)
@@ -106,7 +107,7 @@ TEST(GroupSeries, ASeriesOfManyStacksCanBeCancelled) {
                  task::Cancelled);
 }
 
-// Anonymisers that replace every UID by itself.
+// Some anonymisers replace every UID independently.
 TEST(GroupSeries, FramesOfReferenceThatRarelyRepeatAreIgnored) {
     auto files = stack(evenDepths(30, 2.0));
     for (std::size_t n = 0; n < files.size(); ++n)
@@ -138,7 +139,7 @@ TEST(GroupSeries, ASharedInstanceUidLosesNoImage) {
     EXPECT_EQ(skipped[0].path, "copy");
 }
 
-// An Enhanced file and the slices that were taken out of it.
+// An Enhanced file and the slices that were extracted from it.
 TEST(GroupSeries, AnEnhancedFileAndItsSlicesUnderOneUidAreTwoVolumes) {
     auto files = stack(evenDepths(7, 2.0));
     SeriesFile enhanced = files[0];

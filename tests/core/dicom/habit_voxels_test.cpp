@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The voxels and notes of series with the habits of scanners, anonymisers and converters: what is
-// loaded is what was written.
+// The voxels and notes of series with the habits of scanners, anonymisers and converters: a loaded
+// series equals the written one.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -61,7 +61,7 @@ TEST(Habits, VoxelsAreThoseThatWereWritten) {
         ASSERT_EQ(volume.lattice().size(),
                   (volume::GridSize{knobs.columns, knobs.rows, knobs.slices}));
         EXPECT_NEAR(volume.lattice().sliceDistanceMm(), knobs.stepMm,
-                    0.1 / (knobs.slices - 1)); // of one decimal
+                    0.1 / (knobs.slices - 1)); // positions have one decimal
         expectVoxels(volume, knobs);
     };
     whole({.ownFrames = true});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Series as scanners, anonymisers and converters write them, each with one of their habits. A row
-// of outcomes.md says what comes of each; habit_voxels_test.cpp compares the voxels.
+// Series as scanners, anonymisers and converters write them, each with one of their habits.
+// outcomes.md states the outcome of each; habit_voxels_test.cpp compares the voxels.
 #include <gtest/gtest.h>
 
 #include <ctime>
@@ -71,7 +71,7 @@ volume::Volume smallHead() {
 using Write = std::function<void(const fs::path &folder)>;
 using Turn = std::function<void(SeriesKnobs &)>;
 
-// How a series of each habit is written, by the habit's name.
+// Functions that write a series with a habit, by the habit's name.
 class HabitList {
 public:
     void add(const std::string &name, const Turn &turn, const Form &form = Form()) {
@@ -81,7 +81,7 @@ public:
             test::writeSeries(folder, knobs, form);
         };
     }
-    // A series in a transfer syntax, and what is done to its files then.
+    // Adds a series in a transfer syntax whose files are then changed.
     void addCoded(const std::string &name, dicom::TransferSyntax syntax,
                   const std::function<void(const fs::path &)> &then) {
         writers[name] = [syntax, then](const fs::path &folder) {
@@ -93,7 +93,7 @@ public:
     std::map<std::string, Write> writers;
 };
 
-// Identifiers that say less, or something else, than they should.
+// Identifiers that are incomplete or wrong.
 void addIdentifiers(HabitList &all) {
     all.add("each slice its own frame of reference", [](auto &k) { k.ownFrames = true; });
     all.add("each slice its own frame of reference, but two that share one", [](auto &k) {
@@ -151,7 +151,7 @@ void addMosaics(HabitList &all) {
     });
 }
 
-// Pixels in one fragment that is coded by a function.
+// Pixels in one fragment, encoded by a function.
 Turn fragments(const std::function<std::string(const std::string &)> &code) {
     return [code](SeriesKnobs &k) {
         k.change = [code](DicomWriter &w, int) {
@@ -192,7 +192,7 @@ void addFragments(HabitList &all) {
             {.syntax = "1.2.840.10008.1.2.5"});
 }
 
-// What the header says of the pixels and is not so, or is no image of this program.
+// Headers that contradict the pixels, and images that this program cannot show.
 void addHeaders(HabitList &all) {
     all.add("plain pixels under a compressed syntax", [](auto &) {},
             {.syntax = "1.2.840.10008.1.2.4.90"});

@@ -58,7 +58,7 @@ TEST(Load, StopsWhenCancelled) {
     EXPECT_THROW(dicom::scan({folder.path()}, task::Progress(source.get_token())), task::Cancelled);
 }
 
-// Values of a slice follow its own rescale: one for all of them shows stripes.
+// Each slice has its own rescale. The same one for all slices would show stripes.
 TEST(Load, TheRescaleOfEverySliceIsItsOwn) {
     const test::TemporaryFolder folder;
     const volume::Volume head = tiltedHead();
@@ -78,7 +78,7 @@ TEST(Load, TheRescaleOfEverySliceIsItsOwn) {
         }
 }
 
-// Half of a number, or none, would be other values without a word.
+// Half a number, or none, would silently give other values.
 TEST(Load, AnInvalidRescaleCostsItsSlice) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
@@ -96,7 +96,7 @@ TEST(Load, AnInvalidRescaleCostsItsSlice) {
     ASSERT_EQ(catalogue.skipped.size(), changes.size());
     for (const auto &skipped : catalogue.skipped)
         EXPECT_EQ(skipped.reason.english(), "has an unusable rescale slope or intercept");
-    // Blanks are no value; some write a slope of 0 and mean nothing by it, which is said.
+    // Blanks are no value. Some programs write a meaningless slope of 0, which is reported.
     ASSERT_EQ(modified("IM0005.dcm", "RescaleIntercept=  "), 0);
     ASSERT_EQ(modified("IM0007.dcm", "RescaleSlope=0"), 0);
     const auto loaded = loadDefault(folder.path()).volume;
@@ -104,7 +104,7 @@ TEST(Load, AnInvalidRescaleCostsItsSlice) {
     EXPECT_THAT(loaded.notes().warnings, testing::Contains(task::because::zeroSlopes(1)));
 }
 
-// Codes that a rescale makes one number in 24 bits are refused; those that it makes nearly so are
+// Codes are refused if the rescale maps them to one number in 24 bits. If it nearly does, they are
 // shown with a warning.
 TEST(Load, ARescaleToOneValueIsReported) {
     const auto outcome = [](const std::string &rescale) -> std::string {
@@ -134,8 +134,8 @@ TEST(Load, ARescaleToOneValueIsReported) {
     EXPECT_EQ(outcome("-m RescaleIntercept=-10.5 -m RescaleSlope=.001"), "shown");
 }
 
-// Of 20 images 18 are alone in theirs, which is just enough to ignore it; of the 19 that are left
-// 17 are, which is not.
+// 18 of 20 images have a frame of reference of their own, just enough to ignore it. Without the
+// lost slice it is 17 of 19, which is not enough.
 TEST(Load, ALostSliceDoesNotSplitItsVolumeByFrameOfReference) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder.path(), tiltedHead(20), {}, dicom::TransferSyntax::explicitLittle);
@@ -161,7 +161,7 @@ TEST(Load, SurplusPixelsAreReported) {
         return texts;
     };
     const auto before = warnings();
-    // Pixel Data (7FE0,0010), OW, is the last element: a row more.
+    // Pixel Data (7FE0,0010), OW, is the last element: append a row.
     const fs::path path = folder / "IM0002.dcm";
     std::string bytes = test::readText(path);
     const std::string tag{'\xE0', '\x7F', '\x10', '\0', 'O', 'W', '\0', '\0'};
@@ -210,7 +210,7 @@ private:
     int m_queue, m_watch;
 };
 
-// The first file decides the type of the samples, and is not decoded again for them.
+// The first file decides the type of the samples, but is not decoded again for them.
 TEST(Load, EveryFileIsDecodedOnce) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);

@@ -18,7 +18,7 @@ namespace pellucid::test {
 
 namespace fs = std::filesystem;
 
-// The reason without what differs from file to file.
+// The reason without the parts that differ from file to file.
 inline std::string kindOf(const task::Reason &reason) {
     std::string kind = reason.english();
     kind = kind.substr(0, kind.find(" ("));

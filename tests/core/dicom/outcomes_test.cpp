@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// outcomes.md says how each folder of real and nasty files ends: what becomes a volume, what
-// images, what is not used and why. A file that ends otherwise is a change to be looked at.
+// outcomes.md lists the outcome of each folder of real and nasty files: the volumes, the images,
+// and the unused files with their reasons. Any other outcome is a change to review.
 #include <gtest/gtest.h>
 
 #include <set>

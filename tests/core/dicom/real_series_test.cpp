@@ -52,7 +52,7 @@ TEST(RealSeries, TheChestCt) {
     EXPECT_EQ(s.minimum, -1024.0);
     EXPECT_GT(s.maximum, 1000.0);
     EXPECT_LE(s.maximum, 3071.0);
-    // The two files that are no images are listed.
+    // The two files that are not images are listed.
     EXPECT_EQ(chest.catalogue.skipped.size(), 2U);
 }
 
@@ -125,9 +125,9 @@ double rescaledValue(const decoder::DecodedImage &image, std::size_t n) {
     return image.header.frames[0].rescale.slope * stored + image.header.frames[0].rescale.intercept;
 }
 
-// The lossy ones against the original in HU, inside the patient. The 12-bit files were rescaled by
-// slope 2, so a step of theirs is 2 HU; JPEG at these rates keeps the root mean square below some
-// 10 HU.
+// Lossy files are compared with the original in HU, inside the patient. The 12-bit files were
+// rescaled by slope 2, so a step of theirs is 2 HU; JPEG at these rates keeps the root mean square
+// below some 10 HU.
 TEST(TransferSyntaxes, LossyOnesStayWithinTheirBound) {
     PELLUCID_NEEDS_TEST_DATA();
     const auto plain = decoded(test::testData() / "nasty_ts_ctimage/CTImage.dcm");
@@ -308,7 +308,7 @@ TEST(Nasty, UnusableFilesAreRefusedWithAReason) {
         const std::string why = it->reason.english();
         EXPECT_NE(why.find(reason), std::string::npos) << name << ": " << why;
     }
-    // Alone, without the intact copy of it beside, the truncated file is refused too.
+    // Without its intact copy, the truncated file is refused too.
     const auto alone = dicom::scan({test::testData() / "nasty_pydicom/MR_truncated.dcm"});
     try {
         dicom::loadVolume(*dicom::defaultSelection(alone).volume);
@@ -335,7 +335,7 @@ TEST(Nasty, DicomdirsOfEveryKindListTheirFiles) {
     EXPECT_TRUE(decoder::Decoder::shared().directory(folder / "DICOMDIR-empty.dcm").files.empty());
     EXPECT_EQ(decoder::Decoder::shared().directory(folder / "TINY_ALPHA/DICOMDIR").files.size(),
               50U);
-    // Through the index the same files are seen as by looking at its folders, used or not.
+    // The index leads to the same files as a search of its folders, used or not.
     const auto seen = [](const dicom::Catalogue &catalogue) {
         std::set<fs::path> paths;
         for (const auto &s : dicom::selections(catalogue))

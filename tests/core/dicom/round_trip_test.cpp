@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is written as a series is what comes back.
+// A written series is read back unchanged.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -75,7 +75,7 @@ TEST(Decode, ImpossibleSizesAreRefusedBeforeAllocation) {
             ASSERT_NE(at, std::string_view::npos);
             bytes[at + 8] = bytes[at + 9] = std::byte(0xFF);
         }
-#ifndef PELLUCID_SANITIZED // which reserve terabytes
+#ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes
         const test::LittleMemory little(256);
 #endif
         try {

@@ -68,8 +68,8 @@ TEST(Scan, TwoSeriesAreNeverMerged) {
     EXPECT_THROW(dicom::selectSeries(catalogue, "3"), task::Error);
 }
 
-// As PS3.3, C.12.1.1.2 names them, with the examples of PS3.5, H.3.1 and H.3.2; a text that is
-// damaged keeps no other from being read.
+// Names are in the character sets of PS3.3, C.12.1.1.2, with the examples of PS3.5, H.3.1 and
+// H.3.2. A damaged text does not keep another from being read.
 TEST(Scan, NamesOfManyCharacterSetsAreRead) {
     const std::vector<std::array<std::string, 3>> names{
         {"ISO_IR 100",
@@ -141,7 +141,7 @@ TEST(Scan, DetachedSamplesAreNotReportedAsUnused) {
     EXPECT_EQ(dicom::selections(catalogue).size(), 1U);
 }
 
-// Through the file, the decoder and the grouping.
+// The frame of reference passes through the file, the decoder and the grouping.
 TEST(Scan, AnotherSpaceIsAnotherVolume) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
@@ -151,7 +151,7 @@ TEST(Scan, AnotherSpaceIsAnotherVolume) {
     EXPECT_EQ(all.size(), 2U);
 }
 
-// An index that leads out of its folder, in words or by a link.
+// An index must not lead out of its folder, neither by a path nor by a link.
 TEST(Scan, ADicomdirCannotLeaveItsFolder) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder / "disc/D", tiltedHead(), {.patientName = "X", .patientId = "1"},
@@ -181,7 +181,7 @@ TEST(Scan, ADicomdirCannotLeaveItsFolder) {
     EXPECT_EQ(catalogue.skipped[0].reason.english(), "refers to a file outside its folder");
 }
 
-// How much of the files of a folder is in memory; read or not, without reading it.
+// The number of pages of a folder's files that are in memory, counted without reading them.
 std::size_t residentPages(const std::filesystem::path &folder) {
     std::size_t resident = 0;
     for (const auto &entry : std::filesystem::directory_iterator(folder)) {
@@ -207,7 +207,7 @@ void dropFromMemory(const std::filesystem::path &folder) {
     }
 }
 
-// Shares and CDs are slow: the pixels stay where they are until a series is opened.
+// Network shares and CDs are slow: pixels are not read until a series is opened.
 TEST(Scan, ReadsHeadersAndNotPixels) {
     const test::TemporaryFolder folder;
     const auto lattice = volume::Lattice::centred({512, 512, 8}, {1, 1, 2});

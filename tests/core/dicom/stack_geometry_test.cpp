@@ -41,7 +41,7 @@ double rounded(double value, double to) {
     return std::round(value / to) * to;
 }
 
-// Slices of the lattice that are frames as they were scanned.
+// The number of lattice slices that are scanned frames, not interpolated.
 int framesKept(const dicom::VolumeEntry &entry) {
     const std::vector<double> &at = entry.geometry.frameOffsetsMm;
     if (at.empty())
@@ -137,7 +137,7 @@ TEST(GroupSeries, AGapGivesEachRunAndTheFilledStack) {
         EXPECT_FALSE(entry.fillsHoles);
 }
 
-// Phases with the same hole: each run is one stack.
+// Phases have the same hole: each run is one stack.
 TEST(GroupSeries, RunsOfPhasesAreTheirPhases) {
     auto files = stack({0, 2, 4, 10, 12, 14, 0, 2, 4, 10, 12, 14});
     for (int n = 0; n < 12; ++n)
@@ -154,12 +154,12 @@ TEST(GroupSeries, RunsOfPhasesAreTheirPhases) {
 }
 
 TEST(GroupSeries, StraySlicesDoNotMultiplyTheStack) {
-    // Two images a hundredth of a slice beside others: their gap is no spacing.
+    // Two images are a hundredth of a slice away from others: that gap is not the spacing.
     const auto entries = group(stack({0, 0.05, 0.1, 5, 10, 15, 20, 25}));
     ASSERT_EQ(entries.size(), 1U);
     EXPECT_EQ(entries[0].geometry.lattice.size().k, 6);
     EXPECT_FALSE(entries[0].notes.warnings.empty());
-    // Where all is fine but two slices far away, no grid holds both.
+    // No grid holds both a regular stack and a slice far away from it.
     const auto far = group(stack({0, 100, 100.5, 101}));
     EXPECT_FALSE(far.empty());
     for (const auto &entry : far)
@@ -185,7 +185,7 @@ TEST(GroupSeries, ASliceBesideTheLineIsRefused) {
     EXPECT_TRUE(group(files)[0].placed);
 }
 
-// Axes and pixel spacings as two computers write them.
+// Two computers round axes and pixel spacings differently.
 TEST(GroupSeries, AxesAndSpacingsThatJitterAreOneStack) {
     const auto jittered = [](double axes, double spacing) {
         auto files = stack(evenDepths(40, 2.0));

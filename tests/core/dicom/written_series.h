@@ -29,7 +29,7 @@ inline bool modify(const std::string &changes, const std::vector<std::filesystem
     return std::system((command + " > /dev/null").c_str()) == 0;
 }
 
-/// The volume that is shown first of what lies at a path.
+/// The volume that the program shows first of the files at a path.
 inline dicom::LoadedVolume loadDefault(const std::filesystem::path &path) {
     const auto catalogue = dicom::scan({path});
     return dicom::loadVolume(*dicom::defaultSelection(catalogue).volume);

@@ -49,7 +49,7 @@ TEST(AtomicFile, ReportsAFolderThatDoesNotExist) {
     EXPECT_THROW(files::AtomicFile(folder / "no/such/file"), task::Error);
 }
 
-// Runs f while files may have 1 kB, and says whether it failed as on a full disk.
+// Runs f with a limit of 1 kB on files. True if it failed as on a full disk.
 template <class F> bool isRefusedWhenFull(F &&f) {
     std::signal(SIGXFSZ, SIG_IGN);
     rlimit before{};

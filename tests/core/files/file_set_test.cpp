@@ -18,7 +18,7 @@ TEST(FileSet, NamesAreGivenWhenAllFilesAreThere) {
     {
         FileSet set(one);
         EXPECT_EQ(set.aside(one).extension(), ".png");
-        // Given up.
+        // The set is abandoned.
     }
     EXPECT_EQ(test::readText(one), "of before");
     {
@@ -31,7 +31,7 @@ TEST(FileSet, NamesAreGivenWhenAllFilesAreThere) {
     }
     EXPECT_EQ(test::readText(one), "first");
     EXPECT_EQ(test::readText(two), "second");
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2); // nothing aside
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2); // no other file is left
 }
 
 TEST(FileSet, AFolderThatIsNotThereIsNotMade) {

@@ -56,7 +56,7 @@ TEST_F(JsonValueTest, ReadsWhatIsThere) {
 }
 
 TEST_F(JsonValueTest, AbsentValuesKnowTheirPointer) {
-    EXPECT_TRUE(in["nothing"]); // null is something
+    EXPECT_TRUE(in["nothing"]); // null is a value
     EXPECT_FALSE(in["absent"]);
     EXPECT_FALSE(in["list"]["absent"]);
     EXPECT_FALSE(in["absent"]["too"]);

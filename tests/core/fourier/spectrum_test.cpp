@@ -85,8 +85,8 @@ std::complex<double> transformAt(const classify::DensityField &field,
     return sum * lattice.cellVolumeMm3();
 }
 
-// By the layout's own kernels and by narrower ones, in both halves and in other periods: the
-// narrower the kernel, the larger the error, and never more than half of what is there.
+// Cells are read by the layout's own kernels and by narrower ones, in both halves and in other
+// periods. A narrower kernel has a larger error, but never more than half of the value.
 TEST(Spectrum, IsReadBetweenItsCellsByKernelsOfEveryWidth) {
     const auto lattice = test::tiltedLattice({22, 20, 18}, {0.7, 0.9, 2.0}, 12);
     const auto field = test::noiseField(lattice);

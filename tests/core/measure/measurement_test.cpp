@@ -21,7 +21,7 @@ const mpr::Axes axial = mpr::standardAxes(mpr::Orientation::axial);
 
 TEST(Measurement, LengthsAndAnglesAreThoseOfThePatientNotOfThePixels) {
     const auto volume =
-        test::noiseField(test::tiltedLattice({12, 12, 12}, {0.5, 0.5, 4}, 25)).values;
+        test::noiseField(test::tiltedLattice({12, 12, 12}, {0.5, 0.5, 4}, 25)).values.samples();
     EXPECT_DOUBLE_EQ(
         *measure::measure({Kind::distance, "", {{0, 0, 0}, {2, 3, 6}}, axial}, volume).lengthMm,
         7.0);
@@ -105,7 +105,7 @@ TEST(Measurement, ASmallRegionHasAValueAndOneOutsideHasNone) {
     EXPECT_FALSE(values({100, 100, 0}, {120, 120, 0}));
     EXPECT_FALSE(values({0, 0, 100}, {5, 5, 100}));
     EXPECT_EQ(values({-500, -500, 1}, {500, 500, 1})->count, 64U);
-    // However large a region is, it takes no longer than the volume.
+    // A region takes no longer than the volume, however large it is.
     const mpr::Axes oblique =
         mpr::PlaneAxes().turned(mpr::Orientation::coronal, 0.3).of(mpr::Orientation::axial);
     const glm::dvec3 far = 4e6 * (oblique.right + oblique.up);

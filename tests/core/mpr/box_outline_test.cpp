@@ -57,7 +57,7 @@ TEST(BoxOutline, ofATiltedScanLeansAndWhatIsBeyondThePictureIsItsBorder) {
     const auto edges =
         boxOutline(lattice, {{0, 10, 0}, {40, 30, 40}}, through(Orientation::sagittal));
     ASSERT_EQ(edges.size(), 4U);
-    EXPECT_NEAR(area(edges), 20.0 * 40.0, 1e-9); // sheared, of one area
+    EXPECT_NEAR(area(edges), 20.0 * 40.0, 1e-9); // sheared, with the same area
     int leaning = 0;
     for (const BoxEdge &e : edges)
         if (e.axis == 1) {
@@ -66,7 +66,7 @@ TEST(BoxOutline, ofATiltedScanLeansAndWhatIsBeyondThePictureIsItsBorder) {
         }
     EXPECT_EQ(leaning, 2);
     Plane close = through(Orientation::axial);
-    close.width = close.height = 11; // inside of the box
+    close.width = close.height = 11; // inside the box
     const auto borders = boxOutline(lattice, {{0, 0, 0}, {40, 40, 40}}, close);
     ASSERT_EQ(borders.size(), 4U);
     EXPECT_TRUE(

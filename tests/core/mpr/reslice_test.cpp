@@ -43,9 +43,9 @@ TEST(Reslice, ReproducesALinearFunctionOnATiltedLattice) {
 
 TEST(Reslice, OutsideTheVolumeThereIsNothing) {
     const auto field = test::noiseField(volume::Lattice::centred({4, 4, 4}, {1, 1, 1}));
-    EXPECT_TRUE(std::isnan(mpr::valueAt(field.values, {{0, 0, 2.1}})));
+    EXPECT_TRUE(std::isnan(mpr::valueAt(field.values.samples(), {{0, 0, 2.1}})));
     EXPECT_FALSE(
-        std::isnan(mpr::valueAt(field.values, {{0, 0, 1.9}}))); // half a sample beyond the centre
+        std::isnan(mpr::valueAt(field.values.samples(), {{0, 0, 1.9}}))); // half a sample beyond the centre
 }
 
 TEST(Reslice, PlanesFollowTheRadiologicalConvention) {
@@ -80,8 +80,8 @@ TEST(Reslice, ScrollingStepsFromSliceToSlice) {
         mpr::scrollRange(test::tiltedLattice({30, 28, 12}, {1, 1, 3}, 20), {0, 0, 1}).hasSlices);
 }
 
-// About its own normal a plane keeps its picture; the others stay at right angles to it, however
-// often they are turned.
+// A plane turned about its own normal keeps its picture. The others stay at right angles to it,
+// however often they are turned.
 TEST(Reslice, TurnedPlanesStayAtRightAngles) {
     mpr::PlaneAxes planes;
     for (int n = 0; n < 300; ++n)
@@ -102,9 +102,9 @@ TEST(Reslice, TurnedPlanesStayAtRightAngles) {
                 1e-12);
 }
 
-// The slab's promise, by samples counted out one by one.
+// A slab equals samples computed one by one.
 TEST(Reslice, SlabsOnSlicesHaveTheExtremesOfTheirSamplesAndTheIntegralBetweenThem) {
-    const auto volume = test::noiseField(volume::Lattice::centred({9, 8, 11}, {1, 1, 2})).values;
+    const auto volume = test::noiseField(volume::Lattice::centred({9, 8, 11}, {1, 1, 2})).values.samples();
     const volume::Lattice &lattice = volume.lattice();
     const mpr::Plane plane{lattice.patient(volume::VoxelIndex{4, 4, 5}),
                            mpr::standardAxes(Orientation::axial), 1.0, 1, 1};
@@ -135,7 +135,7 @@ TEST(Reslice, SlabsOnSlicesHaveTheExtremesOfTheirSamplesAndTheIntegralBetweenThe
     EXPECT_NEAR(slab(100.0, mpr::SlabMode::mean), total / 11.0, 1e-6);
 }
 
-// The vector code against one point after the other: whole numbers and floats, more than one tile,
+// The vector code is compared with single points: for integers and floats, more than one tile,
 // lanes along rows, columns and the slab, and the edges of the volume.
 TEST(Reslice, IsWhatItsPointsAre) {
     const auto lattice = test::tiltedLattice({40, 33, 21}, {1, 1, 2}, 15);
@@ -160,7 +160,7 @@ TEST(Reslice, IsWhatItsPointsAre) {
         for (const mpr::Axes &axes : ways) {
             const mpr::Plane plane{lattice.center(), axes, 0.7, 70, 40};
             const auto thin = mpr::reslice(volume, plane);
-            // The faces of a slab and what lies between, a hundred places: its maximum is no less.
+            // A hundred places from one face of a slab to the other: its maximum is no less.
             const double mm = 6.0;
             const auto slab = mpr::reslice(volume, plane, {.slab = {mm, mpr::SlabMode::maximum}});
             int inside = 0;
@@ -204,7 +204,7 @@ TEST(Reslice, PlanesFaceAnyDirectionTogether) {
 }
 
 TEST(Reslice, NearestShowsTheSamplesThemselves) {
-    const auto volume = test::noiseField(test::tiltedLattice({6, 5, 4}, {1, 1, 3}, 20)).values;
+    const auto volume = test::noiseField(test::tiltedLattice({6, 5, 4}, {1, 1, 3}, 20)).values.samples();
     const volume::Lattice &lattice = volume.lattice();
     const auto at = [&](const glm::dvec3 &v) {
         return double(mpr::valueAt(volume, lattice.patient(volume::VoxelPoint{v}),
@@ -222,8 +222,7 @@ TEST(Reslice, OneSampleFillsItsCell) {
     EXPECT_EQ(mpr::valueAt(one, {{0.9, -0.9, 0.9}}), 7.0F);
 }
 
-// The slices of a tilted scan as they were taken: a plane of the scan shows its samples, row on
-// row.
+// A plane of a tilted scan shows the slices as they were taken, row for row.
 TEST(PlaneAxes, AlongTheScanShowsItsSlices) {
     const auto lattice = test::tiltedLattice({30, 28, 12}, {1, 1, 3}, 25);
     const auto axes = mpr::PlaneAxes::along(lattice);

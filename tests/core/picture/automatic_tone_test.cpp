@@ -42,7 +42,7 @@ TEST(AutomaticTone, IsTakenFromTheFirstFrameAndKeptUntilOtherFieldsCome) {
     EXPECT_EQ(tone.completed({.high = 80.0}).high, 80.0); // the user's own end
     tone.beginFields({});
     EXPECT_TRUE(tone.isWanted());
-    EXPECT_EQ(tone.range(), bright); // till then
+    EXPECT_EQ(tone.range(), bright); // until a new range is taken
 }
 
 TEST(AutomaticTone, IsRetakenForNewLightsAndCuesAndKeptDuringDrags) {
@@ -72,7 +72,7 @@ TEST(AutomaticTone, IsRetakenForNewLightsAndCuesAndKeptDuringDrags) {
 TEST(AutomaticTone, ASceneSeenAgainKeepsItsTone) {
     const scene::Scene scene = litScene();
     AutomaticTone tone = adopted(scene);
-    tone.beginFields(scene); // the coarse picture's
+    tone.beginFields(scene); // fields of the coarse picture
     tone.follow(scene.shading);
     tone.beginFields(scene);
     tone.follow(scene.shading);
@@ -80,7 +80,7 @@ TEST(AutomaticTone, ASceneSeenAgainKeepsItsTone) {
     EXPECT_EQ(tone.range(), bright);
     tone.retake();
     tone.take(dark);
-    tone.beginFields(scene); // it is over
+    tone.beginFields(scene); // the kept tone is gone
     EXPECT_TRUE(tone.isWanted());
 }
 

@@ -33,7 +33,7 @@ TEST(Compose, TheAutomaticRangeIgnoresTheBackground) {
     EXPECT_EQ(picture::toneRange({2, 1, 1.0, {0.0F, 0.0F}}, {}).high, 1.0);
 }
 
-// Each pixel is that of the definition, or the next level at a tie; the number of pixels is no
+// Each pixel equals the definition, or is the next level at a tie. The number of pixels is not a
 // multiple of a vector.
 TEST(Compose, EveryPixelIsOnTheCurve) {
     std::mt19937 random(2);
@@ -65,7 +65,7 @@ TEST(Compose, EveryPixelIsOnTheCurve) {
         }
 }
 
-// Bright colors stay what they are: the channels keep their ratio up to and beyond the range.
+// Bright colors keep the ratio of their channels, up to and beyond the range.
 TEST(Compose, ColorsKeepTheirHue) {
     const picture::ProjectionImage image{
         4,
@@ -85,11 +85,11 @@ TEST(Compose, ColorsKeepTheirHue) {
     const auto film = picture::compose(image, {0.0, 10.0, true});
     for (int n = 0; n < 16; ++n)
         EXPECT_NEAR(int(bright[n]) + film[n], n % 4 == 3 ? 510 : 255, 1);
-    // A range that begins below zero lifts the noise of what is empty, but to no color.
+    // A range that begins below zero brightens the noise of empty parts, but does not color it.
     const auto lifted = picture::compose({1, 1, 1.0, {0.1F, 0.0F, -0.1F}, 3}, {-60.0, 10.0, false});
     EXPECT_GT(lifted[0], 200);
     EXPECT_LE(lifted[0] - lifted[2], 1);
-    // What is below zero is grey too, and the brighter the higher it is.
+    // Values below zero are grey too, and higher values are brighter.
     const auto below = picture::compose({2, 1, 1.0, {-9.5F, -9.7F, -9.9F, -1.0F, -3.0F, -5.0F}, 3},
                                         {-10.0, 90.0, false});
     for (int n = 0; n < 8; n += 4)

@@ -198,7 +198,7 @@ TEST(LayerSet, KnowsTheErrorOfItsSums) {
             const double measured = test::relativeL2(picture.samples, truth);
             ASSERT_TRUE(said);
             EXPECT_GE(*said, measured);
-            EXPECT_LE(*said, 8.0 * measured); // of its order
+            EXPECT_LE(*said, 8.0 * measured); // the same order of magnitude
         }
     }
 }

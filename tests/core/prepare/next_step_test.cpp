@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the engine follows the scene: what is done when, row by row.
+// The engine follows the scene: each row of the table is one decision.
 #include "core/prepare/next_step.h"
 
 #include <array>
@@ -277,7 +277,7 @@ const Row table[] = {
      weighted,
      {.full = ofPlain, .shown = live, .isHeld = true},
      Step::nothing},
-    // Something came.
+    // A job has delivered something.
     {"AFullEngineIsAllThatWasWanted",
      fullArrived,
      plain,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the engine follows the scene: from every combination that can be reached, every decision
-// keeps its invariants and leads to what is wanted.
+// The engine follows the scene: in every state that can be reached, every decision keeps its
+// invariants and leads to the wanted engine.
 #include <deque>
 #include <set>
 #include <tuple>
@@ -20,7 +20,7 @@ namespace {
 using enum Occasion;
 using enum EngineStage;
 
-// A preparer, its document, jobs and timer: every move that a user, a scan or a thread can make.
+// The state of a preparer, its document, jobs and timer. Users, scans and threads make the moves.
 struct State {
     Have have;
     Look wanted = plain;
@@ -45,7 +45,7 @@ auto keyOf(const State &state) {
                       indexOf(have.layersGivenUp), have.isHeld, int(state.wanted), state.restRuns);
 }
 
-// What LookPreparer does, with the invariants of each step.
+// Acts as LookPreparer does, and checks the invariants of each step.
 void act(State &state, Occasion occasion) {
     const PreparedFor wanted = madeFor(state.wanted);
     for (int n = 0;; ++n) {
@@ -95,7 +95,7 @@ void giveUp(State &state) {
         act(state, gaveUp);
 }
 
-// Whether the move can be made, and what comes of it.
+// Makes the move; false if it cannot be made.
 bool make(Move move, Look edited, State &state) {
     Have &have = state.have;
     const bool makesEngine = have.underway && have.underway->makes == Underway::Makes::engine;
@@ -158,7 +158,7 @@ bool make(Move move, Look edited, State &state) {
     return false;
 }
 
-// Every job succeeds and nobody touches anything: the engine that is wanted comes and is shown.
+// If every job succeeds and nobody touches anything, the wanted engine is made and shown.
 void expectReached(State state, bool isLarge) {
     for (int n = 0; n < 8; ++n) {
         if (state.have.full == madeFor(state.wanted) && !state.restRuns && !state.have.underway) {
@@ -180,7 +180,7 @@ void expectReached(State state, bool isLarge) {
 
 TEST(NextStep, TheWantedEngineIsReachedFromEveryState) {
     std::set<decltype(keyOf(State()))> seen;
-    // Nothing yet; and a study that is being loaded, whose job makes its first engine.
+    // Two beginnings: nothing yet, and a study that is loading, whose job makes its first engine.
     std::deque<State> open{State(), State{.have = {.underway = engineOf(plain)}}};
     for (const State &state : open)
         seen.insert(keyOf(state));
@@ -191,7 +191,7 @@ TEST(NextStep, TheWantedEngineIsReachedFromEveryState) {
                 return;
             if (seen.insert(keyOf(state)).second)
                 open.push_back(state);
-            // What was given up waits until it is asked for again.
+            // An abandoned job waits until it is requested again.
             if ((move == Move::edit || move == Move::again || move == Move::scanEnds) &&
                 !state.have.isHeld && state.have.givenUp != madeFor(state.wanted))
                 for (const bool isLarge : {false, true})

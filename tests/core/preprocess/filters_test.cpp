@@ -114,7 +114,7 @@ TEST(Morphology, OpeningKeepsWhatABallFitsIntoAndRemovesThinPlates) {
     const Mask ball = maskOf(lattice, isBall), plate = maskOf(lattice, isPlate);
     std::size_t ofBall = 0, ofPlate = 0;
     for (std::size_t n = 0; n < mask.size(); ++n) {
-        EXPECT_LE(opened[n], mask[n]); // opening takes away only
+        EXPECT_LE(opened[n], mask[n]); // opening only removes
         ofBall += opened[n] & ball[n];
         ofPlate += opened[n] & plate[n];
     }
@@ -192,7 +192,7 @@ TEST(LargestPart, KeepsThoseThatAreNotMuchSmaller) {
     EXPECT_EQ(preprocess::largestPart(lattice, mask), maskOf(lattice, right));
 }
 
-// Ears of 3 mm and a nose at a head that lies in a rest of 4 mm, which touches it.
+// A head with ears of 3 mm and a nose lies in a head rest of 4 mm, which touches it.
 TEST(Body, KeepsEarsAndLeavesTheHeadRest) {
     const auto lattice = volume::Lattice::centred({110, 120, 60}, {2.0, 2.0, 3.0});
     const auto head = [](glm::dvec3 p) {
@@ -229,7 +229,7 @@ TEST(Body, KeepsEarsAndLeavesTheHeadRest) {
         ofRest += isRest[n];
     }
     EXPECT_EQ(lost, 0U);
-    // What of the rest lies within the roughness of the skin cannot be told from it.
+    // The part of the rest within the roughness of the skin cannot be told from it.
     EXPECT_LT(left, ofRest / 5);
 }
 

@@ -43,7 +43,7 @@ TEST(PresetLibrary, BuiltInPresetsAreEnoughAndAllValid) {
 
 TEST(PresetLibrary, SavesReplacesFindsAndRemoves) {
     test::TemporaryFolder folder;
-    PresetLibrary library(folder / "presets"); // made when it is needed
+    PresetLibrary library(folder / "presets"); // created on demand
     library.save(named("Mine", 0.5));
     library.save(named("mine", 1.5));
     PresetLibrary again(folder / "presets");
@@ -97,7 +97,7 @@ TEST(PresetLibrary, ABadFileIsPassedOverWithItsReason) {
     ASSERT_TRUE(reason.is(task::because::atLine)) << reason.english();
     EXPECT_EQ(reason.arguments()[0].text, "2");
     EXPECT_NE(library.find("Mine"), nullptr);
-    // Nor is it overwritten by a preset of its name.
+    // A preset of the same name does not overwrite it either.
     library.save(named("broken"));
     EXPECT_NE(PresetLibrary(folder / "presets").find("broken"), nullptr);
     EXPECT_EQ(PresetLibrary(folder / "presets").skipped().size(), 1U);
@@ -106,7 +106,7 @@ TEST(PresetLibrary, ABadFileIsPassedOverWithItsReason) {
 
 TEST(PresetLibrary, AFolderThatCannotBeWrittenIsNamed) {
     test::TemporaryFolder folder;
-    // A file where the folder should be: no permission of any user makes it one.
+    // A file is in place of the folder, which not even root can write to.
     std::ofstream(folder / "presets") << "in the way";
     PresetLibrary library(folder / "presets");
     try {
@@ -117,7 +117,7 @@ TEST(PresetLibrary, AFolderThatCannotBeWrittenIsNamed) {
     }
 }
 
-// A full disk, as a limit on the size of files: the former preset is there unharmed.
+// A limit on the size of files acts as a full disk: the former preset stays unharmed.
 TEST(PresetLibrary, AFullDiskLosesNothing) {
     test::TemporaryFolder folder;
     PresetLibrary library(folder / "presets");

@@ -68,7 +68,7 @@ TEST(Preset, JsonKeepsEverythingAndWhatItDoesNotKnow) {
     EXPECT_EQ(back.look, preset.look);
     EXPECT_EQ(back.window, preset.window);
     EXPECT_EQ(presets::toJson(back), written);
-    // What is taken away is gone.
+    // Removed parts do not come back.
     Preset less = preset;
     less.look.classes[0].steps.clear();
     less.window.reset();
@@ -105,7 +105,7 @@ TEST(Preset, RefusesWithLineAndReason) {
     EXPECT_EQ(reasonOf(with("\"Test\"", "\"   \"")).rfind("line 3: /name: ", 0), 0U);
     EXPECT_EQ(reasonOf("[]"), "line 1: must be an object");
     EXPECT_EQ(reasonOf("").rfind("line 1: ", 0), 0U);
-    // Cut off anywhere, it is refused and names a line.
+    // A file that is cut off anywhere is refused, and the line is named.
     const std::string text = full;
     for (std::size_t n = 0; n + 2 < text.size(); n += 7)
         EXPECT_EQ(reasonOf(text.substr(0, n)).rfind("line ", 0), 0U) << n;
@@ -126,7 +126,7 @@ TEST(Preset, FilesThatArePresetsOnly) {
     }
 }
 
-// Their thresholds were values of the volume that they were saved from.
+// In the first version this threshold was a value of the volume that the preset was saved from.
 TEST(Preset, FirstPresetsWithABinariseStepInSharesOfTheWindowAreRefused) {
     const auto text = [](const std::string &schema, const std::string &units,
                          const std::string &step) {
@@ -158,7 +158,7 @@ TEST(Preset, SharesOfTheWindowBecomeValuesAndBack) {
     EXPECT_EQ(look.classes[1].steps[0].at("high"), 16.0);
     EXPECT_EQ(look.classes[2].low, 40.0);
     EXPECT_EQ(look.classes[3].steps[0].at("from"), 300.0);
-    // Kept from a volume without a scale it is in shares again, and the same.
+    // Saved from a volume without a scale, the values are shares again and unchanged.
     const volume::Volume volume(volume::Lattice(), std::vector<float>{0.0F},
                                 volume::ValueUnit::none);
     const Preset kept = presets::presetOf("MR", look, {}, window, volume);

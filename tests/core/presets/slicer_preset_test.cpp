@@ -33,7 +33,7 @@ const char *const head = "1\n1\n0.9\n0.1\n0.2\n10\n";
 const char *const tail = "4 0 1 255 1\n8 -3024 0 0 0 3071 1 1 1\n";
 
 TEST_F(SlicerPreset, ATextsRampIsMetExactly) {
-    // Opacity that grows with the density is the density: every weight 1, up to its end.
+    // An opacity that grows with the density is the density: every weight is 1 up to its end.
     const auto path =
         write("ramp.vp", std::string(head) + "8 -3024 0 100 0 1100 1 3071 1\n" + tail);
     const auto imported = presets::importSlicerPreset(path);

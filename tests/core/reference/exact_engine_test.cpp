@@ -66,7 +66,7 @@ TEST(ExactEngine, MakesAnImageForEachChannel) {
     }
 }
 
-// What is prepared for changes when a picture is made, not the picture.
+// Preparing for a shading moves work ahead of time, but does not change the picture.
 TEST(ExactEngine, ShadesWhateverItWasPreparedFor) {
     const ShownFields fields{{field(1)}, {}};
     const auto camera = cameraFor(fields);
@@ -78,8 +78,8 @@ TEST(ExactEngine, ShadesWhateverItWasPreparedFor) {
     EXPECT_LT(
         test::relativeL2(shaded.samples, reference::shadedImage(fields, lit, camera, definition)),
         rounding);
-    // The field to be shaded lies on a larger lattice, hence has a larger period: other tails fold
-    // back, of 3e-5 as `plan::tailInImage` has them.
+    // The field to be shaded is on a larger lattice, hence has a larger period: other tails fold
+    // back, 3e-5 according to `plan::tailInImage`.
     const auto plain = forPlain.render(camera, definition);
     EXPECT_LT(test::relativeL2(forLit.render(camera, definition).samples, plain.samples), 1e-4);
 }
@@ -90,7 +90,7 @@ TEST(Reference, ThePeriodLeavesRoomForTheRollOffToFade) {
     for (const double rollOff : {0.01, 0.05, 0.5}) {
         const scene::ImageDefinition image{scene::Reconstruction::cubic, rollOff};
         const auto period = reference::periodOf(lattice, camera, image);
-        // Six times 4/F, and no more than that of a sixty-fourth.
+        // The margin is six times 4/F, but at most that for F = 1/64.
         const double margin = std::min(24.0 / rollOff, 24.0 * 64.0);
         EXPECT_GE(period.columns, 2.0 * lattice.radiusMm() + margin);
         EXPECT_EQ(period.columns, period.rows);

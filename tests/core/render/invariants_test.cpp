@@ -67,7 +67,7 @@ TEST(Invariants, TheMeanIsTheFieldsSumForEveryView) {
     for (const double tolerance : {1.1e-3, 1e-4, 1e-5}) {
         Subject head = headSubject(tolerance);
         double mass = 0.0;
-        head.field.values.visit(
+        head.field.values.asVolume().visit(
             [&](auto samples) { mass = std::accumulate(samples.begin(), samples.end(), 0.0); });
         mass *= head.field.values.lattice().cellVolumeMm3();
         std::mt19937 random(3);
@@ -101,8 +101,8 @@ TEST(Invariants, TheSliceOfASumIsTheSumOfTheSlices) {
     const auto lattice = test::tiltedLattice({20, 18, 10}, {1, 1, 2}, 15);
     const auto a = test::noiseField(lattice, 1), b = test::noiseField(lattice, 2);
     std::vector<float> both(lattice.size().count());
-    a.values.visit([&](auto x) {
-        b.values.visit([&](auto y) {
+    a.values.samples().visit([&](auto x) {
+        b.values.samples().visit([&](auto y) {
             for (std::size_t n = 0; n < both.size(); ++n)
                 both[n] = float(x[n] + y[n]);
         });

@@ -172,9 +172,9 @@ TEST(SpectrumSlice, InterpolatesWithTheKernelOfThePlan) {
 TEST(SpectrumSlice, OfSeveralFieldsIsThatOfTheirWeightedSum) {
     const auto lattice = test::tiltedLattice({12, 14, 10}, {1.0, 1.0, 2.0}, 0.0);
     const auto layout = exactLayout(lattice);
-    const volume::Volume first = test::noiseField(lattice, 1).values,
-                         second = test::noiseField(lattice, 2).values,
-                         unseen = test::noiseField(lattice, 3).values;
+    const volume::Volume first = test::noiseField(lattice, 1).values.samples(),
+                         second = test::noiseField(lattice, 2).values.samples(),
+                         unseen = test::noiseField(lattice, 3).values.samples();
     std::vector<float> sum;
     first.visit([&](auto a) {
         second.visit([&](auto b) {

@@ -34,7 +34,7 @@ TEST(DepthCue, IsWhatItsKindSays) {
     EXPECT_DOUBLE_EQ(DepthCue().at(0.7), 1.0);
 }
 
-// The cosines go through the values, and are a curve's own where it is one.
+// The cosine series passes through the values, and values of one cosine give that cosine alone.
 TEST(DepthCue, ACurveGoesThroughItsValues) {
     const std::vector<double> values{0.2, 1.9, 0.0, 0.7, 1.0};
     const DepthCue curve{CueKind::curve, 1.0, values};
@@ -97,8 +97,8 @@ TEST(GradientMagnitude, OfALinearFieldIsItsSlope) {
     EXPECT_LT(glm::distance(g, 0.8 * slope), 1e-6);
 }
 
-// No sample is darker than black, whatever the direction: the length and the direction agree. And
-// the vector form is the formula.
+// No sample is darker than black in any direction: the length and the direction agree. The vector
+// code equals the formula.
 TEST(GradientMagnitude, IsNowhereShorterThanTheGradientAlongAnyDirection) {
     const auto noise = test::noiseField(test::tiltedLattice({6, 7, 5}, {1, 1.2, 3}, 15.0));
     EXPECT_FALSE(shading::holdsGradient(noise));

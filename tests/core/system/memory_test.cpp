@@ -44,7 +44,7 @@ TEST(Memory, TheLimitsOfControlGroupsCount) {
     EXPECT_EQ(groupFreeBytes(root.path()), 4900U);
 }
 
-#ifndef PELLUCID_SANITIZED // which reserve terabytes
+#ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes
 TEST(Memory, TheLimitOfTheProcessCounts) {
     const std::size_t without = availableMemoryBytes();
     constexpr std::size_t mb = 1 << 20;
@@ -52,7 +52,7 @@ TEST(Memory, TheLimitOfTheProcessCounts) {
         const test::LittleMemory little(512);
         EXPECT_LE(mappableBytes(), 512 * mb);
         EXPECT_GT(mappableBytes(), 500 * mb);
-        // Not all of it: libraries want some.
+        // Libraries need a part of it.
         EXPECT_LE(availableMemoryBytes(), 400 * mb);
         EXPECT_NO_THROW(requireMemory(256.0 * mb));
         EXPECT_THROW(requireMemory(400.0 * mb), task::Error);

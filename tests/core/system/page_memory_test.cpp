@@ -36,7 +36,7 @@ TEST(PageMemory, IsAlignedAndWritable) {
 
 TEST(PageMemory, AnImpossibleSizeIsAnError) {
     const auto most = std::numeric_limits<std::size_t>::max();
-#ifdef PELLUCID_SANITIZED // whose allocators end the program when asked for that much
+#ifdef PELLUCID_SANITIZED // sanitized allocators end the program when asked for that much
     const std::vector<std::size_t> sizes{most, most - 3 * megabyte};
 #else
     const std::vector<std::size_t> sizes{most, most - 3 * megabyte, most / 2};
@@ -50,10 +50,10 @@ TEST(PageMemory, AnImpossibleSizeIsAnError) {
         }
 }
 
-#ifndef PELLUCID_SANITIZED // whose allocators keep what is freed
-// What was freed must not stay resident below what is still used, as in the allocator's regions.
+#ifndef PELLUCID_SANITIZED // sanitized allocators keep freed memory
+// Freed memory must not stay resident below blocks in use, as in the allocator's regions.
 TEST(PageMemory, GoesBackToTheSystem) {
-    // Having freed a block of that size, the C library keeps smaller ones for itself.
+    // After a block of that size is freed, the C library keeps smaller ones for itself.
     void *volatile block = std::malloc(30 * megabyte);
     std::free(block);
     const std::size_t before = residentBytes();

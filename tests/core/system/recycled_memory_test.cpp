@@ -53,7 +53,7 @@ TEST(RecycledMemory, ThreadsNeverShareAnArray) {
 }
 
 TEST(RecycledMemory, AnImpossibleSizeIsBadAlloc) {
-#ifndef PELLUCID_SANITIZED // whose allocators end the program when asked for that much
+#ifndef PELLUCID_SANITIZED // sanitized allocators end the program when asked for that much
     EXPECT_THROW(system::takeRecycled(std::size_t(1) << 62), std::bad_alloc);
 #endif
 }

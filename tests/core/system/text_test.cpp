@@ -11,8 +11,8 @@
 namespace pellucid::system {
 namespace {
 
-// A comma before the decimals, as in German or French: for streams on every machine, for the C
-// library where it knows such a language.
+// Sets a decimal comma, as in German or French: for streams on every machine, for the C library
+// where such a locale is installed.
 class DecimalComma {
 public:
     DecimalComma()

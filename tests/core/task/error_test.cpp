@@ -25,7 +25,7 @@ TEST(Error, NamesThePath) {
 
 TEST(OrOutOfMemory, GivesWhatTheWorkGives) {
     EXPECT_EQ(orOutOfMemory(because::notEnoughMemory, [] { return 7; }), 7);
-    // What cannot be copied, too.
+    // The result need not be copyable.
     EXPECT_EQ(*orOutOfMemory(because::notEnoughMemory, [] { return std::make_unique<int>(8); }), 8);
     int value = 0;
     const auto itself = [&]() -> int & { return value; };
@@ -43,7 +43,7 @@ TEST(OrOutOfMemory, NamesWhatNeededTheMemory) {
         EXPECT_EQ(error.code(), ErrorCode::outOfMemory);
         EXPECT_EQ(error.reason(), because::noMemoryForTheStep("median"));
     }
-    // A size beyond every address is of the same kind.
+    // A size beyond the address space counts as too little memory, too.
     EXPECT_THROW(orOutOfMemory(because::notEnoughMemory, [] { throw std::bad_array_new_length(); }),
                  Error);
 }

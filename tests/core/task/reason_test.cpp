@@ -24,7 +24,7 @@ const std::vector<Sentence> sentences{
 #undef PELLUCID_REASON
 };
 
-// What an encoding or a template could take for its own.
+// A text that an encoding or a template could mistake for its own syntax.
 const std::string awkward = "a; %2 b: 3:\n t1:c %1";
 
 int placesOf(Reason::Id id) {
@@ -35,7 +35,7 @@ std::string encodedText(const std::string &text) {
     return " t" + std::to_string(text.size()) + ":" + text;
 }
 
-// An encoded reason of any sentence, of which one place holds a reason, the others a text.
+// Any sentence encoded with a nested reason in one place and a text in the others.
 std::string encodedOf(const Sentence &sentence, const std::string &text, int nested) {
     std::string encoded = sentence.name;
     for (int n = 0; n < placesOf(sentence.id); ++n)
@@ -50,7 +50,8 @@ int countOf(const std::string &part, const std::string &text) {
     return count;
 }
 
-// As many as its template has places, and so on within it.
+// True if the reason and all reasons within it have as many arguments as their templates have
+// places.
 bool hasItsArguments(const Reason &reason) {
     if (reason.id() >= Reason::Id::count || int(reason.arguments().size()) != placesOf(reason.id()))
         return false;
@@ -73,7 +74,7 @@ Reason wrapped(int times) {
 TEST(Reason, everySentenceComesThrough) {
     for (const Sentence &sentence : sentences) {
         const int places = placesOf(sentence.id);
-        for (int nested = 0; nested <= places; ++nested) { // the last time none
+        for (int nested = 0; nested <= places; ++nested) { // none in the last round
             const std::string encoded = encodedOf(sentence, awkward, nested);
             const auto reason = Reason::decoded(encoded);
             ASSERT_TRUE(reason) << encoded;
@@ -104,7 +105,7 @@ TEST(Reason, everySentenceIsFilled) {
             const auto plain = Reason::decoded(encodedOf(sentence, "text", nested));
             ASSERT_TRUE(plain) << form;
             EXPECT_EQ(placesIn(plain->english()), 0) << plain->english();
-            // What fills a place is not filled again.
+            // Places within an argument are not filled.
             const auto odd = Reason::decoded(encodedOf(sentence, awkward, nested));
             ASSERT_TRUE(odd) << form;
             EXPECT_EQ(countOf(awkward, odd->english()), mentioned) << odd->english();
@@ -162,7 +163,7 @@ TEST(Reason, nestingEnds) {
     }
     for (const int times : {5, 6, 1000})
         EXPECT_FALSE(Reason::decoded(wrapped(times).encoded())) << times;
-    std::string deep; // of which not even the end is there
+    std::string deep; // without an end
     for (int n = 0; n < 1'000'000; ++n)
         deep += "imagesOnly r1:";
     EXPECT_FALSE(Reason::decoded(deep));
@@ -185,7 +186,7 @@ TEST(Reason, theSystemsReasonsAreKnown) {
     EXPECT_TRUE(
         systemReason(std::error_code(ENOENT, std::system_category())).is(because::noSuchFile));
     EXPECT_TRUE(systemReason(ENOMEM).is(because::notEnoughMemory));
-    // In the system's own words.
+    // The texts are the system's own.
     for (const int error : {ENOENT, EACCES, EPERM, ENOSPC, EDQUOT, EROFS, EISDIR, ENOTDIR,
                             ENAMETOOLONG, EMFILE, EIO, EFBIG, ELOOP})
         EXPECT_EQ(systemReason(error).english(), std::strerror(error));
@@ -193,7 +194,7 @@ TEST(Reason, theSystemsReasonsAreKnown) {
     const Reason other = systemReason(unknown);
     EXPECT_TRUE(other.is(because::systemReports));
     EXPECT_EQ(other.english(), std::string("the system reports: ") + std::strerror(unknown));
-    // Numbers of others are not the system's.
+    // Error numbers of other categories are not the system's.
     EXPECT_TRUE(
         systemReason(std::error_code(int(std::future_errc::no_state), std::future_category()))
             .is(because::systemReports));

@@ -48,7 +48,8 @@ TEST(WorkerTeam, RunsEveryPartOnceAndPhasesInOrder) {
 }
 
 #ifndef PELLUCID_SANITIZED
-// A stack takes megabytes of address space: the team has those that fit, and does all the work.
+// A stack takes megabytes of address space: the team starts the workers that fit, and they do all
+// the work.
 TEST(WorkerTeam, FewThreadsDoAllTheWork) {
     std::unique_ptr<WorkerTeam> team;
     {

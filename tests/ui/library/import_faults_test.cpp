@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the world does to imports and removals of the study library: programs are killed, disks are
-// full, files go.
+// Imports into the study library, and removals, survive killed programs, full disks and missing
+// files.
 #include <QtTest>
 
 #include <csignal>
@@ -45,7 +45,7 @@ private slots:
         QCOMPARE(filesBelow(at.copiesFolder()), 0);
     }
 
-    // Off the list, and killed before its copies were removed.
+    // The program is killed after the study has left the list, before its copies are removed.
     void aKilledRemovalLeavesNothing() {
         const LibraryPlace at = place("removal");
         importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
@@ -60,7 +60,7 @@ private slots:
         QCOMPARE(filesBelow(at.copiesFolder()), 0);
     }
 
-    // The list is gone from them, the removal of the copies fails: the next program does it.
+    // The study has left the list, but removing its copies fails: the next program does it.
     void aRemovalThatFailsIsTakenUpAgain() {
         const LibraryPlace at = place("failed removal");
         importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
@@ -71,8 +71,8 @@ private slots:
         QCOMPARE(filesBelow(at.copiesFolder()), 0);
     }
 
-    // Whenever an import is killed: the study is there with all its files, or not at all, and
-    // nothing else is.
+    // Whenever an import is killed, the study is there with all its files or not at all, and no
+    // other file is left.
     void aKilledImportIsDoneOrLeavesNothing() {
         std::mt19937 random(11);
         const auto import = [&](const LibraryPlace &at, QProcess &program) {
@@ -89,7 +89,7 @@ private slots:
         int killed = 0, done = 0, named = 0;
         for (int round = 0; round < 40; ++round) {
             const LibraryPlace at = place("killed" + std::to_string(round));
-            { const Library empty(at); } // its tables are there
+            { const Library empty(at); } // creates the tables
             QProcess program;
             QVERIFY(import(at, program));
             // The copies are made in the second half of it.
@@ -119,7 +119,7 @@ private slots:
         QVERIFY(killed > 5 && done > 0);
     }
 
-    // Copies that have their names but no row yet when the program is killed.
+    // The program is killed when copies have their names but no row yet.
     void copiesWithoutARowAreRemovedByTheNextProgram() {
         const LibraryPlace at = place("journal");
         importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
@@ -209,7 +209,7 @@ private slots:
 
 } // namespace pellucid
 
-// The test itself, or, to be killed: --import LIBRARY PATH, --remove LIBRARY.
+// Runs the tests, or as the program to be killed: --import LIBRARY PATH, --remove LIBRARY.
 int main(int argc, char **argv) {
     QCoreApplication application(argc, argv);
     if (argc == 4 && std::string_view(argv[1]) == "--import") {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the world does to the list of the study library: disks damage it, programs that rebuild it
-// are killed, folders cannot be written.
+// The list of the study library survives damage by disks, killed rebuilds and read-only folders.
 #include <QtTest>
 
 #include <array>
@@ -88,7 +87,8 @@ private slots:
         QVERIFY(fs::last_write_time(at.listFile()) == written);
     }
 
-    // Its reading and its new list alike: the damaged list is there until the new one is whole.
+    // A rebuild may be killed while it reads or writes: the damaged list stays until the new one is
+    // complete.
     void aKilledRebuildLosesNothing() {
         const LibraryPlace at = place("rebuild");
         Library(at).put(many(1500, 20));
@@ -122,14 +122,14 @@ private slots:
             const OpenedLibrary opened = openLibrary(at.folder);
             QVERIFY(!opened.place.inMemory);
             QCOMPARE(count(Library(opened.place)), readable);
-            QVERIFY(opened.mayLackCopies); // till they are looked for
+            QVERIFY(opened.mayLackCopies); // until they are searched for
         }
         qInfo("%d of 25 rebuilds were killed; %d of 1500 studies were read each time", killed,
               readable);
         QVERIFY(killed > 5);
     }
 
-    // As a program that was killed before it had looked for them leaves it.
+    // A program leaves this state if it is killed before it has searched for the copies.
     void copiesWithoutRowsAreListedAfterARebuild() {
         const LibraryPlace at = place("relisted");
         importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
@@ -142,7 +142,7 @@ private slots:
         QVERIFY(!openLibrary(at.folder).mayLackCopies);
     }
 
-    // As after a power cut, or by a hand that tidied up.
+    // The list is empty or missing, as after a power cut or tidying up.
     void copiesWithoutAListAreListedAgain() {
         const LibraryPlace at = place("listless");
         importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
@@ -169,7 +169,7 @@ private slots:
                           {"--open", QString::fromStdString(at.folder.string())});
         for (QProcess &program : programs)
             QVERIFY(program.waitForFinished(patienceMs));
-        // Whoever came second found it whole.
+        // The second program found the list complete.
         QCOMPARE(programs[0].exitCode() + programs[1].exitCode(), 1);
         QVERIFY(count(Library(at)) > 300);
         QVERIFY(!openLibrary(at.folder).wasDamaged);
@@ -187,14 +187,14 @@ private slots:
         const StudyFacts listed = open.find("doe1", StudyOrder::byName, 0, 10).studies.at(0);
         const fs::path damaged = at.folder / "damaged.sqlite";
         fs::rename(at.listFile(), damaged);
-        QCOMPARE(seen(), 3); // the new one is to come
+        QCOMPARE(seen(), 3); // the new one is not there yet
         Library(at).put({many(2, 2).at(1), many(2, 2).at(0)});
         QSignalSpy changed(&open, &StudyLibrary::changed);
         QCOMPARE(seen(), 2);
         const StudyFacts found = open.find("doe1", StudyOrder::byName, 0, 10).studies.at(0);
         QVERIFY(found.libraryId != listed.libraryId);
-        QTRY_COMPARE(changed.size(), 1); // whoever lists them is told
-        // Numbers are others now; what was listed before is what is meant.
+        QTRY_COMPARE(changed.size(), 1); // views are notified
+        // The numbers are different now, but entries listed before still mean the same studies.
         QCOMPARE(open.volumes(listed).at(0).seriesUid, open.volumes(found).at(0).seriesUid);
         open.remove(listed);
         QCOMPARE(count(Library(at)), 1);
@@ -213,7 +213,7 @@ private slots:
         QVERIFY_EXCEPTION_THROWN(importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {}),
                                  task::Error);
         QCOMPARE(count(library), 3);
-        // A damaged one is read, and stays as it is.
+        // A damaged list is read and stays as it is.
         {
             const LibraryPlace broken = place("read-only-damaged");
             Library(broken).put(many(400, 20));
@@ -227,7 +227,7 @@ private slots:
                          said.contains("only until the program closes"),
                      qPrintable(said));
         }
-        // Copies whose list is gone are no reason not to begin.
+        // The program starts although the list of copies is missing.
         {
             const LibraryPlace listless = place("read-only-listless");
             importStudies(listless, {{m_folder / "head"}, ImportMode::copy}, {});
@@ -235,7 +235,7 @@ private slots:
             const ReadOnlyFolder lockedAsWell(listless.folder);
             QVERIFY(openLibrary(listless.folder).place.inMemory);
         }
-        // One that could not be made is for this run.
+        // A list that cannot be created is kept in memory for this run.
         const OpenedLibrary run = openLibrary(empty.folder);
         QVERIFY(run.place.inMemory);
         QVERIFY(run.notices.at(0).reason.is(task::because::listedForThisRun));
@@ -244,7 +244,7 @@ private slots:
 
 } // namespace pellucid
 
-// The test itself, or, to be killed: --open LIBRARY.
+// Runs the tests, or as the program to be killed: --open LIBRARY.
 int main(int argc, char **argv) {
     QCoreApplication application(argc, argv);
     if (argc == 3 && std::string_view(argv[1]) == "--open")

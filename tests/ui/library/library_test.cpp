@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The study library without a window: what is put in is found, and as it was.
+// The study library without a window: entries are found as they were put in.
 #include <algorithm>
 #include <ctime>
 
@@ -30,7 +30,7 @@ template <class F> double millisecondsOf(const F &work) {
     return 1e3 * double(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-// What a library takes. *Units*: ms.
+// The times of the library's operations. *Units*: ms.
 struct LibraryTimes {
     double put = 0.0, open = 0.0, search = 0.0, lastPage = 0.0;
 };
@@ -86,7 +86,7 @@ private slots:
         QCOMPARE(qGray(v.thumbnail.pixel(5, 5)), 77);
         QCOMPARE(v.files, 3);
         QCOMPARE(library.files(study, v).size(), std::size_t(3));
-        // Again, with another file: in place of what was there.
+        // The series with other files replaces the former one.
         s.files.resize(2);
         library.put({s});
         QCOMPARE(count(library), 1);
@@ -96,7 +96,7 @@ private slots:
         QCOMPARE(count(library), 0);
     }
 
-    // Of a program that wrote English words.
+    // An earlier program wrote labels and warnings as English text.
     void whatAnEarlierProgramListedIsShownAndFound() {
         const LibraryPlace at = place("earlier");
         LibrarySeries s = librarySeries(1, "Doe^Jane", "Thorax", 3);
@@ -134,7 +134,7 @@ private slots:
         QVERIFY(seriesText(volumes[0]).endsWith("slices 1 to 5, axial 2"));
         QCOMPARE(warningTexts(volumes[0]),
                  QStringList({"without a, b.dcm: is truncated", "1 more"}));
-        // It can go on with the list until another program adds to it.
+        // The earlier program can use the list until a newer one adds to it.
         QCOMPARE(version(), 1);
         Library(at).put({librarySeries(2, "Roe^Richard", "Knee", 1)});
         QCOMPARE(version(), present);
@@ -147,8 +147,8 @@ private slots:
         QTest::newRow("500 studies of 200 instances") << 500 << 200;
         QTest::newRow("100000 studies of one instance") << 100000 << 1;
     }
-    // Ten times as many take ten times as long, a quarter more where trees are deeper, and not a
-    // hundred times. A page is found in a small part of the time that listing all took.
+    // Ten times as many studies take ten times as long, a quarter more where trees are deeper, but
+    // not a hundred times. Finding a page takes a small part of the time for listing all.
     void aHundredThousandInstancesStaySearchable() {
         QFETCH(int, studies);
         QFETCH(int, files);
@@ -181,7 +181,7 @@ private slots:
             QVERIFY(!v.thumbnail.isNull());
             QCOMPARE(v.isCopied, mode == ImportMode::copy);
             QCOMPARE(filesBelow(at.copiesFolder()), mode == ImportMode::copy ? 20 : 0);
-            // No name of a patient among the names of the copies.
+            // The file names of the copies do not contain the patient's name.
             for (const dicom::InstanceFile &file : library.files(study, v))
                 QVERIFY(mode == ImportMode::refer ||
                         file.path.string().find("Head") == std::string::npos);
@@ -208,7 +208,7 @@ private slots:
         const LibraryPlace at = place("discs");
         importStudies(at, {{one}, ImportMode::copy}, {});
         importStudies(at, {{two}, ImportMode::copy}, {});
-        importStudies(at, {{two}, ImportMode::copy}, {}); // twice is once
+        importStudies(at, {{two}, ImportMode::copy}, {}); // importing again adds nothing
         Library library(at);
         const StudyFacts study = library.find("", StudyOrder::byName, 0, 10).studies.at(0);
         QCOMPARE(library.volumes(study).size(), std::size_t(1));
@@ -217,7 +217,8 @@ private slots:
         QCOMPARE(filesBelow(at.copiesFolder()), 20);
     }
 
-    // By reference after by copy: the copies are kept in use, and none is left over.
+    // The study is imported by copy, then by reference: the copies stay in use, and none is left
+    // over.
     void whatWasCopiedStaysWhenItIsReferredToLater() {
         const LibraryPlace at = place("both");
         importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});

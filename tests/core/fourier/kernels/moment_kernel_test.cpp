@@ -49,8 +49,8 @@ INSTANTIATE_TEST_SUITE_P(Kernels, Moment,
                              return name;
                          });
 
-// What it is for: x h(x) within the field, little beyond; about what the exact derivative of the
-// kernel leaves, (x + m) h(x + m), and no more than 1.4 times that.
+// A moment kernel gives x h(x) within the field and little beyond: about as much as the exact
+// derivative of the kernel, (x + m) h(x + m), and at most 1.4 times that.
 TEST(Moments, LeaveWhatADerivativeLeaves) {
     for (const int width : {3, 4, 5, 6, 7})
         for (const double padding : {1.25, 1.5, 2.0}) {
@@ -71,7 +71,7 @@ TEST(Moments, LeaveWhatADerivativeLeaves) {
         }
 }
 
-// The kernels that jump at their edge are where the derivative fails: there it leaves out a delta.
+// The derivative fails for kernels that jump at their edge: it leaves out a delta there.
 TEST(Moments, StandKernelsThatJump) {
     const Kernel kernel = Kernel::exponentialSemicircle(4, 1.5);
     const MomentKernel moment(kernel, 1.5);
