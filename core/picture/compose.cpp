@@ -50,19 +50,20 @@ ToneRange toneRange(const ProjectionImage &image, const scene::Tone &tone) {
     return range;
 }
 
-Pixels compose(const ProjectionImage &image, const scene::Tone &tone) {
+Pixels compose(const ProjectionImage &image, const scene::Tone &tone, PixelOrder order) {
     const ToneRange range = toneRange(image, tone);
-    const ToneCurve curve{float(range.low), float(1.0 / (range.high - range.low)), tone.inverted};
+    const ToneCurve curve{float(range.low), float(1.0 / (range.high - range.low)), tone.inverted,
+                          order == PixelOrder::bgra};
     const auto channels = std::size_t(image.channels);
     const std::size_t pixels = image.samples.size() / channels;
-    Pixels rgba(4 * pixels);
+    Pixels bytes(4 * pixels);
     constexpr std::size_t block = 1U << 14U;
     tbb::parallel_for(std::size_t(0), (pixels + block - 1) / block, [&](std::size_t n) {
         const std::size_t first = n * block;
         tonePixels(image.samples.data() + channels * first, std::min(block, pixels - first),
-                   image.channels, curve, rgba.data() + 4 * first);
+                   image.channels, curve, bytes.data() + 4 * first);
     });
-    return rgba;
+    return bytes;
 }
 
 } // namespace pellucid::picture

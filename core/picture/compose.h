@@ -23,13 +23,16 @@ ToneRange toneRange(const ProjectionImage &image, const scene::Tone &tone);
 /// The GLSL tone pass computes the same.
 inline constexpr double toneExponent = 1.0 / 1.4;
 
-/// Red, green, blue and opacity of each pixel.
+/// The order of a pixel's four bytes; the last one is opacity.
+enum class PixelOrder { rgba, bgra };
+/// Four bytes for each pixel.
 using Pixels = std::vector<std::uint8_t, system::RecycledAllocator<std::uint8_t>>;
 
 /// Applies window, inversion and color. The brightest channel of a pixel gets the display curve
 /// and the others keep their ratio to it, so that bright colors keep their hue; inverted colors
 /// are the negative. Values below the range are black, including those below zero, where a sharp
 /// band limit undershoots. *Shape*: height x width x 4, opaque.
-Pixels compose(const ProjectionImage &image, const scene::Tone &tone);
+Pixels compose(const ProjectionImage &image, const scene::Tone &tone,
+               PixelOrder order = PixelOrder::rgba);
 
 } // namespace pellucid::picture

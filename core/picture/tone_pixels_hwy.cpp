@@ -5,6 +5,7 @@
 // foreach_target comes first.
 #include <algorithm>
 #include <hwy/highway.h>
+#include <utility>
 
 #include <hwy/contrib/math/math-inl.h>
 
@@ -32,30 +33,31 @@ HWY_INLINE hn::Vec<LevelTag> levels(Vector x, bool inverted) {
     return hn::ConvertTo(LevelTag(), hn::MulAdd(full, inverted ? hn::Sub(one, x) : x, half));
 }
 
-HWY_INLINE void storePixels(hn::Vec<LevelTag> red, hn::Vec<LevelTag> green, hn::Vec<LevelTag> blue,
-                            std::uint8_t *rgba) {
+HWY_INLINE void storePixels(hn::Vec<LevelTag> first, hn::Vec<LevelTag> green,
+                            hn::Vec<LevelTag> third, std::uint8_t *to) {
     const LevelTag d;
-    const auto pixel = hn::Or(hn::Or(red, hn::ShiftLeft<8>(green)),
-                              hn::Or(hn::ShiftLeft<16>(blue), hn::Set(d, -0x1000000)));
+    const auto pixel = hn::Or(hn::Or(first, hn::ShiftLeft<8>(green)),
+                              hn::Or(hn::ShiftLeft<16>(third), hn::Set(d, -0x1000000)));
     const hn::Repartition<std::uint8_t, LevelTag> bytes;
-    hn::StoreU(hn::BitCast(bytes, pixel), bytes, rgba);
+    hn::StoreU(hn::BitCast(bytes, pixel), bytes, to);
 }
 
-void toneGrey(const float *samples, std::size_t count, const ToneCurve &curve, std::uint8_t *rgba) {
+void toneGrey(const float *samples, std::size_t count, const ToneCurve &curve,
+              std::uint8_t *bytes) {
     const Tag d;
     const auto low = hn::Set(d, curve.low), scale = hn::Set(d, curve.scale);
     for (std::size_t n = 0; n < count; n += hn::Lanes(d)) {
         const auto x = hn::Mul(hn::Sub(hn::LoadU(d, samples + n), low), scale);
         const auto level =
             levels(displayed(hn::Min(hn::Max(x, hn::Zero(d)), hn::Set(d, 1.0F))), curve.inverted);
-        storePixels(level, level, level, rgba + 4 * n);
+        storePixels(level, level, level, bytes + 4 * n);
     }
 }
 
 // The channels keep their ratio to the brightest. A range that starts below zero raises empty
 // pixels to a grey without hue.
 void toneColored(const float *samples, std::size_t count, const ToneCurve &curve,
-                 std::uint8_t *rgba) {
+                 std::uint8_t *bytes) {
     const Tag d;
     const auto low = hn::Set(d, curve.low), scale = hn::Set(d, curve.scale), zero = hn::Zero(d),
                one = hn::Set(d, 1.0F), lift = hn::Min(zero, low);
@@ -72,23 +74,25 @@ void toneColored(const float *samples, std::size_t count, const ToneCurve &curve
             const auto above = hn::IfThenElse(hasHue, hn::Sub(hn::Max(channel, zero), lift), one);
             return levels(hn::Mul(share, above), curve.inverted);
         };
-        storePixels(level(red), level(green), level(blue), rgba + 4 * n);
+        if (curve.blueFirst)
+            std::swap(red, blue);
+        storePixels(level(red), level(green), level(blue), bytes + 4 * n);
     }
 }
 
 void toneAll(const float *samples, std::size_t count, int channels, const ToneCurve &curve,
-             std::uint8_t *rgba) {
+             std::uint8_t *bytes) {
     const auto tone = channels == 1 ? toneGrey : toneColored;
     const std::size_t lanes = hn::Lanes(Tag()), whole = count / lanes * lanes, rest = count - whole;
     const auto values = std::size_t(channels);
-    tone(samples, whole, curve, rgba);
+    tone(samples, whole, curve, bytes);
     if (rest == 0)
         return;
     HWY_ALIGN float last[3 * hn::MaxLanes(Tag())] = {};
     HWY_ALIGN std::uint8_t pixels[4 * hn::MaxLanes(Tag())];
     std::copy_n(samples + whole * values, rest * values, last);
     tone(last, rest, curve, pixels);
-    std::copy_n(pixels, 4 * rest, rgba + 4 * whole);
+    std::copy_n(pixels, 4 * rest, bytes + 4 * whole);
 }
 
 } // namespace pellucid::picture::HWY_NAMESPACE
@@ -100,8 +104,8 @@ namespace pellucid::picture {
 HWY_EXPORT(toneAll);
 
 void tonePixels(const float *samples, std::size_t count, int channels, const ToneCurve &curve,
-                std::uint8_t *rgba) {
-    HWY_DYNAMIC_DISPATCH(toneAll)(samples, count, channels, curve, rgba);
+                std::uint8_t *bytes) {
+    HWY_DYNAMIC_DISPATCH(toneAll)(samples, count, channels, curve, bytes);
 }
 
 } // namespace pellucid::picture

@@ -140,7 +140,6 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
     job.sums = mixing.sums;
     job.shading = inputs.isShaded ? &inputs.shading : nullptr;
     job.image = image;
-    job.wraps = geometry.wraps;
     job.columns = inputs.grid.columns;
     job.rows = inputs.grid.rows;
     job.imageColumns = result.width;
@@ -273,11 +272,9 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
                                            picture::FrameTimes *times) {
     const double start = frameClockSeconds();
     FrameBuffers &buffers = *m_buffers;
-    const FrameInputs inputs =
-        buffers.setup.inputsFor(m_parts.spectra, m_parts.channelWeights, camera, image, shading,
-                                [&](int count, const std::function<void(int)> &work) {
-                                    runOn(buffers.team, count, work);
-                                });
+    const FrameInputs inputs = buffers.setup.inputsFor(
+        m_parts.spectra, m_parts.channelWeights, camera, image, shading,
+        [&](int count, const std::function<void(int)> &work) { runOn(buffers.team, count, work); });
     picture::ProjectionImage result{
         camera.width, camera.height, camera.pixelMm, {}, inputs.pictureChannels()};
     task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {

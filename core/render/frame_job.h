@@ -106,7 +106,6 @@ struct FrameJob {
     int sums = 1;
     const FrameShading *shading = nullptr; ///< null: none
     scene::ImageDefinition image;
-    bool wraps = false; ///< some |a_d.s| of the disc exceeds 1/2
 
     int columns = 0, rows = 0; ///< of the frequency grid, hence of the periodic image
     int imageColumns = 0, imageRows = 0, pictureChannels = 1;

@@ -106,6 +106,9 @@ private slots:
         for (int n = 0; n < 40; ++n)
             turnWheel(projection(), 1);
         QCOMPARE(document.pose().zoom, ui::maxZoom);
+        settle();
+        const scene::Camera &camera = document.scene().camera; // every pixel is computed
+        QCOMPARE(projection()->picture().size(), QSize(camera.width, camera.height));
         for (int n = 0; n < 60; ++n)
             turnWheel(projection(), -1);
         QCOMPARE(document.pose().zoom, ui::minZoom);

@@ -111,7 +111,10 @@ private:
 
 class RasterCanvas final : public QWidget, public ProjectionCanvas {
 public:
-    explicit RasterCanvas(QWidget *parent) : QWidget(parent) { setObjectName("projectionCanvas"); }
+    explicit RasterCanvas(QWidget *parent) : QWidget(parent) {
+        setObjectName("projectionCanvas");
+        setAttribute(Qt::WA_OpaquePaintEvent); // nothing behind it is painted
+    }
 
     QWidget *widget() override { return this; }
     void setImage(Image image) override {
@@ -135,13 +138,14 @@ public:
 protected:
     void paintEvent(QPaintEvent *) override {
         QPainter painter(this);
-        painter.fillRect(rect(), QColor(pictureBackground));
         if (m_stale)
             compose();
-        if (m_picture.isNull())
+        if (m_picture.isNull()) {
+            painter.fillRect(rect(), QColor(pictureBackground));
             return;
+        }
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
-        painter.drawImage(rect(), m_picture);
+        painter.drawImage(rect(), m_picture); // all of it is opaque
     }
 
 private:
@@ -150,10 +154,9 @@ private:
         m_picture = {};
         if (!m_image)
             return;
-        m_pixels = picture::compose(*m_image, m_tone);
-        // All pixels are opaque, and a painter need not blend them.
-        m_picture =
-            QImage(m_pixels.data(), m_image->width, m_image->height, QImage::Format_RGBX8888);
+        // The window's own format: a painter need neither convert nor blend.
+        m_pixels = picture::compose(*m_image, m_tone, picture::PixelOrder::bgra);
+        m_picture = QImage(m_pixels.data(), m_image->width, m_image->height, QImage::Format_RGB32);
     }
 
     Image m_image;

@@ -19,9 +19,12 @@ namespace {
 
 // A full frame that takes longer lags behind the hand: drafts are drawn while the view moves.
 constexpr double smoothFrameMs = 35.0;
+// The first frame also allocates its memory, and takes up to so many times as long as the next.
+constexpr double coldness = 3.0;
 constexpr int restMs = 120;
-// A finer picture would show the smoothness of the reconstruction, not the patient.
-constexpr double samplesPerPixel = 4.0;
+// Pixels per voxel where one width of kernel reads everything, so that a frame costs what its
+// pixels cost. Finer ones would show the smoothness of the reconstruction, not the patient.
+constexpr double uniformPixels = 4.0;
 
 } // namespace
 
@@ -110,6 +113,7 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     if (!sameFields) {
         m_tone.beginFields(m_document.scene());
         m_fullFrameMs = 0.0;
+        m_isFirstFrame = true;
     }
     // Frames of slightly older weights are shown, too: the hand may be faster than the frames.
     if (stage != EngineStage::live || m_stage != EngineStage::live)
@@ -226,7 +230,9 @@ void ProjectionView::requestFrame(bool moving) {
         return;
     const bool draft = moving && m_fullFrameMs > smoothFrameMs;
     m_pending = true;
-    const double finest = m_document.volume()->lattice().shortestStepMm() / samplesPerPixel;
+    const bool readsAll = m_prepared->plan.adaptiveError == 0.0;
+    const double finest =
+        readsAll ? m_document.volume()->lattice().shortestStepMm() / uniformPixels : 0.0;
     shading::Shading shading = m_document.scene().shading;
     if (shading.isLit() && !m_prepared->canBeLit) // until light is prepared, the shading stays
         shading = m_drawnShading;
@@ -255,8 +261,10 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     m_frameError = frame->onCard && !m_prepared->isCoarse ? m_predictedError : frame->error;
     m_frameStage = m_stage;
     m_pending = m_rest.isActive() || frame->number != m_requested;
-    if (!frame->draft)
-        m_fullFrameMs = frame->times.totalMs();
+    if (!frame->draft) {
+        m_fullFrameMs = frame->times.totalMs() / (m_isFirstFrame ? coldness : 1.0);
+        m_isFirstFrame = false;
+    }
     if (m_tone.isWanted())
         m_tone.take(*frame->automaticTone);
     if (frame->onCard)
@@ -341,6 +349,7 @@ QSizeF ProjectionView::sizeInPixels() const {
 }
 
 void ProjectionView::resizeEvent(QResizeEvent *) {
+    m_isFirstFrame = true;
     m_canvas->widget()->setGeometry(rect());
     m_overlay->setGeometry(rect());
     m_document.setProjectionSize(sizeInPixels());

@@ -152,6 +152,7 @@ private:
     QString m_message, m_lookName;
     shading::Shading m_drawnShading; ///< of the last requested frame
     double m_predictedError = 0.0, m_fullFrameMs = 0.0;
+    bool m_isFirstFrame = true; ///< of its size, or of an engine
     EngineStage m_stage = EngineStage::coarse;
     bool m_orbitsCrosshair = false;
     bool m_isMoving = false; ///< while moveTo sets the pose

@@ -98,5 +98,23 @@ TEST(Compose, ColorsKeepTheirHue) {
     EXPECT_NEAR(picture::toneRange(image, {}).high, 10.0, 1e-6); // of 40, 10 and 2: rank 1.996
 }
 
+TEST(Compose, TheOrderOfThePixelsBytesIsChosen) {
+    for (const int channels : {1, 3})
+        for (const int width : {1, 16, 37}) { // whole vectors and parts of one
+            picture::ProjectionImage image{width, 1, 1.0, {}, channels};
+            for (int n = 0; n < width * channels; ++n)
+                image.samples.push_back(float(n * n % 11));
+            const auto rgba = picture::compose(image, {0.0, 10.0, false}),
+                       bgra =
+                           picture::compose(image, {0.0, 10.0, false}, picture::PixelOrder::bgra);
+            for (int n = 0; n < 4 * width; n += 4) {
+                EXPECT_EQ(rgba[n], bgra[n + 2]);
+                EXPECT_EQ(rgba[n + 1], bgra[n + 1]);
+                EXPECT_EQ(rgba[n + 2], bgra[n]);
+                EXPECT_EQ(bgra[n + 3], 255);
+            }
+        }
+}
+
 } // namespace
 } // namespace pellucid
