@@ -14,7 +14,7 @@ namespace pellucid::bench {
 /// card's trilinear filter, every `stepMm`, and only adds.
 class CardRaySum {
 public:
-    /// *Shape*: the field is float32, 0..1. *Throws* Error{outOfMemory}, Error{noSuchDevice}.
+    /// *Units*: the field is 0..1. *Throws* Error{outOfMemory}, Error{noSuchDevice}.
     CardRaySum(std::shared_ptr<gpu::FramePasses> passes, const volume::Field &field);
     ~CardRaySum();
 

@@ -17,7 +17,7 @@ class SpatialVolume {
 public:
     static constexpr int largestValue = 4095;
 
-    /// *Shape*: the field is float32, 0..1.
+    /// *Units*: the field is 0..1.
     explicit SpatialVolume(const volume::Field &field);
 
     const volume::Lattice &lattice() const { return m_lattice; }

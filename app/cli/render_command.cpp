@@ -112,8 +112,7 @@ private:
         const std::size_t samples = volume().lattice().size().count();
         const std::size_t forLight = prepare::bytesForLight(
             m_scene.shading, volume().lattice().size(), classify::channelsOf(m_scene.look));
-        m_held = volume().bytes() + classify::peakBytes(m_scene.look, samples) + forLight +
-                 (m_scene.crop.isWhole() ? 0 : samples * sizeof(float));
+        m_held = volume().bytes() + classify::peakBytes(m_scene.look, samples) + forLight;
         if (isMemoryGiven() && m_options.memory < m_held)
             throw Error(
                 ErrorCode::outOfMemory,

@@ -15,7 +15,8 @@ namespace {
 // samples within it.
 enum class Beyond { zero, mean };
 
-volume::Volume blockMeans(const volume::Field &field, int side, Beyond beyond) {
+volume::Volume blockMeans(const volume::Field &field, int side, Beyond beyond,
+                          volume::ValueUnit unit) {
     const volume::Lattice &fine = field.lattice();
     std::array<int, 3> block{}, count{};
     for (int d = 0; d < 3; ++d) {
@@ -69,17 +70,17 @@ volume::Volume blockMeans(const volume::Field &field, int side, Beyond beyond) {
             means[std::size_t(ck) * sums.size() + n] = share > 0.0 ? float(sums[n] / share) : 0.0F;
         }
     });
-    return {lattice, std::move(means), field.samples().unit(), field.samples().notes()};
+    return {lattice, std::move(means), unit, field.samples().notes()};
 }
 
 } // namespace
 
 DensityField coarseField(const DensityField &field, int side) {
-    return fieldOf(blockMeans(field.values, side, Beyond::zero));
+    return fieldOf(blockMeans(field.values, side, Beyond::zero, volume::ValueUnit::none));
 }
 
 volume::Volume coarseVolume(const volume::Volume &volume, int side) {
-    return blockMeans(volume, side, Beyond::mean);
+    return blockMeans(volume, side, Beyond::mean, volume.unit());
 }
 
 } // namespace pellucid::classify

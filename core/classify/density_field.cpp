@@ -75,6 +75,7 @@ DensityField fieldOf(const volume::Field &like, std::vector<float> samples) {
 
 DensityField fieldOf(volume::Field values, const task::Progress &progress) {
     const VoxelBox support = supportOf(values, progress);
+    progress.report(1.0);
     return {std::move(values), support};
 }
 

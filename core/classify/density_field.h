@@ -29,7 +29,7 @@ struct DensityField {
 DensityField densityField(const volume::Volume &volume, const FieldWindow &window,
                           const task::Progress &progress = {});
 
-/// A field of these samples on the lattice of another one. *Shape*: as many samples as the lattice
+/// A field of these samples on the lattice of `like`. *Shape*: as many samples as the lattice
 /// has.
 DensityField fieldOf(const volume::Field &like, std::vector<float> samples);
 /// Values and the box that contains them.

@@ -121,8 +121,8 @@ ShownFields inPrimaries(ShownFields fields, const task::Progress &progress) {
                 std::vector<float> buffer(2 * std::size_t(size.i));
                 for (int j = 0; j < size.j; ++j) {
                     const float *const from = first.row({0, j, k}, size.i, buffer.data()),
-                                      *const with = second.row({0, j, k}, size.i,
-                                                               buffer.data() + size.i);
+                                       *const with =
+                                           second.row({0, j, k}, size.i, buffer.data() + size.i);
                     float *const to = samples.data() + size.offsetOf(0, j, k);
                     for (int i = 0; i < size.i; ++i)
                         to[i] = float(a * double(from[i]) + b * double(with[i]));

@@ -50,21 +50,21 @@ Spectrum Spectrum::prepare(volume::Field field, const SpectrumLayout &layout,
     progress.report(firstPass);
     spectrum.m_dc = sums.dc;
     spectrum.m_moments = sums.moments;
-    CellOutput out;
+    CellEncoding encoding;
     if (layout.storage == Storage::binary16) {
         // The sum of the magnitudes bounds every cell; a power of two scales without rounding.
         double scale = 1.0;
         if (sums.magnitudes > 0.0)
             scale = std::exp2(std::floor(std::log2(32768.0 / sums.magnitudes)));
         spectrum.m_unit = 1.0 / scale;
-        out.scale = float(scale);
+        encoding.scale = float(scale);
         constexpr std::size_t side = 2 * roundingReach + 1;
         if (std::min({layout.padded.i, layout.padded.j, layout.padded.k}) > int(side)) {
             spectrum.m_rounding.resize(side * side * (roundingReach + 1));
-            out.rounding = spectrum.m_rounding.data();
+            encoding.rounding = spectrum.m_rounding.data();
         }
     }
-    transformColumns(layout, cells, memory, out, progress.part(firstPass, 1.0));
+    transformColumns(layout, cells, memory, encoding, progress.part(firstPass, 1.0));
     spectrum.m_cells = memory.takeCells();
     return spectrum;
 }

@@ -73,17 +73,17 @@ Complex asComplex(Complex cell) {
 // field.
 class RowTransform {
 public:
-    RowTransform(const volume::Field &field, const SpectrumLayout &layout,
-                 const CellLayout &cells, ColumnMemory &memory)
-        : m_field(field), m_box(layout.box), m_size(layout.box.size()),
-          m_padded(layout.padded), m_cells(cells), m_memory(memory),
-          m_cellMm3(field.lattice().cellVolumeMm3()),
+    RowTransform(const volume::Field &field, const SpectrumLayout &layout, const CellLayout &cells,
+                 ColumnMemory &memory)
+        : m_field(field), m_box(layout.box), m_size(layout.box.size()), m_padded(layout.padded),
+          m_cells(cells), m_memory(memory), m_cellMm3(field.lattice().cellVolumeMm3()),
           m_rowCells(std::size_t(cells.step) * (cells.columns - 1) + CellLayout::columnCells),
           m_hx(premultiplier(layout.kernels[0], m_size.i, m_padded.i)),
           m_hy(premultiplier(layout.kernels[1], m_size.j, m_padded.j)),
           m_hz(premultiplier(layout.kernels[2], m_size.k, m_padded.k)), m_alongX(m_padded.i),
-          m_planeSums(std::size_t(m_size.k)), m_samples(std::size_t(m_size.i)), m_realRows(m_padded.i),
-          m_halves(std::size_t(m_padded.i) / 2 + 1), m_rows(m_rowCells), m_strips(stripFloats) {}
+          m_planeSums(std::size_t(m_size.k)), m_samples(std::size_t(m_size.i)),
+          m_realRows(m_padded.i), m_halves(std::size_t(m_padded.i) / 2 + 1), m_rows(m_rowCells),
+          m_strips(stripFloats) {}
 
     // Transforms plane k of the box. Thread-safe.
     void run(int k) {
@@ -140,8 +140,8 @@ private:
     void addRow(const float *in, int j, PlaneSums &sums) const {
         const int middle = m_size.i / 2;
         const double sum = volume::laneSum(m_size.i, [&](int i) { return double(in[i]); }),
-                     moment = volume::laneSum(
-                         m_size.i, [&](int i) { return double(in[i]) * (i - middle); });
+                     moment = volume::laneSum(m_size.i,
+                                              [&](int i) { return double(in[i]) * (i - middle); });
         sums.all += sum;
         sums.alongI += moment;
         sums.alongJ += sum * (j - m_size.j / 2);
@@ -187,9 +187,9 @@ private:
 template <class Cell> class ColumnTransform {
 public:
     ColumnTransform(const SpectrumLayout &layout, const CellLayout &cells, std::byte *out,
-                    const CellOutput &how)
-        : m_size(layout.box.size()), m_padded(layout.padded), m_cells(cells), m_out(out), m_how(how),
-          m_alongY(layout.padded.j), m_alongZ(layout.padded.k),
+                    const CellEncoding &encoding)
+        : m_size(layout.box.size()), m_padded(layout.padded), m_cells(cells), m_out(out),
+          m_encoding(encoding), m_alongY(layout.padded.j), m_alongZ(layout.padded.k),
           m_planes(system::allocatePages(planeBytes(layout), task::because::aTransform)),
           m_strips(2 * std::size_t(std::max(m_padded.j, m_padded.k)) * stripFloats),
           m_lines(std::size_t(rowsTogether) * m_padded.k * CellLayout::columnCells) {}
@@ -238,7 +238,7 @@ private:
         placeStrips(planes(y, 0), m_size.k, strips, m_padded.k);
         const float *const result =
             m_alongZ.run(strips, strips + std::size_t(m_padded.k) * stripFloats);
-        storeExchanged(result, m_padded.k, m_how.scale, lines, CellLayout::columnCells);
+        storeExchanged(result, m_padded.k, m_encoding.scale, lines, CellLayout::columnCells);
         if (column == 0)
             keepRounding(y, result, lines);
     }
@@ -247,7 +247,7 @@ private:
     void keepRounding(int y, const float *exact, const Cell *lines) const {
         constexpr int reach = Spectrum::roundingReach, side = 2 * reach + 1;
         const int q = y <= m_padded.j / 2 ? y : y - m_padded.j;
-        if (m_how.rounding == nullptr || std::abs(q) > reach)
+        if (m_encoding.rounding == nullptr || std::abs(q) > reach)
             return;
         for (int r = -reach; r <= reach; ++r) {
             const auto z = std::size_t(modulo(r, m_padded.k));
@@ -257,8 +257,8 @@ private:
                 const std::complex<float> stored =
                     asComplex(lines[z * CellLayout::columnCells + std::size_t(lane)]);
                 // Real and imaginary parts are exchanged.
-                m_how.rounding[((q + reach) * side + r + reach) * (reach + 1) + p] =
-                    stored - m_how.scale * std::complex<float>(cell[stripLanes], cell[0]);
+                m_encoding.rounding[((q + reach) * side + r + reach) * (reach + 1) + p] =
+                    stored - m_encoding.scale * std::complex<float>(cell[stripLanes], cell[0]);
             }
         }
     }
@@ -274,8 +274,7 @@ private:
                         const int z = modulo(plane + m_cells.firstZ, m_padded.k);
                         streamLine(lines + std::size_t(y - first) * rowCells() +
                                        std::size_t(z) * CellLayout::columnCells,
-                                   m_out + m_cells.line(column, plane, row) * lineBytes,
-                                   lineBytes);
+                                   m_out + m_cells.line(column, plane, row) * lineBytes, lineBytes);
                     }
         finishStreaming();
     }
@@ -283,7 +282,7 @@ private:
     GridSize m_size, m_padded;
     const CellLayout &m_cells;
     std::byte *m_out;
-    CellOutput m_how;
+    CellEncoding m_encoding;
     StripTransform m_alongY, m_alongZ;
     std::shared_ptr<std::byte[]> m_planes; ///< of a column: [y][k][strip]
     Scratch<float> m_strips;
@@ -292,9 +291,9 @@ private:
 
 template <class Cell>
 void transformAllColumns(const SpectrumLayout &layout, const CellLayout &cells,
-                         ColumnMemory &memory, const CellOutput &how,
+                         ColumnMemory &memory, const CellEncoding &encoding,
                          const task::Progress &progress) {
-    ColumnTransform<Cell> transform(layout, cells, memory.cells(), how);
+    ColumnTransform<Cell> transform(layout, cells, memory.cells(), encoding);
     for (int column = 0; column < cells.columns; ++column) {
         transform.alongY(memory.slab(column), progress);
         transform.alongZ(column, progress);
@@ -311,12 +310,13 @@ std::size_t slabBytes(const SpectrumLayout &layout) {
 
 ColumnMemory::ColumnMemory(const SpectrumLayout &layout, const CellLayout &cells)
     : m_cellBytes(layout.bytes()), m_slabBytes(slabBytes(layout)), m_bytes(bytes(layout)),
-      m_columns(cells.columns),
-      m_memory(system::allocatePages(m_bytes, task::because::aSpectrum)) {}
+      m_columns(cells.columns), m_memory(system::allocatePages(m_bytes, task::because::aSpectrum)) {
+}
 
 float *ColumnMemory::slab(int column) const {
     // Slabs end where the memory ends. Either slabs are larger than the cells of a column and begin
-    // with them, or they are smaller: in both cases, slab c starts behind the cells of column c - 1.
+    // with them, or they are smaller: in both cases, slab c starts behind the cells of column c
+    // - 1.
     const std::size_t after = std::size_t(m_columns - column) * m_slabBytes;
     return reinterpret_cast<float *>(m_memory.get() + (m_bytes - after));
 }
@@ -324,7 +324,7 @@ float *ColumnMemory::slab(int column) const {
 std::shared_ptr<std::byte[]> ColumnMemory::takeCells() {
     constexpr std::size_t readable = 64;
     std::memset(m_memory.get() + (m_cellBytes - readable), 0, readable);
-    system::returnPages(m_memory.get() + m_cellBytes, m_bytes - m_cellBytes);
+    system::returnPages(m_memory.get(), m_bytes, m_cellBytes);
     return std::move(m_memory);
 }
 
@@ -349,11 +349,11 @@ FieldSums transformRows(const volume::Field &field, const SpectrumLayout &layout
 }
 
 void transformColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnMemory &memory,
-                      const CellOutput &out, const task::Progress &progress) {
+                      const CellEncoding &encoding, const task::Progress &progress) {
     if (layout.storage == Storage::binary16)
-        transformAllColumns<std::uint32_t>(layout, cells, memory, out, progress);
+        transformAllColumns<std::uint32_t>(layout, cells, memory, encoding, progress);
     else
-        transformAllColumns<Complex>(layout, cells, memory, out, progress);
+        transformAllColumns<Complex>(layout, cells, memory, encoding, progress);
 }
 
 } // namespace pellucid::fourier

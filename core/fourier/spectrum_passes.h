@@ -24,7 +24,7 @@ public:
     /// [k][j][strip] of the field's own rows. The cells of earlier columns do not reach it.
     float *slab(int column) const;
     std::byte *cells() const { return m_memory.get(); }
-    /// The cells and, behind them, 64 bytes of zeros; slabs are lost.
+    /// The cells and, behind them, 64 bytes of zeros; the contents of slabs are lost.
     std::shared_ptr<std::byte[]> takeCells();
     static std::size_t bytes(const SpectrumLayout &layout);
 
@@ -49,8 +49,8 @@ FieldSums transformRows(const volume::Field &field, const SpectrumLayout &layout
                         const CellLayout &cells, ColumnMemory &memory,
                         const task::Progress &progress);
 
-/// The output of the second pass.
-struct CellOutput {
+/// How the second pass stores cells.
+struct CellEncoding {
     float scale = 1.0F; ///< the factor of cells before they are stored
     /// The rounding of the cells around frequency 0, see `Spectrum`; null if nothing is rounded.
     std::complex<float> *rounding = nullptr;
@@ -58,6 +58,6 @@ struct CellOutput {
 
 /// The second pass. *Throws* Error{outOfMemory}, Cancelled.
 void transformColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnMemory &memory,
-                      const CellOutput &out, const task::Progress &progress);
+                      const CellEncoding &encoding, const task::Progress &progress);
 
 } // namespace pellucid::fourier

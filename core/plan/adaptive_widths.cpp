@@ -221,13 +221,14 @@ public:
     };
 
     // *Units*: errors as shares of the budget.
-    Savings(int widest, const Errors &errors) {
+    Savings(int widest, const Errors &errors, AdaptiveWidths::Elsewhere elsewhere) {
         int from = widest;
         float error = 0.0F;
         while (from > 0) {
             Saving best;
             float least = std::numeric_limits<float>::infinity();
-            for (int width = from - 1; width >= 0; width -= width == 2 ? 2 : 1) {
+            const int first = elsewhere == AdaptiveWidths::Elsewhere::narrower ? from - 1 : 0;
+            for (int width = first; width >= 0; width -= width == 2 ? 2 : 1) {
                 const float more = std::max(0.0F, errors[SpectrumEnergies::entryOf(width)] - error);
                 const float price = more / float(readTime(from) - readTime(width));
                 if (price <= least) {
@@ -291,11 +292,11 @@ WidthMap AdaptiveWidths::mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
             source.amplitude = {std::hypot(weights[f][0], weights[f][1], weights[f][2]), 0.0, 0.0};
         sources.push_back(source);
     }
-    return mapFor(plane, sources, least, forEach);
+    return mapFor(plane, sources, least, Elsewhere::narrower, forEach);
 }
 
 WidthMap AdaptiveWidths::mapFor(const SlicePlane &plane, std::span<const SliceSource> sources,
-                                double least, const ForEach &forEach) const {
+                                double least, Elsewhere elsewhere, const ForEach &forEach) const {
     const Circle circle(plane);
     // Where little is known to be in the picture, everything is read.
     const double budget =
@@ -318,7 +319,7 @@ WidthMap AdaptiveWidths::mapFor(const SlicePlane &plane, std::span<const SliceSo
         Part &part = parts[std::size_t(n)];
         tiles.find(n, part.found);
         for (const Tiles::Tile &tile : part.found.bright)
-            part.savings.emplace_back(m_kernels->widest(), tile.errors);
+            part.savings.emplace_back(m_kernels->widest(), tile.errors, elsewhere);
     });
     std::vector<double> errors(Savings::classes, 0.0);
     double left = 0.0;

@@ -80,10 +80,12 @@ public:
     /// does not depend on `forEach`.
     WidthMap mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
                     std::span<const Weights> weights, const ForEach &forEach = inOrder) const;
+    /// How frequencies that do not need the widest kernel are treated.
+    enum class Elsewhere { narrower, leftOut };
     /// For frames with cue or light. `least`: the energy of low frequencies of the picture; the
     /// whole has more. *Units*: of the spectrum squared, over mm^2.
     WidthMap mapFor(const SlicePlane &plane, std::span<const SliceSource> sources, double least,
-                    const ForEach &forEach = inOrder) const;
+                    Elsewhere elsewhere, const ForEach &forEach = inOrder) const;
     bool hasGradients() const { return !m_gradients.empty(); }
 
     const std::shared_ptr<const fourier::KernelsByWidth> &kernels() const { return m_kernels; }

@@ -158,9 +158,8 @@ private:
             for (int k = n * m_side; k < std::min(m_size.k, (n + 1) * m_side); ++k) {
                 std::fill(inPlane.begin(), inPlane.end(), 0.0F);
                 for (int j = firstJ; j < endJ; ++j) {
-                    const float *const row =
-                        m_field.row({m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k}, m_size.i,
-                                    buffer.data());
+                    const float *const row = m_field.row(
+                        {m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k}, m_size.i, buffer.data());
                     sums.add(row);
                     raise(inPlane.data(), row);
                     raise(inRows.data() + std::size_t(j - firstJ) * m_size.i, row);

@@ -6,7 +6,6 @@
 
 #include <tbb/parallel_for.h>
 
-
 namespace pellucid::plan {
 
 std::vector<BlockRange> blockRanges(int samples) {
@@ -30,13 +29,13 @@ std::vector<FieldBlock> fieldBlocks(const volume::Field &field, const volume::Vo
         for (int k = ranges[2][c].first; k <= ranges[2][c].last; ++k)
             for (std::size_t b = 0; b < down; ++b)
                 for (int j = ranges[1][b].first; j <= ranges[1][b].last; ++j) {
-                    const float *const row = field.row(
-                        {box.lo.i, j + box.lo.j, k + box.lo.k}, size.i, buffer.data());
+                    const float *const row =
+                        field.row({box.lo.i, j + box.lo.j, k + box.lo.k}, size.i, buffer.data());
                     for (std::size_t a = 0; a < across; ++a) {
                         const float *const part = row + ranges[0][a].first;
                         const int count = ranges[0][a].last - ranges[0][a].first + 1;
-                        energy[(c * down + b) * across + a] +=
-                            double(volume::laneSum(count, [&](int i) { return part[i] * part[i]; }));
+                        energy[(c * down + b) * across + a] += double(
+                            volume::laneSum(count, [&](int i) { return part[i] * part[i]; }));
                         mass[(c * down + b) * across + a] +=
                             double(volume::laneSum(count, [&](int i) { return part[i]; }));
                     }

@@ -9,7 +9,6 @@
 
 #include <tbb/parallel_for.h>
 
-
 namespace pellucid::plan {
 
 namespace {
@@ -68,9 +67,8 @@ double squaresOfPlane(const volume::Field &field, const volume::VoxelBox &box, i
 double squaredSecondDifferences(const volume::Field &field, const volume::VoxelBox &box) {
     const volume::GridSize size = box.size();
     std::vector<double> planeSums(std::size_t(size.k));
-    tbb::parallel_for(0, size.k, [&](int k) {
-        planeSums[std::size_t(k)] = squaresOfPlane(field, box, k);
-    });
+    tbb::parallel_for(0, size.k,
+                      [&](int k) { planeSums[std::size_t(k)] = squaresOfPlane(field, box, k); });
     double sum = 0.0;
     for (const double planeSum : planeSums)
         sum += planeSum;

@@ -150,9 +150,7 @@ private:
     };
 
     static LinearCue cueOf(const scene::Scene &scene) {
-        const shading::DepthCue &cue = scene.shading.cue;
-        return cue.isActive() && cue.kind == shading::CueKind::linear ? LinearCue::present
-                                                                      : LinearCue::none;
+        return scene.shading.cue.hasMoments() ? LinearCue::present : LinearCue::none;
     }
 
     Layout layoutAt(const fourier::KernelChoice &choice, fourier::Storage storage,
@@ -345,13 +343,6 @@ double roughnessOf(std::span<const FieldSummary> fields) {
     return roughness;
 }
 
-// Whether frames may be read by kernels of several widths.
-bool mayAdapt(const scene::Scene &scene) {
-    const shading::DepthCue &cue = scene.shading.cue;
-    return !scene.interpolation.isUniform &&
-           !(cue.isActive() && cue.kind == shading::CueKind::linear);
-}
-
 } // namespace
 
 RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, const Budget &budget) {
@@ -369,7 +360,8 @@ RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> f
     constexpr double share = 0.8;
     const double limit = share * scene.tolerance,
                  price = 1.1 + 0.9 * std::max(0.0, 1.0 - 3.0 * roughnessOf(fields));
-    if (mayAdapt(scene) && plan.predictedError <= scene.tolerance && plan.predictedError > limit) {
+    if (!scene.interpolation.isUniform && !scene.shading.cue.hasMoments() &&
+        plan.predictedError <= scene.tolerance && plan.predictedError > limit) {
         if (auto stricter = planner.stricter(limit, price))
             return std::move(*stricter);
     }
@@ -390,7 +382,7 @@ void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
     constexpr double atEdges = 12.0;
     const double tolerance = scene.tolerance, error = plan.predictedError;
     const double left = margin * std::sqrt(std::max(0.0, tolerance * tolerance - error * error));
-    if (!mayAdapt(scene) || plan.spectrum.width() < 2 || left < leastShare * tolerance)
+    if (scene.interpolation.isUniform || plan.spectrum.width() < 2 || left < leastShare * tolerance)
         return;
     plan.adaptiveError = left;
     plan.image = scene.image;

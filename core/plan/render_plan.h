@@ -69,9 +69,9 @@ struct Composition {
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields,
                       const Composition &composition, const Budget &budget = {});
 
-/// Spends the rest of the tolerance on narrower kernels. No effect where one width is as fast: with
-/// a linear cue, whose moments have kernels of their own, and for noise. *Shape*: the fields of the
-/// plan.
+/// Spends the rest of the tolerance on narrower kernels, or, with a linear cue, whose moments have
+/// kernels of one width, on frequencies that are not read at all. No effect for noise, where one
+/// width is as fast. *Shape*: the fields of the plan.
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene, std::span<const FieldSummary> fields);
 
 } // namespace pellucid::plan

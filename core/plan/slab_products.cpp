@@ -15,8 +15,8 @@ namespace {
 constexpr int maxSlabs = 32;
 
 // The sum of the samples of each slab across an axis, [slab][second other axis][first other axis].
-std::vector<std::vector<float>> slabsAcross(const volume::Field &field,
-                                            const volume::VoxelBox &box, int axis, int slabs) {
+std::vector<std::vector<float>> slabsAcross(const volume::Field &field, const volume::VoxelBox &box,
+                                            int axis, int slabs) {
     const volume::GridSize size = box.size();
     const int samples = size[axis], first = axis == 0 ? size.j : size.i,
               second = axis == 2 ? size.j : size.k;

@@ -103,7 +103,7 @@ HWY_INLINE void visitLines(const Cell *cells, const fourier::CellLayout &layout,
 // The widths in lanes of their own.
 template <class Cell>
 void readWidths(const Cell *cells, const fourier::CellLayout &layout, int widest, int x, int y,
-                 int z, const SpectrumBlocks::PointWeights &weights, Readings &readings) {
+                int z, const SpectrumBlocks::PointWeights &weights, Readings &readings) {
     using Entries = hn::CappedTag<float, SpectrumBlocks::PointWeights::entries>;
     const Entries e;
     constexpr std::size_t lanes = hn::MaxLanes(Entries());
@@ -131,11 +131,11 @@ void readWidths(const Cell *cells, const fourier::CellLayout &layout, int widest
 }
 
 #if HWY_MAX_BYTES >= 32
-// The widths 2 to 5 alone, real and imaginary parts side by side, by half as many instructions.
+// The widths 2 to 5 alone, real and imaginary parts side by side, in half as many instructions.
 // Width 0 reads nothing.
 template <class Cell>
-void readFourWidths(const Cell *cells, const fourier::CellLayout &layout, int widest, int x, int y,
-                     int z, const SpectrumBlocks::PointWeights &weights, Readings &readings) {
+void readWidthsTo5(const Cell *cells, const fourier::CellLayout &layout, int widest, int x, int y,
+                   int z, const SpectrumBlocks::PointWeights &weights, Readings &readings) {
     const hn::FixedTag<float, 8> d;
     const hn::FixedTag<float, 4> four;
     const auto twice = [&](const float *entries) HWY_ATTR {
@@ -159,14 +159,15 @@ void readFourWidths(const Cell *cells, const fourier::CellLayout &layout, int wi
                [&](const Cell *from, std::size_t j, std::size_t k) HWY_ATTR {
                    auto row = hn::Zero(d);
                    for (int first = 0; first < widest; first += loaded) {
-                       // A line, or the memory behind the last one, goes on behind the taps.
+                       // Up to three cells beyond the taps: of the next line, or of the 64 readable
+                       // bytes after the last.
                        const auto values = loadCells(d, from + first);
                        for (int i = 0; i < std::min(loaded, widest - first); ++i)
-                           row = hn::MulAdd(along[first + i],
-                                            hn::TableLookupLanes(values, both[i]), row);
+                           row = hn::MulAdd(along[first + i], hn::TableLookupLanes(values, both[i]),
+                                            row);
                    }
-                   const auto weight = hn::Mul(twice(weights.axis[1][j].data()),
-                                               twice(weights.axis[2][k].data()));
+                   const auto weight =
+                       hn::Mul(twice(weights.axis[1][j].data()), twice(weights.axis[2][k].data()));
                    sum = hn::MulAdd(weight, row, sum);
                });
     hn::Store(sum, d, all);
@@ -183,7 +184,7 @@ void errorsAt(const Cell *cells, const fourier::CellLayout &layout, int widest, 
     Readings readings;
 #if HWY_MAX_BYTES >= 32
     if (widest <= 5)
-        readFourWidths(cells, layout, widest, x, y, z, weights, readings);
+        readWidthsTo5(cells, layout, widest, x, y, z, weights, readings);
     else
         readWidths(cells, layout, widest, x, y, z, weights, readings);
 #else

@@ -33,7 +33,7 @@ double energy(const classify::DensityField &field) {
 double lostDetail(const classify::DensityField &field, const classify::DensityField &means) {
     const double all = energy(field);
     const double kept = energy(means) * (means.values.lattice().cellVolumeMm3() /
-                                                field.values.lattice().cellVolumeMm3());
+                                         field.values.lattice().cellVolumeMm3());
     return all > 0.0 ? std::sqrt(std::max(0.0, 1.0 - kept / all)) : 0.0;
 }
 

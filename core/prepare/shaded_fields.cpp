@@ -40,7 +40,7 @@ std::vector<plan::FieldSummary> summarise(const ShadedFields &fields,
     all.insert(all.end(), fields.gradients.begin(), fields.gradients.end());
     std::vector<plan::FieldSummary> summaries =
         plan::summarise(std::span<const classify::DensityField>(all));
-    if (cue.isActive() && cue.kind == shading::CueKind::linear)
+    if (cue.hasMoments())
         for (std::size_t n = 0; n < all.size(); ++n)
             summaries[n].slabs = plan::slabProducts(all[n].values, summaries[n].support);
     for (plan::FieldSummary &summary : summaries)

@@ -8,7 +8,7 @@ namespace pellucid::reference {
 
 /// The reference image: D(s) by direct summation over all samples in double precision, without
 /// transform or kernel. The cost is samples times frequencies; meant for at most 96 samples a side.
-/// *Shape*: the field is float32. The result is camera.height x camera.width, field times mm.
+/// *Shape*: the result is camera.height x camera.width, field times mm.
 std::vector<double> directSumImage(const volume::Field &field, const scene::Camera &camera,
                                    const scene::ImageDefinition &image);
 

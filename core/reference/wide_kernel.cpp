@@ -82,8 +82,8 @@ WideKernel::WideKernel(const volume::Field &field, const volume::VoxelBox &box,
                 m_cells.data() + (std::size_t(modulo(k - middle.k, m_padded.k)) * m_padded.j +
                                   modulo(j - middle.j, m_padded.j)) *
                                      m_rowStride);
-            const float *const samples = field.row(
-                {box.lo.i, j + box.lo.j, k + box.lo.k}, size.i, buffer.data());
+            const float *const samples =
+                field.row({box.lo.i, j + box.lo.j, k + box.lo.k}, size.i, buffer.data());
             for (int i = 0; i < size.i; ++i)
                 row[modulo(i - middle.i, m_padded.i)] = double(samples[i]) * factor;
         }

@@ -12,7 +12,7 @@ namespace pellucid::reference {
 /// *Throws* Error{outOfMemory}, Cancelled. *Source*: Beatty, Nishimura, Pauly 2005.
 class WideKernel {
 public:
-    /// *Shape*: the field is float32; only the box is read, and the rest must be zero.
+    /// *Shape*: only the box is read, and the rest must be zero.
     WideKernel(const volume::Field &field, const volume::VoxelBox &box,
                const task::Progress &progress = {});
 

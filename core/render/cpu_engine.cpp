@@ -23,29 +23,51 @@ struct FrameBuffers {
     FrameBuffers(const plan::FieldOfView &fieldOfView, int threads)
         : team(threads), setup(fieldOfView), scratch(team.slots()) {}
 
-    // Prepares for a frame.
-    void fit(const FrameInputs &inputs, double rollOffShare) {
-        takeTables(inputs.grid, rollOffShare);
-        strips = std::span(tables->strips);
-        if (inputs.widths)
-            strips = strips.first(std::size_t(inputs.widths->strips));
+    // Prepares for a frame of a picture of so many rows.
+    void fit(const FrameInputs &inputs, double rollOffShare, int imageRows) {
+        const int all = stripsOf(inputs.grid.columns / 2),
+                  count = inputs.widths ? std::min(all, inputs.widths->strips) : all;
+        takeTables(inputs.grid, rollOffShare, count, all);
+        strips = std::span(tables->strips).first(std::size_t(count));
         const plan::SliceGrid need{std::max(allocated.columns, inputs.grid.columns),
                                    std::max(allocated.rows, inputs.grid.rows)};
         const int channels = inputs.mixing.channels;
         if (need != allocated || channels > allocatedChannels)
             allocate(need, std::max(channels, allocatedChannels));
+        fitLines(channels, std::size_t(stripsOf(std::min(imageRows, inputs.grid.rows))) *
+                               strips.size() * stripLanes * stripFloats);
     }
 
-    void takeTables(const plan::SliceGrid &grid, double rollOffShare) {
+    // The lines between the two transforms. A picture finer than the voxels has a large grid, of
+    // which little is read.
+    void fitLines(int channels, std::size_t floats) {
+        constexpr std::size_t spare = 8; // a larger share is returned
+        if (lines.size() >= std::size_t(channels) && floats <= lineFloats &&
+            lineFloats <= spare * floats)
+            return;
+        lines.clear();
+        lineFloats = 0;                               // while memory runs out
+        const std::size_t more = floats + floats / 4; // for views that read a little more
+        for (int c = 0; c < channels; ++c)
+            lines.push_back(
+                system::allocatePages(more * sizeof(float), task::because::anImageOfThisSize));
+        lineFloats = more;
+    }
+
+    // `count`: of strips that are needed, of all.
+    void takeTables(const plan::SliceGrid &grid, double rollOffShare, int count, int all) {
         const auto fits = [&](const std::unique_ptr<GridTables> &kept) {
-            return kept && kept->grid == grid && kept->rollOffShare == rollOffShare;
+            return kept && kept->grid == grid && kept->rollOffShare == rollOffShare &&
+                   int(kept->strips.size()) >= count;
         };
         for (auto &kept : others)
             if (fits(kept))
                 std::swap(tables, kept);
         if (fits(tables))
             return;
-        auto made = std::make_unique<GridTables>(grid, rollOffShare);
+        // Other views need a few strips more.
+        auto made =
+            std::make_unique<GridTables>(grid, rollOffShare, std::min(all, count + count / 4 + 4));
         // The tables that were used before the current ones are dropped.
         others.back() = std::move(others.front());
         others.front() = std::move(tables);
@@ -67,9 +89,6 @@ struct FrameBuffers {
             std::fill_n(reinterpret_cast<float *>(memory.get()), count, 0.0F);
             return memory;
         };
-        lines.clear();
-        for (int c = 0; c < channels; ++c)
-            lines.push_back(floats(stripsOf(grid.rows) * columns * stripFloats));
         columnPhase = floats(2 * columns);
         rowPhase.resize(std::size_t(grid.rows) / 2 + 1);
         batches =
@@ -116,6 +135,7 @@ struct FrameBuffers {
     std::array<std::unique_ptr<GridTables>, 2> others;
     plan::SliceGrid allocated{0, 0};
     int allocatedChannels = 0;
+    std::size_t lineFloats = 0; ///< of each image
     std::shared_ptr<std::byte[]> columnPhase, batches;
     std::vector<std::shared_ptr<std::byte[]>> lines, stripMemory;
     std::span<const StripBounds> strips; ///< of the tables, as many as the frame reads
@@ -279,7 +299,7 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
         camera.width, camera.height, camera.pixelMm, {}, inputs.pictureChannels()};
     task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
         if (!inputs.isEmpty())
-            buffers.fit(inputs, image.rollOff);
+            buffers.fit(inputs, image.rollOff, camera.height);
         result.samples.resize(std::size_t(camera.width) * camera.height *
                               std::size_t(result.channels));
     });

@@ -34,7 +34,7 @@ public:
     CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView, int threads = 0);
     ~CpuEngine() override;
 
-    /// Reads frames without a linear cue by these widths; null: everything by the layout's own.
+    /// Reads frames by these widths; null: everything by the layout's own.
     /// *Requires*: no concurrent frame.
     void setWidths(std::shared_ptr<const plan::AdaptiveWidths> widths);
     /// *Shape*: one entry per field.

@@ -18,9 +18,22 @@ shading::Shading activeShading(const shading::Shading &shading, const EngineSpec
     return active;
 }
 
+// The largest factor of a linear cue within the box; it is linear in the distance from the wrap
+// voxel. It bounds the energy of a neighbourhood of the cued slice, not of single frequencies, but
+// the energies are those of the brightest cells of blocks.
+double largestCue(const FrameShading &shading, const fourier::SpectrumLayout &layout) {
+    double largest = std::abs(double(shading.base));
+    for (int d = 0; shading.cued && d < 3; ++d)
+        largest += std::abs(shading.perMoment[std::size_t(d)]) * 0.5 * layout.box.size()[d] /
+                   layout.padded[d];
+    return largest;
+}
+
 // The sources of a shaded slice, each at the offset of every term; see FrameShading.
-std::vector<plan::SliceSource> sliceSources(const FrameInputs &inputs) {
+std::vector<plan::SliceSource> sliceSources(const FrameInputs &inputs,
+                                            const fourier::SpectrumLayout &layout) {
     const Mixing &mixing = inputs.mixing;
+    const double cue = largestCue(inputs.shading, layout);
     std::vector<plan::SliceSource> sources;
     for (const FrameSource &from : mixing.sources)
         for (int t = 0; t < inputs.shading.termCount; ++t) {
@@ -40,10 +53,12 @@ std::vector<plan::SliceSource> sliceSources(const FrameInputs &inputs) {
                     const double weight =
                         std::abs(double(std::abs(term.weight)) * color[c] * share);
                     source.amplitude[c] +=
-                        weight *
+                        weight * cue *
                         std::abs(double(source.isGradient ? shade.magnitude : shade.ambient));
-                    for (std::size_t d = 0; d < 3 && !source.isGradient; ++d)
-                        source.perSine[c][d] += weight * std::abs(shade.gradient[d]);
+                    for (std::size_t d = 0; d < 3 && !source.isGradient; ++d) {
+                        source.amplitude[c] += weight * std::abs(shade.excess[d]);
+                        source.perSine[c][d] += weight * cue * std::abs(shade.gradient[d]);
+                    }
                 }
             }
             sources.push_back(source);
@@ -138,14 +153,18 @@ FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
             m_moments.emplace(momentKernels(spectrum.layout()));
         inputs.shading.kernels = &*m_moments;
     }
-    // The moments of a linear cue have kernels of their own.
-    if (m_widths && m_widths->image() == image && !inputs.shading.cued &&
+    if (m_widths && m_widths->image() == image &&
         (!inputs.shading.lit || m_widths->hasGradients())) {
         const plan::SlicePlane plane = slicePlane(camera, inputs.grid, inputs.geometry);
-        inputs.widths = inputs.isShaded ? m_widths->mapFor(plane, sliceSources(inputs),
-                                                           lowEnergy(inputs, spectra, plane),
-                                                           forEach)
-                                        : m_widths->mapFor(axes, plane, channelWeights, forEach);
+        // The moments of a linear cue have kernels of one width.
+        using Elsewhere = plan::AdaptiveWidths::Elsewhere;
+        inputs.widths =
+            inputs.isShaded
+                ? m_widths->mapFor(plane, sliceSources(inputs, spectrum.layout()),
+                                   lowEnergy(inputs, spectra, plane),
+                                   inputs.shading.cued ? Elsewhere::leftOut : Elsewhere::narrower,
+                                   forEach)
+                : m_widths->mapFor(axes, plane, channelWeights, forEach);
         inputs.kernels = m_widths->kernels();
     }
     inputs.zero = zeroSums(inputs.mixing, inputs.shading, spectrum.layout());

@@ -23,7 +23,7 @@ std::vector<std::complex<double>> rotations(int count, double turns) {
     return result;
 }
 
-GridTables::GridTables(const plan::SliceGrid &size, double share)
+GridTables::GridTables(const plan::SliceGrid &size, double share, int count)
     : grid(size), rollOffShare(share), alongRows(size.rows), halfColumns(size.columns / 2) {
     for (const auto &factor : rotations(size.columns / 2, 1.0 / size.columns))
         unpackReal.emplace_back(factor);
@@ -31,7 +31,7 @@ GridTables::GridTables(const plan::SliceGrid &size, double share)
         return std::hypot(2.0 * column / size.columns, 2.0 * row / size.rows);
     };
     // The Nyquist row and column are on the edge of the disc, where the roll-off is 0.
-    for (int strip = 0; strip < stripsOf(size.columns / 2); ++strip) {
+    for (int strip = 0; strip < count; ++strip) {
         const int first = strip * stripLanes, last = first + stripLanes - 1;
         StripBounds bounds;
         while (bounds.outerRow + 1 < size.rows / 2 && radius(first, bounds.outerRow + 1) < 1.0)

@@ -19,15 +19,16 @@ std::vector<std::complex<double>> rotations(int count, double turns);
 
 /// Tables that depend only on the slice grid and the roll-off, kept from frame to frame.
 struct GridTables {
-    GridTables(const plan::SliceGrid &grid, double rollOffShare);
+    /// `count`: of strips, at most as many as half the grid has.
+    GridTables(const plan::SliceGrid &grid, double rollOffShare, int count);
 
     plan::SliceGrid grid;
     double rollOffShare;
     fourier::StripTransform alongRows;           ///< length rows
     fourier::StripTransform halfColumns;         ///< length columns / 2
     std::vector<std::complex<float>> unpackReal; ///< see FrameJob::unpackReal
-    std::vector<StripBounds> strips;
-    std::vector<float> rollOff; ///< see StripBounds::rollOff
+    std::vector<StripBounds> strips;             ///< the first ones
+    std::vector<float> rollOff;                  ///< see StripBounds::rollOff
 };
 
 } // namespace pellucid::render

@@ -95,9 +95,9 @@ classify::DensityField gradientMagnitude(const classify::DensityField &field, do
             };
             for (int j = box.lo.j; j < box.hi.j; ++j) {
                 const float *const f = rowAt(j, k, 0), *const above = rowAt(j - 1, k, 1),
-                                  *const below = rowAt(j + 1, k, 2),
-                                  *const behind = rowAt(j, k - 1, 3),
-                                  *const before = rowAt(j, k + 1, 4);
+                                   *const below = rowAt(j + 1, k, 2),
+                                   *const behind = rowAt(j, k - 1, 3),
+                                   *const before = rowAt(j, k + 1, 4);
                 const auto length = [&](int i, int left, int right) {
                     const glm::vec3 d(f[right] - f[left], below[i] - above[i],
                                       before[i] - behind[i]);

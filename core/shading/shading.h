@@ -32,6 +32,8 @@ struct DepthCue {
 
     /// Whether it changes anything.
     bool isActive() const;
+    /// Whether it is active and linear: the slice then needs the moments of the spectrum.
+    bool hasMoments() const { return isActive() && kind == CueKind::linear; }
     /// d at a depth, which may lie beyond the volume.
     double at(double t) const;
 };

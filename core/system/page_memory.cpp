@@ -65,11 +65,17 @@ std::shared_ptr<std::byte[]> allocatePages(std::size_t bytes, task::Because<0> w
     return memory;
 }
 
-void returnPages([[maybe_unused]] std::byte *from, [[maybe_unused]] std::size_t bytes) {
+void returnPages([[maybe_unused]] std::byte *memory, [[maybe_unused]] std::size_t bytes,
+                 [[maybe_unused]] std::size_t kept) {
 #ifdef PELLUCID_LARGE_PAGES
-    const std::size_t before = (largePage - std::uintptr_t(from) % largePage) % largePage;
-    if (bytes > before)
-        ::madvise(from + before, bytes - before, MADV_DONTNEED);
+    // Smaller memory belongs to the allocator, and shares its pages with other memory.
+    if (bytes < largePage)
+        return;
+    const auto whole = [](std::size_t size) {
+        return (size + largePage - 1) / largePage * largePage;
+    };
+    if (whole(bytes) > whole(kept))
+        ::madvise(memory + whole(kept), whole(bytes) - whole(kept), MADV_DONTNEED);
 #endif
 }
 

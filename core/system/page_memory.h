@@ -13,8 +13,8 @@ namespace pellucid::system {
 /// `what`.
 std::shared_ptr<std::byte[]> allocatePages(std::size_t bytes, task::Because<0> what);
 
-/// Returns the large pages that lie wholly within a part of such memory to the system. The part's
-/// contents are lost. *Requires*: the memory ends where the part ends.
-void returnPages(std::byte *from, std::size_t bytes);
+/// Returns the large pages of such memory that lie wholly behind its first `kept` bytes to the
+/// system; their contents are lost. `bytes`: of the memory. No effect if it has no large pages.
+void returnPages(std::byte *memory, std::size_t bytes, std::size_t kept);
 
 } // namespace pellucid::system

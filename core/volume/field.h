@@ -29,9 +29,10 @@ public:
     Field within(const VoxelBox &box) const;
 
     const Lattice &lattice() const { return m_samples.lattice(); }
-    /// The volume whose samples, or whose ramp, the values are.
+    /// The volume that the values are read from.
     const Volume &samples() const { return m_samples; }
-    /// Values of a row of the lattice: where they lie in memory, or else in `buffer`. *Shape*:
+    /// A pointer to `count` values of a row of the lattice: into the samples if they can be read in
+    /// place, else `buffer`, which is filled. Valid while field and buffer are unchanged. *Shape*:
     /// `buffer` has room for `count` values.
     const float *row(VoxelIndex first, int count, float *buffer) const;
     void copyRow(VoxelIndex first, int count, float *to) const;

@@ -4,6 +4,7 @@
 // by a picture.
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -82,13 +83,13 @@ private:
         ui::ProjectionView *const view = projection();
         int frames = 0, drafts = 0;
         double frameMs = 0.0;
-        const auto connection =
-            QObject::connect(view, &ui::ProjectionView::frameShown,
-                             [&](const picture::FrameTimes &times, bool isDraft) {
-                                 ++frames;
-                                 drafts += isDraft ? 1 : 0;
-                                 frameMs = times.totalMs();
-                             });
+        const QObject whileHere; // ends the connection
+        QObject::connect(view, &ui::ProjectionView::frameShown, &whileHere,
+                         [&](const picture::FrameTimes &times, bool isDraft) {
+                             ++frames;
+                             drafts += isDraft ? 1 : 0;
+                             frameMs = times.totalMs();
+                         });
         std::vector<double> toPicture, ofFrame;
         const QPoint from = view->rect().center();
         QTest::mousePress(view, Qt::LeftButton, Qt::NoModifier, from);
@@ -105,7 +106,6 @@ private:
             ofFrame.push_back(frameMs);
         }
         QTest::mouseRelease(view, Qt::LeftButton, Qt::NoModifier, from);
-        QObject::disconnect(connection);
         settle();
         fmt::print("{}, pane {} x {}, {}: {:.1f} ms from the move to the picture, {:.1f} of them "
                    "the frame; {} of {} are drafts\n",

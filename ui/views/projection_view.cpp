@@ -19,12 +19,12 @@ namespace {
 
 // A full frame that takes longer lags behind the hand: drafts are drawn while the view moves.
 constexpr double smoothFrameMs = 35.0;
-// The first frame also allocates its memory, and takes up to so many times as long as the next.
-constexpr double coldness = 3.0;
+// The first frame also allocates its memory and may take three times as long as the next.
+constexpr double firstFrameFactor = 3.0;
 constexpr int restMs = 120;
-// Pixels per voxel where one width of kernel reads everything, so that a frame costs what its
-// pixels cost. Finer ones would show the smoothness of the reconstruction, not the patient.
-constexpr double uniformPixels = 4.0;
+// The most pixels per voxel of frames that read every frequency of the picture, and so cost what
+// its pixels cost. Finer ones would show the smoothness of the reconstruction, not the patient.
+constexpr double pixelsPerVoxel = 4.0;
 
 } // namespace
 
@@ -230,9 +230,12 @@ void ProjectionView::requestFrame(bool moving) {
         return;
     const bool draft = moving && m_fullFrameMs > smoothFrameMs;
     m_pending = true;
-    const bool readsAll = m_prepared->plan.adaptiveError == 0.0;
+    // The card transforms the whole grid.
+    const plan::RenderPlan &plan = m_prepared->plan;
+    const bool readsBand = plan.adaptiveError > 0.0 && plan.image == m_document.scene().image &&
+                           !m_onCard && !m_isComparing;
     const double finest =
-        readsAll ? m_document.volume()->lattice().shortestStepMm() / uniformPixels : 0.0;
+        readsBand ? 0.0 : m_document.volume()->lattice().shortestStepMm() / pixelsPerVoxel;
     shading::Shading shading = m_document.scene().shading;
     if (shading.isLit() && !m_prepared->canBeLit) // until light is prepared, the shading stays
         shading = m_drawnShading;
@@ -262,7 +265,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     m_frameStage = m_stage;
     m_pending = m_rest.isActive() || frame->number != m_requested;
     if (!frame->draft) {
-        m_fullFrameMs = frame->times.totalMs() / (m_isFirstFrame ? coldness : 1.0);
+        m_fullFrameMs = frame->times.totalMs() / (m_isFirstFrame ? firstFrameFactor : 1.0);
         m_isFirstFrame = false;
     }
     if (m_tone.isWanted())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -14,10 +15,11 @@ namespace {
 using render::ChannelWeights;
 
 class NarrowingError : public testing::TestWithParam<phantom::Kind> {
-protected:
+public:
     struct Seen {
         double estimated, measured;   ///< energies of all channels
         double worstPixel, predicted; ///< relative to the largest pixel
+        double share, allowed;        ///< of the picture, relative L2
     };
 
     // A picture by several widths beside that of one kernel.
@@ -25,12 +27,25 @@ protected:
                      double tolerance) {
         const auto lattice =
             phantom::phantomLattice(GetParam(), {.size = volume::GridSize{96, 96, 40}});
-        const auto field =
-            classify::densityField(phantom::makePhantom(GetParam(), lattice), {-900.0, 2000.0});
         scene::Scene scene;
         scene.camera = scene::defaultCamera(lattice);
         scene.camera.orientation =
             scene::viewOrientation(scene::StandardView::front, {35.0, 20.0, 5.0});
+        return seenOf(
+            classify::densityField(phantom::makePhantom(GetParam(), lattice), {-900.0, 2000.0}),
+            scene, shading, color, tolerance);
+    }
+
+    static Seen seenOf(const classify::DensityField &field, scene::Scene scene,
+                       const shading::Shading &shading, const ChannelWeights &color,
+                       double tolerance) {
+        // With a linear cue, only frequencies beyond the field's own band are left out: they are in
+        // pictures finer than the voxels.
+        if (shading.cue.hasMoments()) {
+            scene.camera.pixelMm /= 3.0;
+            scene.camera.width *= 3;
+            scene.camera.height *= 3;
+        }
         scene.tolerance = tolerance;
         scene.shading = shading;
         const auto prepared = prepare::prepareEngine(
@@ -45,17 +60,20 @@ protected:
                                             scene.image, scene.shading);
         const auto energies =
             accuracy::narrowingEnergies(parts.spectra, inputs, scene.camera, scene.image);
-        Seen seen{0.0, 0.0, 0.0, prepared.plan.predictedMaximum};
+        Seen seen{0.0, 0.0, 0.0, prepared.plan.predictedMaximum, 0.0, prepared.plan.adaptiveError};
         for (int c = 0; c < narrow.channels; ++c)
             seen.estimated += energies[std::size_t(c)];
-        double largest = 0.0;
+        double largest = 0.0, energy = 0.0;
         for (std::size_t n = 0; n < wide.samples.size(); ++n) {
             const double off = double(narrow.samples[n]) - double(wide.samples[n]);
             seen.measured += off * off * scene.camera.pixelMm * scene.camera.pixelMm;
+            energy += double(wide.samples[n]) * double(wide.samples[n]) * scene.camera.pixelMm *
+                      scene.camera.pixelMm;
             seen.worstPixel = std::max(seen.worstPixel, std::abs(off));
             largest = std::max(largest, double(wide.samples[n]));
         }
         seen.worstPixel /= largest;
+        seen.share = std::sqrt(seen.measured / energy);
         return seen;
     }
 };
@@ -80,7 +98,28 @@ TEST_P(NarrowingError, IsEstimatedFromASample) {
                     << tolerance << " " << color[1] << " " << toJson(shading);
                 EXPECT_LT(found.estimated, 3.5 * found.measured)
                     << tolerance << " " << color[1] << " " << toJson(shading);
+                EXPECT_GT(found.share, 0.0);
+                EXPECT_LE(found.share, found.allowed)
+                    << tolerance << " " << color[1] << " " << toJson(shading);
             }
+}
+
+// Tiles that are left out without being measured count with a bound.
+TEST_P(NarrowingError, OfALinearCueIsNoMoreThanEstimatedAndAllowed) {
+    const shading::Shading linear{.cue = {shading::CueKind::linear, 0.9}};
+    shading::Shading lit = linear;
+    lit.ambient = 0.4;
+    lit.lights.resize(1);
+    lit.lights[0].direction = {0.3, 0.5, 1.0};
+    for (const double tolerance : {1e-2, 1e-3})
+        for (const shading::Shading &shading : {linear, lit}) {
+            const Seen found = seen(shading, {1.0, 1.0, 1.0}, tolerance);
+            EXPECT_GE(found.estimated, 0.75 * found.measured) << tolerance << toJson(shading);
+            EXPECT_LE(found.share, found.allowed) << tolerance << toJson(shading);
+            if (tolerance == 1e-2) {
+                EXPECT_GT(found.share, 0.0) << toJson(shading);
+            }
+        }
 }
 
 TEST_P(NarrowingError, TheWorstPixelIsWithinWhatThePlanPredicts) {
@@ -88,6 +127,28 @@ TEST_P(NarrowingError, TheWorstPixelIsWithinWhatThePlanPredicts) {
         const Seen found = seen({}, {1.0, 1.0, 1.0}, tolerance);
         EXPECT_GT(found.worstPixel, 0.0);
         EXPECT_LE(found.worstPixel, found.predicted) << tolerance;
+    }
+}
+
+// The texture of one half cancels that of the other along the line of sight, but not under a cue
+// along it: where the slice is dark, the cued slice is not.
+TEST(LinearCue, LeavesOutNoMoreThanAllowedWhereOnlyTheCueBringsLight) {
+    const auto lattice = volume::Lattice::centred({64, 64, 64}, {1.0, 1.0, 1.0});
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> even(-0.45F, 0.45F);
+    std::vector<float> texture(64 * 64), samples(lattice.size().count());
+    for (float &value : texture)
+        value = even(random);
+    for (std::size_t n = 0; n < samples.size(); ++n)
+        samples[n] = 0.5F + (n / (64 * 64) < 32 ? -1.0F : 1.0F) * texture[n % (64 * 64)];
+    const auto field = classify::fieldOf(volume::Volume(lattice, samples, volume::ValueUnit::none));
+    scene::Scene scene;
+    scene.camera = scene::defaultCamera(lattice);
+    scene.camera.orientation = scene::viewOrientation(scene::StandardView::top);
+    for (const double tolerance : {1e-1, 3e-2, 1e-2, 1e-3}) {
+        const auto found = NarrowingError::seenOf(
+            field, scene, {.cue = {shading::CueKind::linear, 0.9}}, {1.0, 1.0, 1.0}, tolerance);
+        EXPECT_LE(found.share, found.allowed) << tolerance;
     }
 }
 

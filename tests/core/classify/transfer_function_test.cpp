@@ -98,9 +98,9 @@ TEST(TransferFunction, WeightedFieldIsTheDensityTimesTheCurve) {
             EXPECT_NEAR(weighted.values.value(at), f * function.at(f), 8e-7);
         }
     }
-    const auto nothing =
-        classify::shownFields(field.values.samples(), {0.0, 1.0}, {TransferFunction{{0.0, 0.0}}, {}}, nullptr)
-            .channels.front();
+    const auto nothing = classify::shownFields(field.values.samples(), {0.0, 1.0},
+                                               {TransferFunction{{0.0, 0.0}}, {}}, nullptr)
+                             .channels.front();
     EXPECT_EQ(nothing.support.size().count(), 1U);
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "core/fourier/kernels_by_width.h"
 #include "core/fourier/spectrum.h"
+#include "core/fourier/spectrum_passes.h"
 #include "tests/support/fields.h"
 
 namespace pellucid {
@@ -128,6 +131,59 @@ TEST(Spectrum, TakesFourBytesACellAndLittleMoreToMake) {
     for (const auto storage : {fourier::Storage::binary16, fourier::Storage::float32}) {
         layout.storage = storage;
         EXPECT_LT(double(layout.peakBytes()), 1.25 * double(layout.bytes()));
+    }
+}
+
+// The cells of a column are written before later slabs are read, whichever is larger.
+TEST(Spectrum, CellsOverwriteOnlySlabsThatHaveBeenRead) {
+    bool slabsAreLarger = false, cellsAreLarger = false;
+    for (const auto storage : {fourier::Storage::binary16, fourier::Storage::float32})
+        for (const auto &[box, padded] :
+             {std::pair{volume::VoxelBox{{0, 0, 0}, {24, 20, 9}}, volume::GridSize{36, 30, 14}},
+              std::pair{volume::VoxelBox{{0, 0, 0}, {24, 64, 64}}, volume::GridSize{30, 80, 80}}}) {
+            const auto kernel = fourier::Kernel::exponentialSemicircle(4, 1.0);
+            const fourier::SpectrumLayout layout{{kernel, kernel, kernel}, box, padded, storage};
+            const fourier::CellLayout cells(layout);
+            fourier::ColumnMemory memory(layout, cells);
+            const std::size_t column = (layout.bytes() - 64) / std::size_t(cells.columns),
+                              slab = std::size_t(box.size().j) * box.size().k * 32 * 4,
+                              all = fourier::ColumnMemory::bytes(layout);
+            slabsAreLarger = slabsAreLarger || slab > column;
+            cellsAreLarger = cellsAreLarger || column > slab;
+            for (int c = 0; c < cells.columns; ++c) {
+                const auto at =
+                    std::size_t(reinterpret_cast<std::byte *>(memory.slab(c)) - memory.cells());
+                EXPECT_GE(at, std::size_t(c) * column);
+                EXPECT_EQ(at % 64, 0U);
+                EXPECT_LE(at + slab, all);
+            }
+            EXPECT_GE(all, layout.bytes());
+            std::fill_n(memory.cells(), all, std::byte(1));
+            const auto taken = memory.takeCells();
+            for (std::size_t n = 0; n < 64; ++n) {
+                EXPECT_EQ(taken[layout.bytes() - 1 - n], std::byte(0));
+                EXPECT_EQ(taken[n], std::byte(1));
+            }
+        }
+    EXPECT_TRUE(slabsAreLarger && cellsAreLarger);
+}
+
+// The values of a ramp in a box are computed when they are read: everything that reads a field sees
+// the same.
+TEST(Spectrum, OfARampIsThatOfItsValues) {
+    const auto lattice = test::tiltedLattice({21, 18, 15}, {0.7, 0.9, 2.0}, 12);
+    const volume::Field ramp =
+        volume::Field(test::noiseField(lattice).values.samples(), volume::Ramp{0.2F, 1.5F})
+            .within({{2, 1, 3}, {20, 18, 14}});
+    const auto kernel = fourier::Kernel::leastAliasing(4, 1.5);
+    for (const auto storage : {fourier::Storage::binary16, fourier::Storage::float32}) {
+        const fourier::SpectrumLayout layout{
+            {kernel, kernel, kernel}, {{1, 1, 2}, {21, 18, 15}}, {30, 28, 24}, storage};
+        const Spectrum a = Spectrum::prepare(ramp, layout),
+                       b = Spectrum::prepare(ramp.asVolume(), layout);
+        EXPECT_EQ(a.dc(), b.dc());
+        EXPECT_EQ(a.moments(), b.moments());
+        EXPECT_TRUE(std::equal(a.cells(), a.cells() + a.bytes(), b.cells()));
     }
 }
 

@@ -44,8 +44,8 @@ TEST(Reslice, ReproducesALinearFunctionOnATiltedLattice) {
 TEST(Reslice, OutsideTheVolumeThereIsNothing) {
     const auto field = test::noiseField(volume::Lattice::centred({4, 4, 4}, {1, 1, 1}));
     EXPECT_TRUE(std::isnan(mpr::valueAt(field.values.samples(), {{0, 0, 2.1}})));
-    EXPECT_FALSE(
-        std::isnan(mpr::valueAt(field.values.samples(), {{0, 0, 1.9}}))); // half a sample beyond the centre
+    EXPECT_FALSE(std::isnan(
+        mpr::valueAt(field.values.samples(), {{0, 0, 1.9}}))); // half a sample beyond the centre
 }
 
 TEST(Reslice, PlanesFollowTheRadiologicalConvention) {
@@ -104,7 +104,8 @@ TEST(Reslice, TurnedPlanesStayAtRightAngles) {
 
 // A slab equals samples computed one by one.
 TEST(Reslice, SlabsOnSlicesHaveTheExtremesOfTheirSamplesAndTheIntegralBetweenThem) {
-    const auto volume = test::noiseField(volume::Lattice::centred({9, 8, 11}, {1, 1, 2})).values.samples();
+    const auto volume =
+        test::noiseField(volume::Lattice::centred({9, 8, 11}, {1, 1, 2})).values.samples();
     const volume::Lattice &lattice = volume.lattice();
     const mpr::Plane plane{lattice.patient(volume::VoxelIndex{4, 4, 5}),
                            mpr::standardAxes(Orientation::axial), 1.0, 1, 1};
@@ -204,7 +205,8 @@ TEST(Reslice, PlanesFaceAnyDirectionTogether) {
 }
 
 TEST(Reslice, NearestShowsTheSamplesThemselves) {
-    const auto volume = test::noiseField(test::tiltedLattice({6, 5, 4}, {1, 1, 3}, 20)).values.samples();
+    const auto volume =
+        test::noiseField(test::tiltedLattice({6, 5, 4}, {1, 1, 3}, 20)).values.samples();
     const volume::Lattice &lattice = volume.lattice();
     const auto at = [&](const glm::dvec3 &v) {
         return double(mpr::valueAt(volume, lattice.patient(volume::VoxelPoint{v}),

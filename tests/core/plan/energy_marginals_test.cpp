@@ -5,6 +5,7 @@
 
 #include "core/plan/energy_marginals.h"
 #include "core/plan/line_integral_bound.h"
+#include "core/plan/slab_products.h"
 #include "tests/support/fields.h"
 
 namespace pellucid {
@@ -86,6 +87,39 @@ TEST(EnergyMarginals, ARodInHazeHasMoreOfAProjectionThanOfTheMass) {
     EXPECT_GE(energy.spread->peakedness,
               (1.0 - hazeEnergy / rodEnergy) / (rodMm3 / massMm3)); // 2.6
     EXPECT_TRUE(std::isfinite(energy.spread->peakedness));
+}
+
+// Rows that are computed while they are read give the same statistics as rows in memory.
+TEST(EnergyMarginals, OfARampAreThoseOfItsValues) {
+    const auto lattice = test::tiltedLattice({33, 21, 18}, {0.7, 0.9, 2.0}, 12);
+    const volume::Field ramp =
+        volume::Field(test::noiseField(lattice).values.samples(), volume::Ramp{0.2F, 1.5F})
+            .within({{2, 1, 3}, {30, 20, 15}});
+    const volume::VoxelBox box{{1, 1, 2}, {31, 21, 16}};
+    const auto a = plan::energyMarginals(ramp, box),
+               b = plan::energyMarginals(ramp.asVolume(), box);
+    EXPECT_EQ(a.axis, b.axis);
+    EXPECT_EQ(a.massMm3, b.massMm3);
+    EXPECT_EQ(a.energyMm3, b.energyMm3);
+    EXPECT_EQ(a.spread->roughness, b.spread->roughness);
+    EXPECT_EQ(a.spread->peakedness, b.spread->peakedness);
+    EXPECT_EQ(a.spread->byDistance, b.spread->byDistance);
+    const auto slabs = plan::slabProducts(ramp, box),
+               others = plan::slabProducts(ramp.asVolume(), box);
+    for (std::size_t d = 0; d < 3; ++d)
+        EXPECT_EQ(slabs[d].products, others[d].products);
+    // The sums themselves, in double.
+    double mass = 0.0, energy = 0.0;
+    for (int k = box.lo.k; k < box.hi.k; ++k)
+        for (int j = box.lo.j; j < box.hi.j; ++j)
+            for (int i = box.lo.i; i < box.hi.i; ++i) {
+                const double f = ramp.value({i, j, k});
+                mass += f;
+                energy += f * f;
+            }
+    const double cell = lattice.cellVolumeMm3();
+    EXPECT_NEAR(a.massMm3, cell * mass, 1e-6 * cell * mass);
+    EXPECT_NEAR(a.energyMm3, cell * energy, 1e-6 * cell * energy);
 }
 
 TEST(EnergyMarginals, AnEmptyFieldHasNoEnergyAnywhere) {

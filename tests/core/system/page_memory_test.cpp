@@ -71,6 +71,30 @@ TEST(PageMemory, GoesBackToTheSystem) {
     for (void *const memory : small)
         std::free(memory);
 }
+
+// What is returned belongs to one block alone: blocks below a large page share pages with others.
+TEST(PageMemory, ReturnsOnlyWhatLiesBehindTheKeptPart) {
+    std::vector<std::shared_ptr<std::byte[]>> blocks;
+    constexpr std::size_t less = 2 * megabyte - 64;
+    for (int n = 0; n < 16; ++n) {
+        blocks.push_back(system::allocatePages(less, task::because::aSpectrum));
+        std::memset(blocks.back().get(), n + 1, less);
+    }
+    for (const auto &block : blocks)
+        system::returnPages(block.get(), less, 64);
+    for (int n = 0; n < 16; ++n)
+        for (std::size_t at = 0; at < less; at += 8)
+            ASSERT_EQ(blocks[std::size_t(n)][at], std::byte(n + 1));
+
+    const std::size_t bytes = 32 * megabyte + 5, kept = 9 * megabyte;
+    const auto large = system::allocatePages(bytes, task::because::aSpectrum);
+    std::memset(large.get(), 1, bytes);
+    const std::size_t before = residentBytes();
+    system::returnPages(large.get(), bytes, kept);
+    EXPECT_LT(residentBytes() + 20 * megabyte, before);
+    for (std::size_t at = 0; at < kept; at += 8)
+        ASSERT_EQ(large[at], std::byte(1));
+}
 #endif
 
 } // namespace
