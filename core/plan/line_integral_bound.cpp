@@ -22,7 +22,7 @@ public:
           m_rows(layers.rows) {
         std::vector<float> sums(std::size_t(m_layers) * std::size_t(m_rows) *
                                 std::size_t(m_columns));
-        const float *square = layers.most.data();
+        const float *square = layers.values.data();
         for (int n = 0; n < layers.samples; ++n)
             for (int row = 0; row < m_rows; ++row)
                 for (int column = 0; column < m_columns; ++column, ++square) {

@@ -16,10 +16,10 @@ struct LayerMaxima {
     int samples = 0;           ///< number of layers along d
     int columns = 0, rows = 0; ///< number of squares along the axes d + 1 and d + 2 (mod 3)
     /// The largest sample of each square. *Shape*: [sample along d][row][column].
-    std::vector<float> most;
+    std::vector<float> values;
 
     float &at(int sample, int row, int column) {
-        return most[(std::size_t(sample) * std::size_t(rows) + std::size_t(row)) *
+        return values[(std::size_t(sample) * std::size_t(rows) + std::size_t(row)) *
                         std::size_t(columns) +
                     std::size_t(column)];
     }

@@ -69,7 +69,7 @@ std::vector<plan::SliceSource> sliceSources(const FrameInputs &inputs,
 // The energy of the picture's frequencies next to 0, less a margin: the whole picture has more.
 double lowEnergy(const FrameInputs &inputs, const EngineSpectra &spectra,
                  const plan::SlicePlane &plane) {
-    constexpr double mostCells = 4.0, margin = 0.8;
+    constexpr double maxCells = 4.0, margin = 0.8;
     const SliceReader reader(spectra, inputs.mixing, inputs.shading,
                              SliceReader::Rounding::unknown);
     const auto longest = [](const std::array<double, 3> &step) {
@@ -79,7 +79,7 @@ double lowEnergy(const FrameInputs &inputs, const EngineSpectra &spectra,
     const int stepColumns = std::max(1, int(1.0 / longest(plane.perColumn))),
               stepRows = std::max(1, int(1.0 / longest(plane.perRow)));
     const auto countOf = [&](const std::array<double, 3> &step, int each, int count) {
-        return std::min(count / 2 - 1, int(mostCells / longest(step))) / each;
+        return std::min(count / 2 - 1, int(maxCells / longest(step))) / each;
     };
     const int columns = countOf(plane.perColumn, stepColumns, plane.columns),
               rows = countOf(plane.perRow, stepRows, plane.rows);
@@ -90,7 +90,7 @@ double lowEnergy(const FrameInputs &inputs, const EngineSpectra &spectra,
             for (std::size_t d = 0; d < 3; ++d)
                 cells[d] =
                     column * stepColumns * plane.perColumn[d] + row * stepRows * plane.perRow[d];
-            if (longest(cells) > mostCells)
+            if (longest(cells) > maxCells)
                 continue;
             // The other half of the plane mirrors this one.
             for (const SliceReader::Read &channel : reader.at(cells))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/projection_view.h"
 
+#include <algorithm>
+
 #include <QScopedValueRollback>
 
 #include <glm/geometric.hpp>
@@ -22,9 +24,10 @@ constexpr double smoothFrameMs = 35.0;
 // The first frame also allocates its memory and may take three times as long as the next.
 constexpr double firstFrameFactor = 3.0;
 constexpr int restMs = 120;
-// The most pixels per voxel of frames that read every frequency of the picture, and so cost what
-// its pixels cost. Finer ones would show the smoothness of the reconstruction, not the patient.
-constexpr double pixelsPerVoxel = 4.0;
+// Frames that read or transform every frequency of the picture cost what its pixels cost: theirs
+// are no finer than this, in pixels per voxel or across the volume, whichever allows more. Finer
+// ones would show the smoothness of the reconstruction, not the patient.
+constexpr double pixelsPerVoxel = 4.0, pixelsAcross = 4096.0;
 
 } // namespace
 
@@ -230,12 +233,14 @@ void ProjectionView::requestFrame(bool moving) {
         return;
     const bool draft = moving && m_fullFrameMs > smoothFrameMs;
     m_pending = true;
-    // The card transforms the whole grid.
     const plan::RenderPlan &plan = m_prepared->plan;
+    const volume::Lattice &lattice = m_document.volume()->lattice();
+    // The card transforms the whole grid.
     const bool readsBand = plan.adaptiveError > 0.0 && plan.image == m_document.scene().image &&
                            !m_onCard && !m_isComparing;
-    const double finest =
-        readsBand ? 0.0 : m_document.volume()->lattice().shortestStepMm() / pixelsPerVoxel;
+    const double finest = readsBand ? 0.0
+                                    : std::min(lattice.shortestStepMm() / pixelsPerVoxel,
+                                               2.0 * lattice.radiusMm() / pixelsAcross);
     shading::Shading shading = m_document.scene().shading;
     if (shading.isLit() && !m_prepared->canBeLit) // until light is prepared, the shading stays
         shading = m_drawnShading;

@@ -61,7 +61,7 @@ TEST(LargestLineIntegral, IsThatAlongARod) {
     const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 2});
     plan::LayerMaxima layers;
     layers.samples = layers.columns = layers.rows = 40;
-    layers.most.resize(40 * 40 * 40);
+    layers.values.resize(40 * 40 * 40);
     for (int n = 0; n < 40; ++n)
         layers.at(n, n, n) = 1.0F;
     const double length = 40.0 * std::sqrt(6.0);
