@@ -40,7 +40,7 @@ struct FrameBlock {
     alignas(16) Four<std::int32_t> padded; // std140 aligns vectors to their size
     Four<std::int32_t> firstCell;
     Four<float> inversePadded, edgeSlack, perMoment;
-    Vectors<bindings::maxSpectra> shares;
+    Vectors<bindings::maxSpectra> channelWeights;
     std::array<Place, bindings::maxSpectra> places;
     std::array<ZeroSum, 6> zero;
     std::array<ImageShade, 3> shade;

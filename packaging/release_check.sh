@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 check() { echo "== $*"; }
 fail() { echo "release-check: $*" >&2; exit 1; }
 
-check "nothing is uncommitted, and the changes of this version are told"
+check "nothing is uncommitted, and the CHANGELOG has this version"
 changes=$(git status --porcelain)
 [[ -z $changes ]] || fail "there are changes that are not committed"
 version=$(sed -n 's/^project(.* VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)

@@ -184,7 +184,7 @@ Volume volumeFrom(const OpenVolume &file, int which, Taken values, const task::P
         progress);
     VolumeNotes notes = file.header.notes;
     if (hasMore && which == layout.volumes - 1)
-        notes.warnings.emplace_back(because::holdsMoreSamplesThanSaid);
+        notes.warnings.emplace_back(because::moreSamplesThanDeclared);
     const volume::Narrowing &narrowing = values.narrowing();
     if (narrowing.notFinite() > 0)
         notes.warnings.push_back(because::samplesNotFinite(narrowing.notFinite()));

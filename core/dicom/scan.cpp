@@ -155,17 +155,17 @@ void addVolumeFile(Catalogue &catalogue, const fs::path &path,
 // others.
 class HeldMemory {
 public:
-    explicit HeldMemory(std::size_t most) : m_most(most) {}
+    explicit HeldMemory(std::size_t limit) : m_limit(limit) {}
     bool take(std::size_t bytes) {
         std::size_t held = m_held;
-        while (bytes <= m_most - held)
+        while (bytes <= m_limit - held)
             if (m_held.compare_exchange_weak(held, held + bytes))
                 return true;
         return false;
     }
 
 private:
-    const std::size_t m_most;
+    const std::size_t m_limit;
     std::atomic<std::size_t> m_held = 0;
 };
 

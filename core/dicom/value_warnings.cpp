@@ -14,10 +14,10 @@ using decoder::FrameHeader;
 using decoder::InstanceHeader;
 
 constexpr std::array<std::pair<decoder::Oddity, task::Because<1>>, 5> oddities{{
-    {decoder::mislabelledEncoding, because::implicitSaidExplicit},
+    {decoder::mislabelledEncoding, because::implicitLabelledExplicit},
     {decoder::definedLengthPixels, because::pixelsOfDefinedLength},
     {decoder::missingDelimiter, because::pixelsWithoutEnd},
-    {decoder::otherPrecision, because::moreBitsThanSaid},
+    {decoder::otherPrecision, because::moreBitsThanDeclared},
     {decoder::unreadMosaic, because::mosaicsShownFlat},
 }};
 

@@ -85,13 +85,13 @@ private:
     void checkStack() const {
         const std::uintptr_t here = stackPosition();
         const std::uintptr_t used = here < m_base ? m_base - here : here - m_base;
-        if (used > m_most && used < 4 * m_most) // farther away it is another thread's stack
+        if (used > m_maxUsed && used < 4 * m_maxUsed) // farther away it is another thread's stack
             throw task::Error(task::ErrorCode::unusable, task::because::isNestedTooDeeply);
     }
 
     std::span<const std::byte> m_file;
     std::size_t m_reads = 0;
-    std::size_t m_most = stackToUse();
+    std::size_t m_maxUsed = stackToUse();
     std::uintptr_t m_base = stackPosition(); ///< where reading started
     MemoryProducer m_producer;
 };

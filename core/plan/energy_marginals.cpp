@@ -140,7 +140,7 @@ private:
 
     int blocksOf(int samples) const { return (samples + m_side - 1) / m_side; }
     // Bounds that hold in every view exist only for fields without negative samples.
-    bool isPositive() const { return m_least >= 0.0 && m_mass > 0.0; }
+    bool isPositive() const { return m_smallest >= 0.0 && m_mass > 0.0; }
 
     void sumLayer(int n) {
         Layer &layer = m_layers[std::size_t(n)];
@@ -226,7 +226,7 @@ private:
 
     void joinLayers() {
         for (const Layer &layer : m_layers) {
-            m_least = std::min(m_least, layer.least);
+            m_smallest = std::min(m_smallest, layer.least);
             std::transform(layer.alongI.begin(), layer.alongI.end(), m_result.axis[0].begin(),
                            m_result.axis[0].begin(), std::plus<>());
             std::transform(layer.alongJ.begin(), layer.alongJ.end(), m_result.axis[1].begin(),
@@ -291,7 +291,7 @@ private:
     int m_across, m_down; ///< blocks in a layer, along i and j
     std::vector<Layer> m_layers;
     std::array<LayerMaxima, 3> m_maxima;
-    double m_energy = 0.0, m_mass = 0.0, m_least = 0.0; ///< of the field's samples
+    double m_energy = 0.0, m_mass = 0.0, m_smallest = 0.0; ///< of the field's samples
     EnergyMarginals m_result;
     EnergySpread m_spread;
 };

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/render/frame_inputs.h"
-#include "core/render/grid_tables.h"
 #include "core/system/page_memory.h"
 #include "core/task/error.h"
 #include "core/task/worker_team.h"

@@ -5,11 +5,13 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "core/fourier/kernels/moment_kernel.h"
 #include "core/fourier/spectrum.h"
 #include "core/fourier/transforms/strip_transform.h"
 #include "core/plan/adaptive_widths.h"
+#include "core/plan/slice_grid.h"
 #include "core/scene/image_definition.h"
 #include "core/shading/shading.h"
 
@@ -157,5 +159,27 @@ void sliceStrip(const FrameJob &job, int strip, FrameScratch &scratch);
 void finishRows(const FrameJob &job, int group, FrameScratch &scratch);
 /// The instruction set in use.
 const char *instructionSet();
+
+/// The number of groups of 16 lines (columns of a strip, or rows) for this many lines.
+inline int stripsOf(int lines) {
+    return (lines + fourier::stripLanes - 1) / fourier::stripLanes;
+}
+
+/// exp(+i 2 pi n turns), n = 0..count-1, within 1e-13.
+std::vector<std::complex<double>> rotations(int count, double turns);
+
+/// Tables that depend only on the slice grid and the roll-off, kept from frame to frame.
+struct GridTables {
+    /// `count`: of strips, at most as many as half the grid has.
+    GridTables(const plan::SliceGrid &grid, double rollOffShare, int count);
+
+    plan::SliceGrid grid;
+    double rollOffShare;
+    fourier::StripTransform alongRows;           ///< length rows
+    fourier::StripTransform halfColumns;         ///< length columns / 2
+    std::vector<std::complex<float>> unpackReal; ///< see FrameJob::unpackReal
+    std::vector<StripBounds> strips;             ///< the first ones
+    std::vector<float> rollOff;                  ///< see StripBounds::rollOff
+};
 
 } // namespace pellucid::render

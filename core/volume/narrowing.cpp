@@ -24,8 +24,8 @@ void Narrowing::keep(double value) {
 
 void Narrowing::join(const Narrowing &other) {
     m_lost = std::max(m_lost, other.m_lost);
-    m_least = std::min(m_least, other.m_least);
-    m_most = std::max(m_most, other.m_most);
+    m_smallest = std::min(m_smallest, other.m_smallest);
+    m_largest = std::max(m_largest, other.m_largest);
     m_notFinite += other.m_notFinite;
     m_kept.insert(m_kept.end(), other.m_kept.begin(), other.m_kept.end());
 }
@@ -35,7 +35,7 @@ Narrowing::Merged Narrowing::merged() const {
     if (m_lost == 0.0)
         return result;
     // Differences no larger than the rounding of a constant in double precision do not count.
-    const double least = 1e-12 * std::max(std::abs(m_least), std::abs(m_most));
+    const double least = 1e-12 * std::max(std::abs(m_smallest), std::abs(m_largest));
     std::vector<double> sorted = m_kept;
     std::sort(sorted.begin(), sorted.end());
     std::size_t different = 0, equal = 0;
@@ -63,10 +63,10 @@ std::optional<task::Reason> Narrowing::warning() const {
 
 void Narrowing::requireDistinct() const {
     constexpr double maxMerged = 0.5, maxLost = 1e-4;
-    if (m_lost > maxLost * (m_most - m_least) && merged().share > maxMerged)
+    if (m_lost > maxLost * (m_largest - m_smallest) && merged().share > maxMerged)
         throw task::Error(
             task::ErrorCode::unusable,
-            task::because::valuesAreOne(fmt::format("{}", m_least), fmt::format("{}", m_most)));
+            task::because::valuesAreOne(fmt::format("{}", m_smallest), fmt::format("{}", m_largest)));
 }
 
 } // namespace pellucid::volume

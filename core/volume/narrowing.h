@@ -28,8 +28,8 @@ public:
             return kept;
         }
         m_lost = std::max(m_lost, std::abs(value - double(kept)));
-        m_least = std::min(m_least, value);
-        m_most = std::max(m_most, value);
+        m_smallest = std::min(m_smallest, value);
+        m_largest = std::max(m_largest, value);
         if (--m_untilKept == 0)
             keep(value);
         return kept;
@@ -53,7 +53,7 @@ private:
     Merged merged() const;
     void keep(double value);
 
-    double m_lost = 0.0, m_least = std::numeric_limits<double>::infinity(), m_most = -m_least;
+    double m_lost = 0.0, m_smallest = std::numeric_limits<double>::infinity(), m_largest = -m_smallest;
     std::size_t m_every, m_untilKept, m_notFinite = 0;
     std::vector<double> m_kept;
 };

@@ -37,8 +37,8 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     vec4 inversePadded;
     vec4 edgeSlack;              // see core/render/frame_geometry.h
     vec4 perMoment;
-    vec4 shares[MAX_SPECTRA];   // by source
-    Place places[MAX_SPECTRA];  // by source
+    vec4 channelWeights[MAX_SPECTRA]; // by source
+    Place places[MAX_SPECTRA];         // by source
     ZeroSum zero[6];             // by kind and sum
     ImageShade shade[3];
     vec4 gradient[3];

@@ -118,11 +118,11 @@ vec2 shaded(int channel, Shades field, Shades gradient, vec3 q) {
 #endif
 
 void addSource(int source, Sum sum, int first, inout Sum sums[kinds * SUMS]) {
-    vec4 share = frame.shares[source];
+    vec4 weights = frame.channelWeights[source];
     for (int c = 0; c < SUMS; ++c) {
-        sums[first + c].value += share[c] * sum.value;
+        sums[first + c].value += weights[c] * sum.value;
 #if CUED
-        sums[first + c].moment += share[c] * sum.moment;
+        sums[first + c].moment += weights[c] * sum.moment;
 #endif
     }
 }

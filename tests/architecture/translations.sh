@@ -8,7 +8,7 @@ cd "$1"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cp resources/translations/*.ts "$scratch"
-resources/translations/update.sh "$scratch" -silent 2>"$scratch/said" || { cat "$scratch/said"; exit 1; }
+resources/translations/update.sh "$scratch" -silent 2>"$scratch/output" || { cat "$scratch/output"; exit 1; }
 failed=0
 if grep -rn 'because::inWords' core gpu ui | grep -v '^ui/language/kept_reasons\.cpp:'; then
     echo 'these reasons are plain English, which cannot be translated: use a reason of core/task/reasons.inc'

@@ -93,15 +93,15 @@ TEST_F(Cli, PlansAPartOfAPictureMoreClosely) {
         const auto r = cli("render " + quoted(series) + " -o " + quoted(out) + " --json --scene " +
                            quoted(file));
         ASSERT_EQ(r.exitCode, 0) << r.error;
-        const json told = json::parse(r.out);
-        planned[pan] = told["plan"]["predicted_error"];
+        const json report = json::parse(r.out);
+        planned[pan] = report["plan"]["predicted_error"];
         // The plan's figures are for the whole.
-        EXPECT_FALSE(told["predicted_error"]["whole"]) << pan;
-        EXPECT_TRUE(told["predicted_error"]["maximum"].is_null()) << pan;
+        EXPECT_FALSE(report["predicted_error"]["whole"]) << pan;
+        EXPECT_TRUE(report["predicted_error"]["maximum"].is_null()) << pan;
         int height = 0, width = 0;
         const auto image = readNpy(out, height, width);
         const double error = test::relativeL2(image, exact.image(scene.camera, scene.image)),
-                     predicted = told["predicted_error"]["relative_l2"];
+                     predicted = report["predicted_error"]["relative_l2"];
         EXPECT_LE(error, predicted) << pan;
         EXPECT_LE(predicted, scene.tolerance) << pan;
     }
@@ -327,12 +327,12 @@ TEST_F(Cli, BothEnginesGiveOnePicture) {
         EXPECT_LE(test::relativeL2(card, processor), 3e-4) << options;
     }
     const std::string out = " -o " + quoted(folder / "one.png");
-    const auto said = cli("render " + quoted(series) + out + " --engine gpu --json");
-    EXPECT_EQ(said.exitCode, 0) << said.error;
-    const json told = json::parse(said.out);
-    EXPECT_EQ(told["device"], "gpu");
-    EXPECT_EQ(told["engine"].get<std::string>().rfind("GPU engine, ", 0), 0U);
-    EXPECT_EQ(told["engine_reason"], "the graphics card was requested");
+    const auto rendered = cli("render " + quoted(series) + out + " --engine gpu --json");
+    EXPECT_EQ(rendered.exitCode, 0) << rendered.error;
+    const json report = json::parse(rendered.out);
+    EXPECT_EQ(report["device"], "gpu");
+    EXPECT_EQ(report["engine"].get<std::string>().rfind("GPU engine, ", 0), 0U);
+    EXPECT_EQ(report["engine_reason"], "the graphics card was requested");
     const fs::path turn = folder / "turn";
     fs::create_directory(turn);
     EXPECT_EQ(cli("render " + quoted(series) + " -o " + quoted(turn / "t.png") +

@@ -162,11 +162,11 @@ TEST_F(Faults, EndlessZerosAreRefusedAndTheDecoderEndsWithTheProgram) {
     const fs::path zeros = folder / "zeros.dcm";
     writeText(zeros, readText(series("few", 2) / "IM0001.dcm").substr(0, 2000));
     fs::resize_file(zeros, 1U << 30); // a sparse file
-    const auto said = cli("info " + quoted(zeros));
-    expectOneLine(said, 3, "zeros.dcm: ");
-    EXPECT_TRUE(said.error.find("has too many data elements for an image") != std::string::npos ||
-                said.error.find("takes too long to read") != std::string::npos)
-        << said.error;
+    const auto result = cli("info " + quoted(zeros));
+    expectOneLine(result, 3, "zeros.dcm: ");
+    EXPECT_TRUE(result.error.find("has too many data elements for an image") != std::string::npos ||
+                result.error.find("takes too long to read") != std::string::npos)
+        << result.error;
 
     // Finds the decoders of a program by name. One of them works for seconds.
     const auto decodersOf = [](pid_t parent) {
@@ -247,9 +247,9 @@ TEST_F(Faults, DamagedCompressedPixelsAreMentioned) {
         const std::size_t count = syntax == dicom::TransferSyntax::jpegLossless ? 60 : 892;
         bytes.replace(from, count, count, '\0');
         writeText(victim, bytes);
-        const auto said = volume();
-        EXPECT_EQ(said.exitCode, 0);
-        EXPECT_NE(said.error.find("IM0004.dcm"), std::string::npos) << in << said.error;
+        const auto result = volume();
+        EXPECT_EQ(result.exitCode, 0);
+        EXPECT_NE(result.error.find("IM0004.dcm"), std::string::npos) << in << result.error;
     }
 }
 

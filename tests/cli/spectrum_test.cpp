@@ -54,11 +54,11 @@ TEST_F(Cli, TheSpectrumHoldsTheDecibelsThatTheExactReferenceConfirms) {
         const auto decibels = readNpy(out, height, width);
         ASSERT_EQ(height, 48); // the longer side
         ASSERT_EQ(width, 48);
-        const json told = json::parse(r.out);
-        const double step = told["step_per_mm"];
+        const json report = json::parse(r.out);
+        const double step = report["step_per_mm"];
         EXPECT_DOUBLE_EQ(step, 1.0 / (48 * 4.0));
-        EXPECT_DOUBLE_EQ(told["limit_per_mm"].get<double>(), 0.125);
-        EXPECT_EQ(told["plan"]["kernel"], "KB7");
+        EXPECT_DOUBLE_EQ(report["limit_per_mm"].get<double>(), 0.125);
+        EXPECT_EQ(report["plan"]["kernel"], "KB7");
         // The truth at the same frequencies: the mean of red, green and blue where there are three.
         const glm::dmat3 axes =
             glm::mat3_cast(scene::viewOrientation(scene::StandardView::left, {20.0, 15.0, 0.0}));

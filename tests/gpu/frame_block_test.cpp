@@ -57,7 +57,7 @@ TEST_F(FrameBlock, LiesWhereTheShadersReadIt) {
         {"inversePadded", offsetof(FrameBlock, inversePadded)},
         {"edgeSlack", offsetof(FrameBlock, edgeSlack)},
         {"perMoment", offsetof(FrameBlock, perMoment)},
-        {"shares[0]", offsetof(FrameBlock, shares)},
+        {"channelWeights[0]", offsetof(FrameBlock, channelWeights)},
         {"places[0].page", offsetof(FrameBlock, places) + offsetof(FrameBlock::Place, page)},
         {"places[1].firstPlane", offsetof(FrameBlock, places) + sizeof(FrameBlock::Place) +
                                      offsetof(FrameBlock::Place, firstPlane)},

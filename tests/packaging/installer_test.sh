@@ -29,7 +29,7 @@ mkdir "$work/tools"
 printf '#!/bin/sh\necho 1000\n' >"$work/tools/id"
 chmod 755 "$work/tools/id"
 as_user() { env -i HOME="$home" PATH="$work/tools:$PATH" USER_PWD="$work" "$@"; }
-install() { (umask 077 && cd "$work/unpacked" && as_user sh ./install.sh "$@" >"$work/said" 2>&1); }
+install() { (umask 077 && cd "$work/unpacked" && as_user sh ./install.sh "$@" >"$work/output" 2>&1); }
 # Lists names, the targets of links and the contents of files.
 all_of() { (cd "$1" && find . -printf '%p %y %l\n' | sort && find . -type f -print0 | sort -z | xargs -0 -r cksum); }
 refuses() { # WHY ARGUMENTS...
@@ -37,7 +37,7 @@ refuses() { # WHY ARGUMENTS...
     shift
     before=$(all_of "$home")
     install "$@" && fail "installed, in spite of: $why"
-    grep -q "$why" "$work/said" || fail "wanted: $why; said: $(cat "$work/said")"
+    grep -q "$why" "$work/output" || fail "expected: $why; got: $(cat "$work/output")"
     [[ $(all_of "$home") == "$before" ]] || fail "changed, after: $why"
 }
 
@@ -47,7 +47,7 @@ for name in plain "two words" "o'brien & söhne|x"; do
     home=$work/$name
     mkdir -p "$home/.config"
     before=$(all_of "$home")
-    install || fail "$name: $(cat "$work/said")"
+    install || fail "$name: $(cat "$work/output")"
     prefix=$home/.local/opt/pellucid
     [[ $(as_user "$home/.local/bin/pellucid") == "runs from $home/.local/bin/pellucid" ]] || fail "$name: does not run"
     [[ $(stat -c %a "$prefix/bin/pellucid") == 755 && $(stat -c %a "$home/.local/bin") == 755 ]] || fail "$name: not for others to read"
@@ -59,7 +59,7 @@ for name in plain "two words" "o'brien & söhne|x"; do
     touch "$home/.cache/pellucid/log"
     # An upgrade removes the files that only the former version had.
     unpacked "second $((++n))"
-    install || fail "$name, again: $(cat "$work/said")"
+    install || fail "$name, again: $(cat "$work/output")"
     [[ -e "$prefix/second $n" && ! -e $prefix/first ]] || fail "$name: not renewed"
     [[ -e $prefix.old/mine ]] || fail "$name: what was put into the folder is lost"
     rm -r "$prefix.old" "$home/.local/bin/mine"
@@ -99,7 +99,7 @@ touch "$home/.local/share/icons"
 refuses "was not installed"
 rm -r "$home/.local"
 # Only one installation is allowed, in the folder as it was typed.
-install --prefix "refused/./here" || fail "$(cat "$work/said")"
+install --prefix "refused/./here" || fail "$(cat "$work/output")"
 [[ -x $home/here/bin/pellucid ]] || fail "not where it was asked for"
 refuses "already installed in $home/here"
 # An upgrade that fails leaves what was there.
@@ -119,7 +119,7 @@ left=$(cd "$home" && find . -iname '*pellucid*' -not -path './src/*' -print -o -
 [[ -z $left ]] || fail "left behind: $left"
 
 # A copy owns nothing elsewhere, and relative paths in the environment are ignored.
-install || fail "$(cat "$work/said")"
+install || fail "$(cat "$work/output")"
 cp -a "$home/.local/opt/pellucid" "$home/copy"
 as_user sh "$home/copy/uninstall.sh" >/dev/null
 [[ ! -e $home/copy && -x $home/.local/bin/pellucid && -e $home/.local/share/applications/org.pellucid.Pellucid.desktop ]] || fail "a copy took the installation along"
@@ -138,12 +138,12 @@ for signal in TERM KILL; do
     for round in fresh renewed; do
         for ms in 005 010 015 020 025 030 040 050 060 080 100; do
             if [[ $round == renewed ]]; then
-                install || fail "after SIG$signal: $(cat "$work/said")"
+                install || fail "after SIG$signal: $(cat "$work/output")"
                 was=$(all_of "$home")
             else
                 was=$before
             fi
-            (umask 077 && cd "$work/unpacked" && exec env -i HOME="$home" PATH="$work/tools:$PATH" sh ./install.sh >"$work/said" 2>&1) &
+            (umask 077 && cd "$work/unpacked" && exec env -i HOME="$home" PATH="$work/tools:$PATH" sh ./install.sh >"$work/output" 2>&1) &
             sleep "0.$ms"
             kill -s $signal $! 2>/dev/null || true
             wait $! 2>/dev/null || true
@@ -151,7 +151,7 @@ for signal in TERM KILL; do
                 fail "SIGTERM after $ms ms: neither as before nor whole: $(diff <(echo "$was") <(all_of "$home"))"
             fi
             sleep 0.02 # what a killed one started
-            install || fail "after SIG$signal: $(cat "$work/said")"
+            install || fail "after SIG$signal: $(cat "$work/output")"
             whole || fail "SIG$signal after $ms ms: not whole after the next"
             as_user sh "$home/.local/opt/pellucid/uninstall.sh" >/dev/null
             left=$(cd "$home" && find . -type f -o -type l)
@@ -163,7 +163,7 @@ done
 # Two installations at once take turns.
 for round in 1 2 3; do
     for one in a b; do
-        (cd "$work/unpacked" && as_user sh ./install.sh >"$work/said.$one" 2>&1) &
+        (cd "$work/unpacked" && as_user sh ./install.sh >"$work/output.$one" 2>&1) &
         sleep 0.0$round
     done
     wait

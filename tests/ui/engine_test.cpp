@@ -115,8 +115,8 @@ private slots:
         program.start(PELLUCID_WORKSTATION, {});
         QVERIFY(program.waitForFinished(patienceMs));
         QCOMPARE(program.exitCode(), exitCode(task::ErrorCode::noSuchDevice));
-        const QByteArray said = program.readAllStandardError();
-        QVERIFY2(said.contains("there is no display") && said.count('\n') == 1, said);
+        const QByteArray output = program.readAllStandardError();
+        QVERIFY2(output.contains("there is no display") && output.count('\n') == 1, output);
     }
 
     void theProcessorReplacesAFailedCardUntilItIsChosenAgain() {

@@ -86,15 +86,15 @@ private slots:
         QProcess dump;
         dump.start("dcmdump", {"-q", file});
         QVERIFY(dump.waitForFinished() && dump.exitCode() == 0);
-        const QString said = QString::fromUtf8(dump.readAll());
+        const QString text = QString::fromUtf8(dump.readAll());
         const ui::StudyFacts study = mainWindow().document().sources().at(0).study;
-        QVERIFY(said.contains("=SecondaryCaptureImageStorage"));
-        QVERIFY(said.contains("[" + study.uid + "]"));
-        QVERIFY(said.contains("[Secret^Name]"));
-        QVERIFY(said.contains("[L\\F]"));
+        QVERIFY(text.contains("=SecondaryCaptureImageStorage"));
+        QVERIFY(text.contains("[" + study.uid + "]"));
+        QVERIFY(text.contains("[Secret^Name]"));
+        QVERIFY(text.contains("[L\\F]"));
         // The capture of a grey projection is grey, despite colored letters: every program reads
         // it, this one too.
-        QVERIFY(said.contains("MONOCHROME2"));
+        QVERIFY(text.contains("MONOCHROME2"));
         const auto &sources = mainWindow().document().sources();
         QCOMPARE(sources.size(), std::size_t(2));
         QVERIFY(!sources[1].volume.placed);
@@ -122,15 +122,15 @@ private slots:
         QProcess dump;
         dump.start("dcmdump", {"-q", file});
         QVERIFY(dump.waitForFinished() && dump.exitCode() == 0);
-        const QString said = QString::fromUtf8(dump.readAll());
+        const QString text = QString::fromUtf8(dump.readAll());
         const ui::StudyFacts study = mainWindow().document().sources().at(0).study;
         for (const QString &of : {study.patientName, study.patientId, study.uid, study.date})
-            QVERIFY2(of.isEmpty() || !said.contains("[" + of + "]"), qPrintable(of));
+            QVERIFY2(of.isEmpty() || !text.contains("[" + of + "]"), qPrintable(of));
         // PS3.15, E.1 and table E.1-1.
         for (const char *there : {"(0012,0062) CS [YES]", "[113100]", "(0028,0303) CS [REMOVED]"})
-            QVERIFY2(said.contains(there), there);
+            QVERIFY2(text.contains(there), there);
         for (const char *gone : {"(0008,1030)", "(0008,103e)", "(0008,2111)", "(0020,4000)"})
-            QVERIFY2(!said.contains(gone), gone);
+            QVERIFY2(!text.contains(gone), gone);
         QCOMPARE(mainWindow().document().sources().size(), std::size_t(1));
     }
 
@@ -222,8 +222,8 @@ private slots:
         probe.start("ffprobe", {"-v", "error", "-count_frames", "-show_entries",
                                 "stream=nb_read_frames,codec_name", path});
         QVERIFY(probe.waitForFinished() && probe.exitCode() == 0);
-        const QByteArray said = probe.readAll();
-        QVERIFY(said.contains("h264") && said.contains("nb_read_frames=10"));
+        const QByteArray report = probe.readAll();
+        QVERIFY(report.contains("h264") && report.contains("nb_read_frames=10"));
         QVERIFY(QDir(QString::fromStdString(m_folder.path().string()))
                     .entryList(QDir::Hidden | QDir::Files | QDir::Dirs | QDir::NoDotAndDotDot)
                     .filter(QRegularExpression("^\\."))

@@ -72,11 +72,11 @@ private slots:
             const bool isSameInAll = id == because::inWords.id;
             const task::Reason reason = reasonOf(id);
             const QString english = QString::fromStdString(reason.english()),
-                          said = translated(reason);
-            QVERIFY2((said == english) == isSameInAll, qPrintable(english));
+                          text = translated(reason);
+            QVERIFY2((text == english) == isSameInAll, qPrintable(english));
             for (int place = 1; place <= task::placesIn(task::englishTemplate(id)); ++place) {
                 const QString filled = QString::fromStdString(argument(place));
-                QVERIFY2(said.count(filled) == english.count(filled), qPrintable(said));
+                QVERIFY2(text.count(filled) == english.count(filled), qPrintable(text));
             }
         }
     }
@@ -113,9 +113,9 @@ private slots:
     }
 
     void reasonsInTheWordsOfOlderVersionsAreKept() {
-        const std::string said = "pixel spacings differ by up to 3 %; the mean is used";
-        const task::Reason reason = reasonFromLine(QString::fromStdString(said));
-        QCOMPARE(reason.english(), said);
+        const std::string text = "pixel spacings differ by up to 3 %; the mean is used";
+        const task::Reason reason = reasonFromLine(QString::fromStdString(text));
+        QCOMPARE(reason.english(), text);
         QVERIFY(reasonFromLine(toLine(reason)) == reason);
         QCOMPARE(reasonsFromLines("one\ntwo").size(), std::size_t(2));
         // The label of a stack is recognized.

@@ -164,7 +164,7 @@ private slots:
         const int descriptors = openDescriptors(), glObjects = sharedGlObjects();
         const WatchedWarnings warnings;
         QSignalSpy failed(&m_program->bench().study.jobs, &ui::JobRunner::failed);
-        QSignalSpy said(&application(), &ui::Application::failed);
+        QSignalSpy failures(&application(), &ui::Application::failed);
         application().isWatching = true;
         for (int pass = 0; pass < m_effort.passes; ++pass)
             runPass();
@@ -199,7 +199,7 @@ private slots:
         // A pane that is shown for the first time makes objects of its own.
         QVERIFY2(sharedGlObjects() <= glObjects + 8, "objects of OpenGL stay");
         QCOMPARE(failed.size(), 0);
-        QCOMPARE(said.size(), 0);
+        QCOMPARE(failures.size(), 0);
         QVERIFY(document().problems().empty());
         QCOMPARE(warnings.texts(), QStringList());
         // Both are within the tolerance of the exact picture.

@@ -174,12 +174,12 @@ private slots:
         open(headPath());
         choose(volumeRow("Secret Name"), "volumeDetailsAction");
         QTRY_VERIFY(dialog("studyDetails") != nullptr);
-        QStringList said;
+        QStringList texts;
         for (const QLabel *label : dialog("studyDetails")->findChildren<QLabel *>())
-            said << label->text();
-        QVERIFY(said.contains(headPath()));
-        QVERIFY(said.contains("80"));
-        QVERIFY(said.contains(QString::fromUtf8("80 × 96 × 96")));
+            texts << label->text();
+        QVERIFY(texts.contains(headPath()));
+        QVERIFY(texts.contains("80"));
+        QVERIFY(texts.contains(QString::fromUtf8("80 × 96 × 96")));
         save("details");
         QVERIFY(
             dialog("studyDetails")

@@ -79,10 +79,10 @@ private slots:
     // Any exception on any thread is reported, and the program still works.
     void exceptionsAreReportedAndTheProgramGoesOn() {
         ui::Workstation program;
-        QSignalSpy said(static_cast<ui::Application *>(qApp), &ui::Application::failed);
+        QSignalSpy failures(static_cast<ui::Application *>(qApp), &ui::Application::failed);
         QTimer::singleShot(0, &program, [] { throw std::bad_alloc(); });
-        QTRY_COMPARE(said.size(), 1);
-        QVERIFY(reasonOf(said).is(task::because::notEnoughMemory));
+        QTRY_COMPARE(failures.size(), 1);
+        QVERIFY(reasonOf(failures).is(task::because::notEnoughMemory));
         ui::JobRunner &jobs = program.bench().study.jobs;
         QSignalSpy failed(&jobs, &ui::JobRunner::failed);
         const std::vector<std::pair<std::function<void()>, task::Reason>> faults{
@@ -131,10 +131,10 @@ private slots:
             QVERIFY(program.waitForFinished(patienceMs));
             QCOMPARE(program.exitStatus(), QProcess::NormalExit);
             QCOMPARE(program.exitCode(), exitCode(task::ErrorCode::outOfMemory));
-            const QByteArray said = program.readAllStandardError();
-            QVERIFY2(said.startsWith("pellucid: not enough memory to start") &&
-                         said.count('\n') == 1,
-                     said.constData());
+            const QByteArray output = program.readAllStandardError();
+            QVERIFY2(output.startsWith("pellucid: not enough memory to start") &&
+                         output.count('\n') == 1,
+                     output.constData());
         }
     }
 
@@ -152,7 +152,7 @@ private slots:
         ui::Document &document = program.bench().study.document;
         ui::JobRunner &jobs = program.bench().study.jobs;
         QSignalSpy failed(&jobs, &ui::JobRunner::failed);
-        QSignalSpy said(static_cast<ui::Application *>(qApp), &ui::Application::failed);
+        QSignalSpy failures(static_cast<ui::Application *>(qApp), &ui::Application::failed);
         const auto rests = [&] { return !jobs.isRunning() && !document.isPreview(); };
         program.window().openPaths({headPath()}); // all that is made once is there
         QTRY_VERIFY_WITH_TIMEOUT(document.volume() && rests(), patienceMs);
@@ -160,20 +160,20 @@ private slots:
         int opened = 0, refused = 0;
         for (const std::size_t mb : {5, 10, 40, 80, 120, 160, 240, 320, 480, 640, 960, 1600}) {
             failed.clear();
-            said.clear();
+            failures.clear();
             std::optional<LittleMemory> little(mb);
             program.window().openPaths({QString::fromStdString(large.string())});
             const bool isOver = QTest::qWaitFor(rests, patienceMs);
             // Frames, too.
-            (void)QTest::qWaitFor([&] { return view->showsFinalImage() || !said.isEmpty(); }, 2000);
+            (void)QTest::qWaitFor([&] { return view->showsFinalImage() || !failures.isEmpty(); }, 2000);
             little.reset();
             QVERIFY(isOver);
             const bool isOpen = document.volume()->lattice().size().k == 128;
             opened += isOpen ? 1 : 0;
-            refused += failed.size() + said.size() > 0 ? 1 : 0;
+            refused += failed.size() + failures.size() > 0 ? 1 : 0;
             for (const auto &failure : failed)
                 QCOMPARE(fs::path(failure[1].toString().toStdString()), large);
-            QVERIFY2(isOpen || failed.size() + said.size() > 0, qPrintable(QString::number(mb)));
+            QVERIFY2(isOpen || failed.size() + failures.size() > 0, qPrintable(QString::number(mb)));
             program.window().openPaths({headPath()});
             QTRY_VERIFY_WITH_TIMEOUT(document.volume()->lattice().size().k == 80 && rests(),
                                      patienceMs);

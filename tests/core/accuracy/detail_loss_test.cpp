@@ -82,7 +82,7 @@ TEST_P(DetailLoss, BoundsWhatCoarsePicturesMeasure) {
                        coarseField = classify::densityField(coarse, window);
     const accuracy::DetailLoss loss(projectionsOf({fineField}), projectionsOf({coarseField}), 1,
                                     fine.lattice().shortestStepMm());
-    const double said = loss.relativeError(std::vector{grey}, {});
+    const double predicted = loss.relativeError(std::vector{grey}, {});
     const reference::WideKernel exact(fineField.values, fineField.support),
         shown(coarseField.values, coarseField.support);
     scene::Camera camera = scene::defaultCamera(fine.lattice());
@@ -92,8 +92,8 @@ TEST_P(DetailLoss, BoundsWhatCoarsePicturesMeasure) {
         worst =
             std::max(worst, relativeL2(shown.image(camera, fading), exact.image(camera, fading)));
     }
-    EXPECT_GE(said, worst);
-    EXPECT_LE(said, 3.0 * worst);
+    EXPECT_GE(predicted, worst);
+    EXPECT_LE(predicted, 3.0 * worst);
     EXPECT_GT(worst, 1e-3); // there was something to lose
 }
 
@@ -157,8 +157,8 @@ TEST(DetailLossUnderLight, BoundsWhatCoarsePicturesMeasure) {
     const accuracy::DetailLoss loss(
         projectionsOf({fineFields.fields[0], fineFields.gradients[0]}),
         projectionsOf({coarseFields.fields[0], coarseFields.gradients[0]}), 1, scale.stepMm);
-    const double said = loss.relativeError(std::vector{grey}, shading);
-    EXPECT_GT(said, loss.relativeError(std::vector{grey}, {}));
+    const double predicted = loss.relativeError(std::vector{grey}, shading);
+    EXPECT_GT(predicted, loss.relativeError(std::vector{grey}, {}));
     scene::Camera camera = scene::defaultCamera(fine.lattice());
     double worst = 0.0;
     for (const glm::dquat &view : someViews()) {
@@ -170,8 +170,8 @@ TEST(DetailLossUnderLight, BoundsWhatCoarsePicturesMeasure) {
         };
         worst = std::max(worst, relativeL2(picture(coarse), picture(fine)));
     }
-    EXPECT_GE(said, worst);
-    EXPECT_LE(said, 3.0 * worst);
+    EXPECT_GE(predicted, worst);
+    EXPECT_LE(predicted, 3.0 * worst);
 }
 
 // A coarse picture says nothing before its loss is known, and then never less than the loss.
@@ -184,22 +184,22 @@ TEST(DetailLossOfEngine, CountsInTheErrorOfThePicture) {
     scene.camera = scene::defaultCamera(fine.lattice());
     auto prepared = prepare::prepareEngine(scene, classify::ShownFields{{coarseField}, {}}, {});
     const auto picture = prepared.engine->render(scene.camera, scene.image);
-    const auto said = [&] {
+    const auto predicted = [&] {
         return prepare::errorOf(prepared, picture, scene.camera, scene.image, {});
     };
-    const auto alone = said();
+    const auto alone = predicted();
     ASSERT_TRUE(alone);
     EXPECT_LE(*alone, scene.tolerance);
     prepared.isCoarse = true;
-    EXPECT_FALSE(said());
+    EXPECT_FALSE(predicted());
     const auto loss = std::make_shared<const accuracy::DetailLoss>(
         projectionsOf({fineField}), projectionsOf({coarseField}), 1, 1.0);
     prepared.detailLoss = loss;
-    ASSERT_TRUE(said());
+    ASSERT_TRUE(predicted());
     const auto truth =
         reference::WideKernel(fineField.values, fineField.support).image(scene.camera, scene.image);
-    EXPECT_GE(*said(), relativeL2({picture.samples.begin(), picture.samples.end()}, truth));
-    EXPECT_GT(*said(), 10.0 * *alone);
+    EXPECT_GE(*predicted(), relativeL2({picture.samples.begin(), picture.samples.end()}, truth));
+    EXPECT_GT(*predicted(), 10.0 * *alone);
 }
 
 // A part of a picture may lose more than the whole, and a cue may bring out the part of the body

@@ -142,8 +142,8 @@ TEST_F(Archive, aFalseSizeUnpacksNoMoreThanTheLimit) {
     ASSERT_EQ(bytes.substr(at + 24, 4), size);
     bytes.replace(at + 24, 4, std::string{"\x0a\0\0\0", 4}); // uncompressed size
     std::ofstream(path, std::ios::binary) << bytes;
-    const std::string said = refusal(path, {.bytes = 1000});
-    EXPECT_NE(said, "unpacked");
+    const std::string refused = refusal(path, {.bytes = 1000});
+    EXPECT_NE(refused, "unpacked");
     for (const auto &entry : fs::recursive_directory_iterator(m_out.path()))
         EXPECT_LE(entry.file_size(), 1U << 16);
 }

@@ -44,7 +44,7 @@ protected:
         test::writeText(m_folder / word, std::string(128, '\0') + "DICM" + word);
         return m_folder / word;
     }
-    std::string said(const std::string &word) {
+    std::string answerTo(const std::string &word) {
         try {
             m_decoder.header(file(word));
         } catch (const task::Error &error) {
@@ -115,19 +115,19 @@ TEST(Decoder, pipesAndDevicesAreRefusedAtOnce) {
 TEST_F(TakenOver, itReachesNothing) {
     for (const char *const word : {"open-file", "new-file", "unlink", "write-arena-size", "code",
                                    "uncounted", "kill-parent"})
-        EXPECT_EQ(said(word), "Operation not permitted") << word;
+        EXPECT_EQ(answerTo(word), "Operation not permitted") << word;
     // A system call that no decoder needs ends the process.
     for (const char *const word : {"socket", "process", "program"})
-        EXPECT_THAT(said(word), HasSubstr("a forbidden system call")) << word;
+        EXPECT_THAT(answerTo(word), HasSubstr("a forbidden system call")) << word;
     EXPECT_FALSE(fs::exists("pwned"));
 }
 
 TEST_F(TakenOver, aCrashCostsOneFile) {
-    EXPECT_THAT(said("crash"), HasSubstr("the decoder crashed"));
-    EXPECT_THAT(said("silence"), HasSubstr("the decoder crashed"));
-    EXPECT_THAT(said("killed"), HasSubstr("because memory ran out"));
-    EXPECT_EQ(said("well"), "decoded by hand");
-    EXPECT_EQ(said("well"), "decoded by hand");
+    EXPECT_THAT(answerTo("crash"), HasSubstr("the decoder crashed"));
+    EXPECT_THAT(answerTo("silence"), HasSubstr("the decoder crashed"));
+    EXPECT_THAT(answerTo("killed"), HasSubstr("because memory ran out"));
+    EXPECT_EQ(answerTo("well"), "decoded by hand");
+    EXPECT_EQ(answerTo("well"), "decoded by hand");
 }
 
 TEST_F(TakenOver, itsAnswersAreValidated) {
@@ -135,9 +135,9 @@ TEST_F(TakenOver, itsAnswersAreValidated) {
          {"large-body", "large-data", "other-kind", "short-message", "empty-header", "no-reason",
           "plain-reason", "cut-reason", "other-reason", "long-reason", "deep-reason", "flood",
           "descriptors"})
-        EXPECT_EQ(said(word), "was decoded to implausible data") << word;
-    EXPECT_EQ(said("ask-for-all"), "refused");
-    EXPECT_EQ(said("well"), "decoded by hand");
+        EXPECT_EQ(answerTo(word), "was decoded to implausible data") << word;
+    EXPECT_EQ(answerTo("ask-for-all"), "refused");
+    EXPECT_EQ(answerTo("well"), "decoded by hand");
 }
 
 TEST_F(TakenOver, aRefusalIsOfTwoKinds) {
@@ -171,12 +171,12 @@ TEST_F(TakenOver, itsSamplesAreCounted) {
         }
         EXPECT_EQ(taken, believed) << word;
     }
-    EXPECT_EQ(said("well"), "decoded by hand");
+    EXPECT_EQ(answerTo("well"), "decoded by hand");
 }
 
 #ifndef PELLUCID_SANITIZED
 TEST_F(TakenOver, itsMemoryIsLimited) {
-    const std::string had = said("memory");
+    const std::string had = answerTo("memory");
     ASSERT_THAT(had, HasSubstr("had "));
     EXPECT_LT(std::atoi(had.c_str() + 4), 1000);
 }
@@ -192,7 +192,7 @@ TEST_F(TakenOver, cancellingDoesNotWaitForIt) {
     const auto start = Clock::now();
     EXPECT_THROW(m_decoder.header(hanging, task::Progress(stop.get_token())), task::Cancelled);
     EXPECT_LT(secondsSince(start), 2.0); // 20 seconds are allowed to decode
-    EXPECT_EQ(said("well"), "decoded by hand");
+    EXPECT_EQ(answerTo("well"), "decoded by hand");
 }
 
 // A decoder that never answers is ended by its own clock, or by ours if it has stopped that one.
@@ -222,7 +222,7 @@ TEST_F(TakenOver, aHangIsEndedByTheClock) {
     EXPECT_LT(seconds[0], ours - 0.5); // not ours: two programs share the processor with others
     EXPECT_GE(seconds[1], ours);
     EXPECT_LT(seconds[1], ours + 6.0);
-    EXPECT_EQ(said("well"), "decoded by hand");
+    EXPECT_EQ(answerTo("well"), "decoded by hand");
 }
 
 // The slice that takes over the decoder is named; the others form a volume.

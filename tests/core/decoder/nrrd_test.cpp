@@ -94,7 +94,7 @@ TEST_F(Nrrd, SurplusAndNonFiniteSamplesAreReported) {
                     endless = std::numeric_limits<float>::infinity();
     const auto three = bytesOf<float>({1.0F, none, -endless}), four = three + bytesOf<float>({2});
     const std::vector<task::Reason> odd{task::because::samplesNotFinite(2)};
-    const std::vector<task::Reason> both{task::because::holdsMoreSamplesThanSaid, odd[0]};
+    const std::vector<task::Reason> both{task::because::moreSamplesThanDeclared, odd[0]};
     const auto warnings = [&](const std::string &name) {
         return readVolumeFile(folder / name).notes().warnings;
     };

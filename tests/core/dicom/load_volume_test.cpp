@@ -40,10 +40,10 @@ TEST(Load, ATruncatedSliceIsNamedAndInterpolated) {
     EXPECT_EQ(skipped[0].path, victim);
     // Seven slices again: the hole is interpolated, and the volume says so.
     EXPECT_EQ(loaded.volume.lattice().size().k, 7);
-    bool told = false;
+    bool isReported = false;
     for (const task::Reason &warning : loaded.volume.notes().warnings)
-        told = told || warning.is(task::because::missingSlices);
-    EXPECT_TRUE(told);
+        isReported = isReported || warning.is(task::because::missingSlices);
+    EXPECT_TRUE(isReported);
 }
 
 TEST(Load, StopsWhenCancelled) {

@@ -114,7 +114,7 @@ public:
     }
 
     struct Error {
-        double said, measured;
+        double predicted, measured;
     };
     Error errorFrom(const glm::dquat &view, double tolerance) {
         m_scene.camera.orientation = view;
@@ -169,10 +169,10 @@ TEST_P(AdaptiveWidths, DifferNoMoreThanTheySay) {
                 int differing = 0;
                 for (const glm::dquat &view : views(seed))
                     for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
-                        const auto [said, measured] = narrowed.errorFrom(view, tolerance);
-                        EXPECT_LE(measured, said + rounding)
+                        const auto [predicted, measured] = narrowed.errorFrom(view, tolerance);
+                        EXPECT_LE(measured, predicted + rounding)
                             << GetParam().name << " " << voxelsPerPixel << " " << width;
-                        EXPECT_LE(said, tolerance);
+                        EXPECT_LE(predicted, tolerance);
                         differing += measured > 0.0 ? 1 : 0;
                     }
                 if (voxelsPerPixel < 1.0) {
@@ -203,9 +203,9 @@ TEST_P(AdaptiveWidths, DifferNoMoreThanTheySayUnderCuesAndLights) {
         int differing = 0;
         for (const glm::dquat &view : views(seed))
             for (const double tolerance : {1e-2, 1e-3}) {
-                const auto [said, measured] = narrowed.errorFrom(view, tolerance);
-                EXPECT_LE(measured, said + rounding) << GetParam().name;
-                EXPECT_LE(said, tolerance);
+                const auto [predicted, measured] = narrowed.errorFrom(view, tolerance);
+                EXPECT_LE(measured, predicted + rounding) << GetParam().name;
+                EXPECT_LE(predicted, tolerance);
                 differing += measured > 0.0 ? 1 : 0;
             }
         EXPECT_GT(differing, 4) << GetParam().name;

@@ -194,11 +194,11 @@ TEST(LayerSet, KnowsTheErrorOfItsSums) {
                 layers->detailLoss(),
                 plan::SpectrumOf::layer};
             const auto picture = prepared.engine->render(scene.camera, scene.image);
-            const auto said = prepare::errorOf(prepared, picture, scene.camera, scene.image, {});
+            const auto predicted = prepare::errorOf(prepared, picture, scene.camera, scene.image, {});
             const double measured = test::relativeL2(picture.samples, truth);
-            ASSERT_TRUE(said);
-            EXPECT_GE(*said, measured);
-            EXPECT_LE(*said, 8.0 * measured); // the same order of magnitude
+            ASSERT_TRUE(predicted);
+            EXPECT_GE(*predicted, measured);
+            EXPECT_LE(*predicted, 8.0 * measured); // the same order of magnitude
         }
     }
 }

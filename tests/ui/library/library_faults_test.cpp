@@ -222,10 +222,10 @@ private slots:
             const OpenedLibrary read = openLibrary(broken.folder);
             QVERIFY(read.place.inMemory && read.wasDamaged);
             QVERIFY(read.readable.size() > 100);
-            const QString said = QString::fromStdString(read.notices.at(0).reason.english());
-            QVERIFY2(said.contains("cannot be written") &&
-                         said.contains("only until the program closes"),
-                     qPrintable(said));
+            const QString notice = QString::fromStdString(read.notices.at(0).reason.english());
+            QVERIFY2(notice.contains("cannot be written") &&
+                         notice.contains("only until the program closes"),
+                     qPrintable(notice));
         }
         // The program starts although the list of copies is missing.
         {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/render/grid_tables.h"
+#include "core/render/frame_job.h"
 
 #include <cmath>
 #include <numbers>
