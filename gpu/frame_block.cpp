@@ -182,7 +182,7 @@ FrameBlock frameBlock(const render::FrameInputs &inputs, const scene::ImageDefin
     for (std::size_t s = 0; s < mixing.sources.size(); ++s) {
         const render::FrameSource &source = mixing.sources[s];
         block.channelWeights[s] = {source.channelWeights[0], source.channelWeights[1],
-                           source.channelWeights[2]};
+                                   source.channelWeights[2]};
         // Fields and their pages come before those of the gradients.
         const bool isField = source.kind == render::FrameKind::field;
         block.fieldCount += isField ? 1 : 0;

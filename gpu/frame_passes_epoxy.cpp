@@ -45,7 +45,7 @@ Defines sliceDefines(const FrameCommand &c) {
             {"PAGES", int(c.pages.size())},
             {"SLABS", c.slabs},
             {"SUMS", c.sums},
-            {"CHANNELS", c.layers},
+            {"IMAGES", c.layers},
             {"SHADED", c.shaded ? 1 : 0},
             {"CUED", c.cued ? 1 : 0},
             {"LIT", c.lit ? 1 : 0},

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/task/error.h"
+
 namespace pellucid::gpu {
 
 FetchPlan planFetch(const plan::RenderPlan &plan, double tolerance,
@@ -71,8 +73,9 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
                                                            const scene::ImageDefinition &image,
                                                            const shading::Shading &shading,
                                                            CardTimes *times) {
-    const render::FrameInputs inputs =
-        m_setup->inputsFor(m_textures->spectra(), m_channelWeights, camera, image, shading);
+    const render::FrameInputs inputs = task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
+        return m_setup->inputsFor(m_textures->spectra(), m_channelWeights, camera, image, shading);
+    });
     if (inputs.isEmpty()) {
         if (times != nullptr)
             *times = {};
@@ -88,7 +91,7 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
     command.fieldPages = m_textures->fieldPages();
     command.slabs = m_textures->layout().slabs;
     command.sums = inputs.mixing.sums;
-    command.layers = inputs.mixing.channels;
+    command.layers = inputs.mixing.imageCount;
     command.channels = inputs.pictureChannels();
     command.width = layout.width();
     command.evenTerms = layout.kernels.front().terms();

@@ -36,7 +36,7 @@ void main() {
         line[n] = vec2(0.0);
     for (int n = thread; n <= 2 * last; n += THREADS) {
         int row = n - last;
-        vec2 slice[CHANNELS];
+        vec2 slice[IMAGES];
         sliceAt(column, row, slice);
         line[row < 0 ? row + rows : row] = slice[0];
     }

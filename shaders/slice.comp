@@ -21,12 +21,12 @@ void main() {
     if (column >= halfColumns || n >= rows)
         return;
     int row = n < rows / 2 ? n : n - rows;
-    vec2 slice[CHANNELS];
+    vec2 slice[IMAGES];
     if (abs(row) <= discRows[column])
         sliceAt(column, row, slice);
     else
-        for (int c = 0; c < CHANNELS; ++c)
+        for (int c = 0; c < IMAGES; ++c)
             slice[c] = vec2(0.0);
-    for (int c = 0; c < CHANNELS; ++c)
+    for (int c = 0; c < IMAGES; ++c)
         values[(c * halfColumns + column) * rows + n] = slice[c];
 }

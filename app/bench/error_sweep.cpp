@@ -21,30 +21,34 @@ constexpr std::array<double, 5> tolerances{1e-2, 3e-3, 1.1e-3, 3e-4, 1e-4};
 void sweepField(const Trial &trial, std::uint64_t seed,
                 const std::function<void(const SweptPicture &)> &each) {
     const classify::ShownFields fields{{trial.field}, {}};
-    std::vector<glm::dquat> views{trial.scene.camera.orientation,
-                                  scene::viewOrientation(scene::StandardView::front),
-                                  scene::viewOrientation(scene::StandardView::top)};
+    struct View {
+        std::string name;
+        glm::dquat orientation;
+    };
+    std::vector<View> views{{"its own view", trial.scene.camera.orientation},
+                            {"front", scene::viewOrientation(scene::StandardView::front)},
+                            {"top", scene::viewOrientation(scene::StandardView::top)}};
     for (const glm::dquat &view : randomViews(3, unsigned(seed)))
-        views.push_back(view);
+        views.push_back({fmt::format("random view {}", views.size() - 2), view});
     const reference::WideKernel exact(trial.field.values, trial.field.support);
     scene::Scene scene = trial.scene;
     std::vector<std::vector<double>> truths;
-    for (const glm::dquat &view : views) {
-        scene.camera.orientation = view;
+    for (const View &view : views) {
+        scene.camera.orientation = view.orientation;
         truths.push_back(exact.image(scene.camera, scene.image));
     }
     for (const double tolerance : tolerances) {
         scene.tolerance = tolerance;
-        scene.camera.orientation = views.front();
+        scene.camera.orientation = views.front().orientation;
         const auto prepared = prepare::prepareEngine(scene, fields, {});
         for (std::size_t view = 0; view < views.size(); ++view) {
-            scene.camera.orientation = views[view];
+            scene.camera.orientation = views[view].orientation;
             const auto picture = prepared.engine->render(scene.camera, scene.image);
-            const std::string field = trial.name.substr(0, trial.name.find(", tolerance"));
-            SweptPicture swept{
-                .name = fmt::format("{}, view {}, tolerance {:.2g}", field, view, tolerance),
-                .tolerance = tolerance,
-                .planned = prepared.plan.predictedError};
+            SweptPicture swept{.name = fmt::format("{}, {}, pixel {:.2f} mm, tolerance {:.2g}",
+                                                   trial.fieldName, views[view].name,
+                                                   scene.camera.pixelMm, tolerance),
+                               .tolerance = tolerance,
+                               .planned = prepared.plan.predictedError};
             swept.stated =
                 prepare::errorOf(prepared, picture, scene.camera, scene.image, {}).value();
             swept.measured = compare(picture.samples, truths[view]).relativeL2;

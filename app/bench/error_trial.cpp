@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "app/bench/measure.h"
 #include "app/bench/trial_fields.h"
-#include "core/accuracy/view_error.h"
 #include "core/prepare/prepared_engine.h"
 #include "core/reference/shaded_field.h"
 #include "core/reference/wide_kernel.h"
@@ -140,40 +140,26 @@ Trial trialOf(const Candidate &candidate, PictureKind pictures) {
             more += trial.scene.shading.isLit() ? ", lit" : ", with a cue";
         }
     }
-    trial.name =
-        fmt::format("{}, {}x{}x{}, {}{}, pixel {:.2f} mm, tolerance {:.2g}", fieldKindName(kind),
-                    size.i, size.j, size.k, view, more, camera.pixelMm, tolerance);
+    trial.fieldName = fmt::format("{}, {}x{}x{}", fieldKindName(kind), size.i, size.j, size.k);
+    trial.name = fmt::format("{}, {}{}, pixel {:.2f} mm, tolerance {:.2g}", trial.fieldName, view,
+                             more, camera.pixelMm, tolerance);
     return trial;
 }
 
 Verdict judge(const Trial &trial) {
     const scene::Scene &scene = trial.scene;
     const classify::ShownFields fields{{trial.field}, {}};
-    const auto shaded = prepare::shadedFields(fields, scene.shading,
-                                              shading::shadingScale(trial.field.values.lattice()));
-    const auto summaries = prepare::summarise(shaded, scene.shading.cue);
-    auto plan = plan::planRender(scene, summaries, prepare::compositionOf(1, scene.shading));
-    plan::adaptWidths(plan, scene, summaries);
-    const auto engine = prepare::makeEngine(shaded, plan);
-    const auto image = engine->render(scene.camera, scene.image, scene.shading);
+    const auto prepared = prepare::prepareEngine(scene, fields, {});
+    const auto picture = prepared.engine->render(scene.camera, scene.image, scene.shading);
     const auto truth =
         scene.shading.isPlain()
             ? reference::WideKernel(trial.field.values, trial.field.support)
                   .image(scene.camera, scene.image)
             : reference::shadedImage(fields, scene.shading, scene.camera, scene.image);
-    double difference = 0.0, energy = 0.0;
-    for (std::size_t n = 0; n < truth.size(); ++n) {
-        const double off = double(image.samples[n]) - truth[n];
-        difference += off * off;
-        energy += truth[n] * truth[n];
-    }
-    Verdict verdict{plan.predictedError, energy > 0.0 ? std::sqrt(difference / energy) : 0.0,
-                    accuracy::ViewErrorModel(plan, summaries)
-                        .errorOf(image, scene.camera, scene.image, engine->parts(), scene.shading)
-                        .relative,
-                    true};
-    verdict.keepsTolerance = plan.predictedError <= trial.scene.tolerance;
-    return verdict;
+    const double predicted = prepared.plan.predictedError;
+    return {predicted, compare(picture.samples, truth).relativeL2,
+            prepare::errorOf(prepared, picture, scene.camera, scene.image, scene.shading).value(),
+            predicted <= scene.tolerance};
 }
 
 } // namespace pellucid::bench

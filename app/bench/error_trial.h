@@ -18,7 +18,8 @@ struct Candidate {
 
 /// A decoded candidate: a field, and a scene with view and tolerance.
 struct Trial {
-    std::string name; ///< kind of field, size, view and tolerance
+    std::string fieldName; ///< kind of field and size
+    std::string name;      ///< also view, pixel and tolerance
     classify::DensityField field;
     scene::Scene scene;
 };

@@ -158,7 +158,7 @@ Row plannedRow(const std::string &suite, const std::string &name, const volume::
             threads > 0 ? threads : thisMachine().threads};
     row.predictedError = plan.predictedError;
     row.predictedMax = plan.predictedMaximum;
-    if (scene.interpolation == scene::Interpolation())
+    if (scene.interpolation.isPlanned())
         row.tolerance = scene.tolerance;
     return row;
 }

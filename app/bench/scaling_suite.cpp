@@ -88,20 +88,20 @@ struct Engines {
         const auto spectrum = std::make_shared<const fourier::Spectrum>(
             fourier::Spectrum::prepare(subject.field.values, plan.spectrum));
         const auto widths = prepare::adaptiveWidths({{spectrum}, {}, {}}, plan);
-        all = std::make_unique<render::CpuEngine>(spectrum, plan.fieldOfView);
-        one = std::make_unique<render::CpuEngine>(spectrum, plan.fieldOfView, 1);
-        all->setWidths(widths);
-        one->setWidths(widths);
+        allThreads = std::make_unique<render::CpuEngine>(spectrum, plan.fieldOfView);
+        oneThread = std::make_unique<render::CpuEngine>(spectrum, plan.fieldOfView, 1);
+        allThreads->setWidths(widths);
+        oneThread->setWidths(widths);
         scene::Scene asked = scene;
         asked.interpolation.isUniform = true;
         const auto single = plan::planRender(asked, summary);
-        uniform = std::make_unique<render::CpuEngine>(
+        oneKernel = std::make_unique<render::CpuEngine>(
             std::make_shared<const fourier::Spectrum>(
                 fourier::Spectrum::prepare(subject.field.values, single.spectrum)),
             single.fieldOfView);
     }
 
-    std::unique_ptr<render::CpuEngine> all, one, uniform;
+    std::unique_ptr<render::CpuEngine> allThreads, oneThread, oneKernel;
 };
 
 // The row of one thread beside that of all.
@@ -131,28 +131,28 @@ SizeResult measureSize(const Report &report, const Subject &subject, const std::
     const SpatialVolume inSpace(subject.field.values);
     const double step = lattice.shortestStepMm();
     const auto views = randomViews(rounds * viewsPerRound);
-    FrameSamples all, one, uniform;
+    FrameSamples allThreads, oneThread, oneKernel;
     PeerSamples peers;
     for (int round = 0; round < rounds; ++round) {
         const auto ofRound = std::span(views).subspan(std::size_t(round * viewsPerRound),
                                                       std::size_t(viewsPerRound));
-        all.addRound(*engines.all, how.scene, ofRound);
-        uniform.addRound(*engines.uniform, how.scene, ofRound);
-        one.addRound(*engines.one, how.scene, ofRound);
+        allThreads.addRound(*engines.allThreads, how.scene, ofRound);
+        oneKernel.addRound(*engines.oneKernel, how.scene, ofRound);
+        oneThread.addRound(*engines.oneThread, how.scene, ofRound);
         scene::Camera camera = how.scene.camera;
         camera.orientation = ofRound.front();
         peers.addRound(inSpace, camera, step);
     }
-    all.fill(row);
+    allThreads.fill(row);
     peers.fill(row);
     if (truth.views() > 0)
         row.raySumRelativeL2 = raySumError(inSpace, truth, step);
-    const Row single = rowOfOneThread(row, name, one);
+    const Row single = rowOfOneThread(row, name, oneThread);
     row.note =
-        fmt::format("{:.2f} times one width of kernel; {:.0f} times the ray sum, {:.1f} times the "
-                    "shear-warp sum; {:.2f} times one thread; prepared in {:.2f} times FFTW's 3D "
-                    "transform",
-                    median(uniform.frameMs) / *row.frameMs, *row.raySumMs / *row.frameMs,
+        fmt::format("{:.2f} times as fast as with one kernel, {:.0f} times as fast as the ray sum, "
+                    "{:.1f} times as fast as the shear-warp sum, {:.2f} times as fast as one "
+                    "thread; preparation took {:.2f} times as long as FFTW's 3D transform",
+                    median(oneKernel.frameMs) / *row.frameMs, *row.raySumMs / *row.frameMs,
                     *row.shearWarpMs / *row.frameMs, *single.frameMs / *row.frameMs,
                     *row.prepareMs / *row.fft3dMs);
     report(row);

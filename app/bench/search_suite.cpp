@@ -56,14 +56,17 @@ void runSweepSuite(const Report &report, int fields, std::uint64_t seed) {
         std::vector<double> stated; // over the measured
     };
     std::map<double, Tolerance, std::greater<>> tolerances;
-    const auto row = [&](const std::string &name, const SweptPicture &picture,
-                         const std::string &note) {
+    const auto row = [](const std::string &name, const std::string &note) {
         Row one;
         one.suite = "sweep";
         one.name = name;
+        one.note = note;
+        return one;
+    };
+    const auto reportPicture = [&](const SweptPicture &picture, const std::string &note) {
+        Row one = row(picture.name, note);
         one.predictedError = picture.stated;
         one.relativeL2 = picture.measured;
-        one.note = note;
         report(one);
     };
     sweep(fields, seed, [&](const SweptPicture &picture) {
@@ -78,9 +81,9 @@ void runSweepSuite(const Report &report, int fields, std::uint64_t seed) {
             at.stated.push_back(picture.stated / picture.measured);
         }
         if (picture.measured > picture.stated)
-            row(picture.name, picture, "the stated error is too low");
+            reportPicture(picture, "the stated error is too low");
         if (picture.measured > picture.planned)
-            row(picture.name, picture, "the plan's bound is too low");
+            reportPicture(picture, "the plan's bound is too low");
     });
     for (auto &[tolerance, at] : tolerances) {
         if (at.stated.empty())
@@ -89,13 +92,14 @@ void runSweepSuite(const Report &report, int fields, std::uint64_t seed) {
         const auto share = [&](double part) {
             return at.stated[std::size_t(part * double(at.stated.size() - 1))];
         };
-        row(fmt::format("tolerance {:.2g}", tolerance), {},
-            fmt::format(
-                "{} pictures, {} of plans that miss it; largest measured error {:.2f} of it; "
-                "stated over measured: least {:.2f}, median {:.2f}, 95 % below {:.2f}, "
-                "most {:.1f}; the plan's bound at least {:.2f}",
-                at.pictures, at.missed, at.worst, share(0.0), share(0.5), share(0.95), share(1.0),
-                at.leastPlanned));
+        report(row(fmt::format("tolerance {:.2g}", tolerance),
+                   fmt::format(
+                       "{} pictures, {} of them by plans that miss the tolerance; largest measured "
+                       "error {:.2f} times the tolerance; stated over measured error: minimum "
+                       "{:.2f}, median {:.2f}, 95th percentile {:.2f}, maximum {:.1f}; plan's "
+                       "bound over measured error: minimum {:.2f}",
+                       at.pictures, at.missed, at.worst, share(0.0), share(0.5), share(0.95),
+                       share(1.0), at.leastPlanned)));
     }
 }
 

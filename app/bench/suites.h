@@ -42,8 +42,8 @@ void runSearchSuite(const Report &report, double minutes, std::uint64_t seed);
 /// The predicted error of random pictures divided by the measured error: minimum, median, 95th
 /// percentile and maximum.
 void runPicturesSuite(const Report &report, int pictures, std::uint64_t seed);
-/// Random fields of every kind at five tolerances in six views: whether each tolerance is kept, and
-/// the stated errors divided by the measured ones.
+/// Checks whether plans keep five tolerances for random fields of every kind in six views, and
+/// reports the stated errors divided by the measured ones.
 void runSweepSuite(const Report &report, int fields, std::uint64_t seed);
 /// Totsuka and Levoy 1993, table 1, and their adaptive filter.
 void runTotsukaSuite(const Report &report);

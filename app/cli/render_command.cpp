@@ -43,16 +43,10 @@ struct Options {
 
 // Whether the last picture misses the tolerance although the plan keeps it, and a closer plan may
 // help.
-bool hasSteps(const classify::Look &look) {
-    return std::any_of(look.classes.begin(), look.classes.end(),
-                       [](const classify::TissueClass &tissue) { return !tissue.steps.empty(); });
-}
-
 bool mayPlanCloser(const Renderer &renderer, const scene::Scene &scene) {
     return renderer.lastViewError() > scene.tolerance &&
            renderer.predictedError() <= scene.tolerance && !renderer.isReduced() &&
-           scene.interpolation == scene::Interpolation() &&
-           scene.plannedFor != scene::PlannedFor::volume;
+           scene.interpolation.isPlanned() && scene.plannedFor != scene::PlannedFor::volume;
 }
 
 // One picture or a turntable, step by step.
@@ -137,7 +131,7 @@ private:
                 m_fields = fieldsFor(m_scene, volume(), m_context);
             // Another plan may need them, and steps of classes take long.
             classify::ShownFields fields = m_fields;
-            if (!hasSteps(m_scene.look))
+            if (!classify::hasSteps(m_scene.look.classes))
                 m_fields = {};
             m_renderer.emplace(m_planned, std::move(fields), m_budget, m_context);
             m_renderer->use(m_card);
@@ -239,7 +233,6 @@ private:
                             {"size", {m_scene.camera.width, m_scene.camera.height}},
                             {"pixel_mm", m_scene.camera.pixelMm},
                             {"frames", frames()},
-                            {"channels", m_renderer->imageCount()},
                             {"volume", volumeJson()},
                             {"window", {m_window.low, m_window.high}},
                             {"shading", json::parse(shading::toJson(m_scene.shading))},

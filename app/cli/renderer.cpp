@@ -88,7 +88,7 @@ Renderer::Renderer(const scene::Scene &scene, Sources sources, const plan::Budge
         reference::ExactEngine::bytes(m_lattice, sources.summaries.front().support, m_images,
                                       scene.camera, scene.image, scene.shading);
     const bool isMet = m_fitting.plan.predictedError <= scene.tolerance;
-    const bool mustPlan = scene.interpolation != scene::Interpolation() ||
+    const bool mustPlan = !scene.interpolation.isPlanned() ||
                           scene.plannedFor == scene::PlannedFor::volume || m_fitting.reduction > 1;
     if (isMet || mustPlan || exactBytes > budget.bytes)
         preparePlanned(std::move(sources));
@@ -183,7 +183,8 @@ void Renderer::judge(const picture::ProjectionImage &image, const scene::Camera 
     if (!m_viewModel)
         return;
     const render::EngineParts parts = m_card ? m_card->parts() : m_planned->parts();
-    // The card's own texture filter adds the same error to every view; it reads with one kernel.
+    // The card's own texture filter adds the same error to every view; pictures made with it are
+    // read by one kernel.
     const double bound = m_fitting.plan.predictedError,
                  adaptive = parts.widths ? 0.0 : m_fitting.plan.adaptiveError,
                  added = std::max(0.0, m_predictedError * m_predictedError -

@@ -54,7 +54,6 @@ public:
     std::string description() const;
     /// `last`: the times of the last image.
     nlohmann::json planJson(const picture::FrameTimes &last) const;
-    std::size_t imageCount() const { return m_images; }
     std::size_t bytes() const { return m_bytes; }
     bool isReduced() const { return m_fitting.reduction > 1; }
     /// Whether the exact reference makes the pictures.

@@ -166,7 +166,8 @@ void addQualityOptions(CLI::App &command, SceneOptions &options) {
                        "the tolerance");
     command
         .add_option("--padding", options.padding,
-                    "Padded size of the field over its size; default: as needed")
+                    "Ratio of the padded size to the field's, at least, along each axis; default: "
+                    "as needed")
         ->check(CLI::Range(1.0, 4.0));
     command
         .add_option("--storage", options.storage,

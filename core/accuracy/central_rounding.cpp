@@ -5,13 +5,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <optional>
 #include <vector>
 
-#include <glm/geometric.hpp>
-
-#include "core/render/frame_geometry.h"
-#include "core/render/frame_mixing.h"
 #include "core/render/slice_reader.h"
 
 namespace pellucid::accuracy {
@@ -27,26 +22,14 @@ using Read = render::SliceReader::Read;
 
 class CentralSlices {
 public:
-    CentralSlices(const render::EngineParts &engine, const scene::Camera &camera,
-                  const plan::SliceGrid &grid, const shading::Shading &shading)
-        : m_layout(engine.spectra.fields.front()->layout()),
-          m_geometry(camera, grid, *engine.spectra.fields.front()),
-          m_slices(shading::sliceShading(shading, camera.axes(), engine.spectra.scale)),
-          m_mixing(engine.spectra, engine.channelWeights, m_slices, shading.isGrey()),
-          m_frameShading(render::frameShading(m_slices, m_mixing, *engine.spectra.fields.front(),
-                                              m_geometry.toWrap, camera.axes()[2],
-                                              engine.spectra.scale.stepMm)),
-          m_reader(engine.spectra, m_mixing, m_frameShading, render::SliceReader::Rounding::read) {
-        if (m_frameShading.cued) {
-            m_moments.emplace(render::momentKernels(m_layout));
-            m_frameShading.kernels = &*m_moments;
-        }
-    }
-    CentralSlices(const CentralSlices &) = delete;
-    CentralSlices &operator=(const CentralSlices &) = delete;
+    CentralSlices(const render::EngineSpectra &spectra, const render::FrameInputs &inputs)
+        : m_inputs(inputs), m_layout(spectra.fields.front()->layout()),
+          m_reader(spectra, inputs.mixing, inputs.shading, render::SliceReader::Rounding::read) {}
 
-    CentralEnergies energies(const scene::Camera &camera, const plan::SliceGrid &grid) const {
-        const auto &across = m_geometry.cellsPerColumn, &down = m_geometry.cellsPerRow;
+    CentralEnergies energies(const scene::Camera &camera) const {
+        const plan::SliceGrid &grid = m_inputs.grid;
+        const auto &across = m_inputs.geometry.cellsPerColumn,
+                   &down = m_inputs.geometry.cellsPerRow;
         const auto most = [&](const std::array<double, 3> &step, int count) {
             double largest = 0.0;
             for (const double component : step)
@@ -61,7 +44,7 @@ public:
                     at[d] = column * across[d] + row * down[d];
                 waves.images.push_back(isWithinReach(at) ? m_reader.at(at) : std::array<Read, 3>{});
             }
-        CentralEnergies energies = energiesIn(camera, grid, waves);
+        CentralEnergies energies = energiesIn(camera, waves);
         energies.cellRounding = roundingOfCells();
         return energies;
     }
@@ -73,7 +56,7 @@ private:
     double roundingOfCells() const {
         constexpr int reach = Spectrum::roundingReach;
         double energy = 0.0, error = 0.0;
-        for (const render::FrameSource &source : m_mixing.sources)
+        for (const render::FrameSource &source : m_inputs.mixing.sources)
             for (int r = -reach; r <= reach; ++r)
                 for (int q = -reach; q <= reach; ++q)
                     for (int p = 0; p <= reach; ++p) {
@@ -85,9 +68,9 @@ private:
     }
 
     bool isWithinReach(const std::array<double, 3> &at) const {
-        for (int t = 0; t < m_frameShading.termCount; ++t)
+        for (int t = 0; t < m_inputs.shading.termCount; ++t)
             for (std::size_t d = 0; d < 3; ++d)
-                if (std::abs(at[d] + m_frameShading.terms[std::size_t(t)].cells[d]) > reach())
+                if (std::abs(at[d] + m_inputs.shading.terms[std::size_t(t)].cells[d]) > reach())
                     return false;
         return true;
     }
@@ -100,8 +83,8 @@ private:
     };
 
     // The waves are slow, so a few points of the picture are enough for their energy in it.
-    CentralEnergies energiesIn(const scene::Camera &camera, const plan::SliceGrid &grid,
-                               const Waves &waves) const {
+    CentralEnergies energiesIn(const scene::Camera &camera, const Waves &waves) const {
+        const plan::SliceGrid &grid = m_inputs.grid;
         // The energy's waves are twice as fast. A picture of several padded periods contains many.
         const auto pointsFor = [](int most, int side, int period) {
             return std::size_t(std::max(24.0, std::ceil(4.0 * most * side / period)));
@@ -119,9 +102,9 @@ private:
             return values;
         };
         const auto across = phases(waves.columns, camera.width, grid.columns,
-                                   m_geometry.turnsPerColumn, xPoints),
-                   down = phases(waves.rows, camera.height, grid.rows, m_geometry.turnsPerRow,
-                                 yPoints);
+                                   m_inputs.geometry.turnsPerColumn, xPoints),
+                   down = phases(waves.rows, camera.height, grid.rows,
+                                 m_inputs.geometry.turnsPerRow, yPoints);
         const std::size_t columns = 2 * std::size_t(waves.columns) + 1,
                           rows = 2 * std::size_t(waves.rows) + 1;
         CentralEnergies sum;
@@ -148,7 +131,7 @@ private:
         const double pixel = camera.pixelMm,
                      pointMm2 =
                          pixel * pixel * camera.width * camera.height / double(xPoints * yPoints),
-                     unit = m_geometry.cellArea * m_geometry.cellArea * pointMm2;
+                     unit = m_inputs.geometry.cellArea * m_inputs.geometry.cellArea * pointMm2;
         for (std::size_t c = 0; c < 3; ++c) {
             sum.image[c] *= unit;
             sum.error[c] *= unit;
@@ -156,34 +139,23 @@ private:
         return sum;
     }
 
+    const render::FrameInputs &m_inputs;
     const fourier::SpectrumLayout &m_layout;
-    render::FrameGeometry m_geometry;
-    shading::SliceShading m_slices;
-    render::Mixing m_mixing;
-    render::FrameShading m_frameShading;
-    std::optional<render::MomentKernels> m_moments;
     render::SliceReader m_reader;
 };
 
 } // namespace
 
-CentralEnergies centralEnergies(const render::EngineParts &engine, const scene::Camera &camera,
-                                const plan::SliceGrid &grid, const shading::Shading &shading) {
-    const auto keepsRounding = [](const auto &spectra) {
-        return std::all_of(spectra.begin(), spectra.end(),
+CentralEnergies centralEnergies(const render::EngineSpectra &spectra,
+                                const render::FrameInputs &inputs, const scene::Camera &camera) {
+    const auto keepsRounding = [](const auto &all) {
+        return std::all_of(all.begin(), all.end(),
                            [](const auto &spectrum) { return spectrum->keepsRounding(); });
     };
-    if (!keepsRounding(engine.spectra.fields) || !keepsRounding(engine.spectra.gradients) ||
-        std::size_t(engine.spectra.fields.front()->layout().width()) >= maxTaps)
+    if (inputs.isEmpty() || !keepsRounding(spectra.fields) || !keepsRounding(spectra.gradients) ||
+        std::size_t(spectra.fields.front()->layout().width()) >= maxTaps)
         return {};
-    if (std::all_of(
-            engine.channelWeights.begin(), engine.channelWeights.end(),
-            [](const render::ChannelWeights &share) { return share == render::ChannelWeights{}; }))
-        return {}; // nothing is shown
-    shading::Shading activeShading = shading;
-    if (engine.spectra.gradients.empty())
-        activeShading.lights.clear();
-    return CentralSlices(engine, camera, grid, activeShading).energies(camera, grid);
+    return CentralSlices(spectra, inputs).energies(camera);
 }
 
 } // namespace pellucid::accuracy

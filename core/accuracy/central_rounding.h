@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/render/projection_engine.h"
+#include "core/render/frame_inputs.h"
 
 namespace pellucid::accuracy {
 
@@ -18,9 +18,9 @@ struct CentralEnergies {
     double cellRounding = 0.0;
 };
 
-/// All are 0 if an engine's spectra do not keep their rounding. Frequencies whose slice reads cells
-/// that are not kept contribute 0. *Shape*: the grid of the camera's frame.
-CentralEnergies centralEnergies(const render::EngineParts &engine, const scene::Camera &camera,
-                                const plan::SliceGrid &grid, const shading::Shading &shading);
+/// All are 0 if the spectra do not keep their rounding. Frequencies whose slice reads cells that
+/// are not kept contribute 0.
+CentralEnergies centralEnergies(const render::EngineSpectra &spectra,
+                                const render::FrameInputs &inputs, const scene::Camera &camera);
 
 } // namespace pellucid::accuracy

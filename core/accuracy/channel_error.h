@@ -6,6 +6,7 @@
 
 #include "core/accuracy/central_rounding.h"
 #include "core/accuracy/coarse_fields.h"
+#include "core/accuracy/slice_energies.h"
 #include "core/picture/projection_image.h"
 
 namespace pellucid::accuracy {
@@ -17,7 +18,8 @@ struct PictureContext {
     const scene::ImageDefinition &image;
     const shading::Shading &shading;
     plan::SliceGrid grid;
-    CentralEnergies central;           ///< of the picture
+    CentralEnergies central; ///< of the picture
+    SliceEnergies slice;
     std::array<double, 3> narrowing{}; ///< see narrowingEnergies
 };
 

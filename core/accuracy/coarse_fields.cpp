@@ -59,6 +59,21 @@ public:
         return worst;
     }
 
+    // Of a few samples, all cells are alike, and errors stay where the samples are.
+    std::vector<double> roundingShares() const {
+        constexpr int steps = 24;
+        std::vector<double> shares(steps);
+        double sum = 0.0;
+        for (int n = 0; n < steps; ++n) {
+            const double x = 2.0 * (n + 0.5) / steps - 1.0, h = m_kernel.apodisation(x);
+            const bool isField = std::abs(x) <= 0.5 * m_samples / m_padded + 1.0 / steps;
+            sum += shares[std::size_t(n)] = isShort() ? double(isField) : h * h;
+        }
+        for (double &share : shares)
+            share /= sum;
+        return shares;
+    }
+
 private:
     bool isShort() const { return m_samples <= fewSamples; }
 
@@ -124,6 +139,7 @@ CoarseFields coarseFields(const plan::RenderPlan &plan,
         coarse.periodsMm[d] = double(axis.padded()) * coarse.lattice.step(int(d));
         coarse.kernelEnergy *= axis.kernelEnergy();
         coarse.moments[d] = axis.momentError();
+        coarse.roundingShares[d] = axis.roundingShares();
         coarse.blockMm = std::max(coarse.blockMm, double(axis.samples()) / double(axes[d].size()) *
                                                       coarse.lattice.spacingMm(int(d)));
     }

@@ -31,8 +31,12 @@ struct CoarseFields {
     std::vector<Block> blocks;             ///< of all fields, each block once
     std::vector<std::vector<Part>> fields; ///< the nonempty blocks of each field
     std::vector<std::shared_ptr<const plan::EnergySpread>> spreads; ///< by field
-    double kernelEnergy = 1.0;  ///< integral H^2, the product over the axes
-    double rounding = 0.0;      ///< relative error of a stored cell
+    double kernelEnergy = 1.0; ///< integral H^2, the product over the axes
+    double rounding = 0.0;     ///< relative error of a stored cell
+    /// How the energy of rounding is distributed along each axis: shares at even steps from one
+    /// period before the middle of the box to one after it. They follow h^2, as all errors of cells
+    /// do.
+    std::array<std::vector<double>, 3> roundingShares;
     double depthRadiusMm = 1.0; ///< the R of a depth cue
     double blockMm = 1.0;       ///< the longest side of a block
 };

@@ -67,17 +67,17 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
     const std::vector<render::ChannelWeights> &channelWeights = engine.channelWeights;
     // Without light the weights do not depend on R and the step.
     const shading::SliceShading slices = shading::sliceShading(shading, camera.axes(), {});
-    const plan::SliceGrid grid = plan::sliceGrid(camera, m_fieldOfView, m_fields.lattice, image);
-    std::array<double, 3> narrowing{};
-    if (engine.widths) {
-        render::FrameSetup setup(m_fieldOfView, engine.widths);
-        narrowing = narrowingEnergies(
-            engine.spectra, setup.inputsFor(engine.spectra, channelWeights, camera, image, shading),
-            camera, image);
-    }
-    const PictureContext context{picture,  camera, image,
-                                 shading,  grid,   centralEnergies(engine, camera, grid, shading),
-                                 narrowing};
+    render::FrameSetup setup(m_fieldOfView, engine.widths);
+    const render::FrameInputs inputs =
+        setup.inputsFor(engine.spectra, channelWeights, camera, image, shading);
+    const PictureContext context{picture,
+                                 camera,
+                                 image,
+                                 shading,
+                                 inputs.grid,
+                                 centralEnergies(engine.spectra, inputs, camera),
+                                 sliceEnergies(engine.spectra, inputs, camera, image),
+                                 narrowingEnergies(engine.spectra, inputs, camera, image)};
     double energy = 0.0, error = 0.0;
     bool isWhole = true, isAsPlanned = true; // the plan's bound holds for these only
     for (int channel = 0; channel < picture.channels; ++channel) {

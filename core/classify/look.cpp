@@ -8,6 +8,11 @@
 
 namespace pellucid::classify {
 
+bool hasSteps(const std::vector<TissueClass> &classes) {
+    return std::any_of(classes.begin(), classes.end(),
+                       [](const TissueClass &tissue) { return !tissue.steps.empty(); });
+}
+
 std::vector<TissueClass> visibleClasses(const Look &look) {
     std::vector<TissueClass> shown;
     std::copy_if(look.classes.begin(), look.classes.end(), std::back_inserter(shown),

@@ -23,6 +23,9 @@ struct Look {
 /// *Throws* Error{usage} naming the value that is out of range.
 void validate(const Look &look);
 
+/// Whether any of the classes has steps.
+bool hasSteps(const std::vector<TissueClass> &classes);
+
 /// The classes with a nonzero weight; the others cost nothing.
 std::vector<TissueClass> visibleClasses(const Look &look);
 

@@ -75,11 +75,8 @@ ClassSamples samplesOf(const volume::Volume &volume, const TissueClass &tissue, 
 std::size_t peakBytes(const Look &look, std::size_t samples) {
     if (isDensity(look))
         return 0; // is read from the volume
-    const auto shown = visibleClasses(look);
-    const bool hasSteps = std::any_of(shown.begin(), shown.end(), [](const TissueClass &tissue) {
-        return !tissue.steps.empty();
-    });
-    const std::size_t floats = channelsOf(look) + (hasSteps ? stepFloats : std::size_t(0));
+    const std::size_t floats =
+        channelsOf(look) + (hasSteps(visibleClasses(look)) ? stepFloats : std::size_t(0));
     return floats * samples * sizeof(float);
 }
 

@@ -37,7 +37,7 @@ struct WeightedCurve {
 };
 
 /// Adds for each curve and sample: sums[c] += weight_c curve(value). *Shape*: one region per
-/// sample, or null for inside; one or three sums, each with the volume's number of samples.
+/// sample, or null for inside; one to three sums, each with the volume's number of samples.
 /// *Throws* Cancelled.
 void addCurves(const volume::Volume &volume, const std::vector<Region> *region,
                std::span<const WeightedCurve> curves, std::span<std::vector<float>> sums,

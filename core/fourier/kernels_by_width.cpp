@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fourier/kernels_by_width.h"
 
+#include <cassert>
+
 namespace pellucid::fourier {
 
 KernelsByWidth::KernelsByWidth(const SpectrumLayout &layout) {
+    assert(layout.width() >= narrowest);
     const auto narrower = [&](int width, int d) {
         return Kernel::narrower(layout.kernels[std::size_t(d)], width,
                                 double(layout.padded[d]) / layout.box.size()[d]);

@@ -15,6 +15,7 @@ class KernelsByWidth {
 public:
     static constexpr int narrowest = 2;
 
+    /// *Requires*: layout.width() >= narrowest.
     explicit KernelsByWidth(const SpectrumLayout &layout);
     int widest() const { return narrowest + int(m_kernels.size()) - 1; }
     /// By axis. *Requires*: narrowest <= width <= widest().

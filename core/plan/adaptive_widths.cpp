@@ -38,7 +38,7 @@ struct Circle {
     std::vector<int> sides; ///< of them within the circle, by strip
 };
 
-// Finds the tiles that are worth being read.
+// Finds the tiles with enough energy to be read.
 class Tiles {
 public:
     struct Tile {
@@ -57,7 +57,7 @@ public:
     // The tiles of a few strips.
     struct Found {
         std::vector<Tile> bright;
-        double left = 0.0; ///< the errors of the others, which are left out
+        double leftOutError = 0.0; ///< of the others
         // By source, of the last patch.
         std::vector<Errors> errors;
         std::vector<std::array<double, 3>> amplitudes;
@@ -102,7 +102,7 @@ private:
         group.rows *= groupSide;
         if (!isLow(group)) {
             if (const double bound = boundOf(group, found); bound <= m_dark) {
-                found.left += groupSide * groupSide * bound;
+                found.leftOutError += groupSide * groupSide * bound;
                 return;
             }
         }
@@ -120,7 +120,7 @@ private:
         if (isLow(patch)) {
             tile.errors.fill(std::numeric_limits<float>::infinity());
         } else if (const double bound = boundOf(patch, found); bound <= m_dark) {
-            found.left += bound;
+            found.leftOutError += bound;
             return;
         } else {
             for (std::size_t s = 0; s < m_sources.size(); ++s)
@@ -210,8 +210,8 @@ private:
     double m_dark;
 };
 
-// The widths of a tile that save time at a price, from the widest kernel on, each at a higher price
-// than the one before: widths that are no bargain are passed over.
+// The widths of a tile on the convex hull of time against error, from the widest kernel on: each
+// adds more error per unit of time saved than the one before.
 class Savings {
 public:
     struct Saving {
@@ -221,14 +221,17 @@ public:
     };
 
     // *Units*: errors as shares of the budget.
-    Savings(int widest, const Errors &errors, AdaptiveWidths::Elsewhere elsewhere) {
+    Savings(int widest, const Errors &errors, AdaptiveWidths::Reduction reduction) {
         int from = widest;
         float error = 0.0F;
         while (from > 0) {
             Saving best;
             float least = std::numeric_limits<float>::infinity();
-            const int first = elsewhere == AdaptiveWidths::Elsewhere::narrower ? from - 1 : 0;
-            for (int width = first; width >= 0; width -= width == 2 ? 2 : 1) {
+            const int first =
+                reduction == AdaptiveWidths::Reduction::narrowerKernels ? from - 1 : 0;
+            for (int width = first; width >= 0; --width) {
+                if (width == 1) // no kernel has it
+                    continue;
                 const float more = std::max(0.0F, errors[SpectrumEnergies::entryOf(width)] - error);
                 const float price = more / float(readTime(from) - readTime(width));
                 if (price <= least) {
@@ -292,11 +295,11 @@ WidthMap AdaptiveWidths::mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
             source.amplitude = {std::hypot(weights[f][0], weights[f][1], weights[f][2]), 0.0, 0.0};
         sources.push_back(source);
     }
-    return mapFor(plane, sources, least, Elsewhere::narrower, forEach);
+    return mapFor(plane, sources, least, Reduction::narrowerKernels, forEach);
 }
 
 WidthMap AdaptiveWidths::mapFor(const SlicePlane &plane, std::span<const SliceSource> sources,
-                                double least, Elsewhere elsewhere, const ForEach &forEach) const {
+                                double least, Reduction reduction, const ForEach &forEach) const {
     const Circle circle(plane);
     // Where little is known to be in the picture, everything is read.
     const double budget =
@@ -319,25 +322,25 @@ WidthMap AdaptiveWidths::mapFor(const SlicePlane &plane, std::span<const SliceSo
         Part &part = parts[std::size_t(n)];
         tiles.find(n, part.found);
         for (const Tiles::Tile &tile : part.found.bright)
-            part.savings.emplace_back(m_kernels->widest(), tile.errors, elsewhere);
+            part.savings.emplace_back(m_kernels->widest(), tile.errors, reduction);
     });
     std::vector<double> errors(Savings::classes, 0.0);
-    double left = 0.0;
+    double leftOutError = 0.0;
     for (const Part &part : parts) {
-        left += part.found.left;
+        leftOutError += part.found.leftOutError;
         for (const Savings &savings : part.savings)
             for (const Savings::Saving &saving : savings.all())
                 errors[saving.price] += double(saving.error);
     }
     // The first class that the budget does not pay in full.
-    double spent = left;
+    double spent = leftOutError;
     std::size_t limit = 0;
     while (limit < errors.size() && spent + errors[limit] <= 1.0)
         spent += errors[limit++];
 
     WidthMap map{.tiles = circle.tiles,
-                 .left = m_tolerance * std::sqrt(spent),
-                 .unmeasuredEnergy = budget * left};
+                 .estimatedError = m_tolerance * std::sqrt(spent),
+                 .unmeasuredEnergy = budget * leftOutError};
     const auto perStrip = 2 * std::size_t(circle.tiles);
     map.widths.resize(std::size_t(circle.strips) * perStrip, 0);
     map.errors.resize(map.widths.size(), 0.0F);

@@ -39,10 +39,10 @@ struct WidthMap {
     int strips = 0;                   ///< up to the last one that is read
     int tiles = 0;                    ///< on each side of row 0
     std::vector<std::uint8_t> widths; ///< *Shape*: [strip][tile, from -tiles on]
-    /// A bound on the error of each tile, relative to each other. *Shape*: as `widths`.
+    /// An estimate of the error of each tile, relative to each other. *Shape*: as `widths`.
     std::vector<float> errors;
-    double left = 0.0; ///< a bound on the error of the choice, relative L2
-    /// A bound on the energy of the tiles that were too dark to be measured, and have no error of
+    double estimatedError = 0.0; ///< of the choice, with a margin, relative L2
+    /// A bound on the energy of the tiles with too little to be measured, which have no error of
     /// their own, in red, green and blue together. *Units*: of the picture squared, times mm^2.
     double unmeasuredEnergy = 0.0;
 
@@ -81,11 +81,11 @@ public:
     WidthMap mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
                     std::span<const Weights> weights, const ForEach &forEach = inOrder) const;
     /// How frequencies that do not need the widest kernel are treated.
-    enum class Elsewhere { narrower, leftOut };
+    enum class Reduction { narrowerKernels, skippingOnly };
     /// For frames with cue or light. `least`: the energy of low frequencies of the picture; the
     /// whole has more. *Units*: of the spectrum squared, over mm^2.
     WidthMap mapFor(const SlicePlane &plane, std::span<const SliceSource> sources, double least,
-                    Elsewhere elsewhere, const ForEach &forEach = inOrder) const;
+                    Reduction reduction, const ForEach &forEach = inOrder) const;
     bool hasGradients() const { return !m_gradients.empty(); }
 
     const std::shared_ptr<const fourier::KernelsByWidth> &kernels() const { return m_kernels; }

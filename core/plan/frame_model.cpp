@@ -43,7 +43,7 @@ FrameModel modelFrame(const RenderPlan &plan, const scene::Scene &scene, const F
     model.multiplyAdds = 2.0 * model.slices * sampled * taps;
     model.transformOperations = 2.5 * model.images * frequencies * std::log2(frequencies);
     model.spectrumBytes = std::size_t(spectra) * layout.bytes();
-    model.frameBytes = std::size_t(model.images) * frameBytes(grid, scene.camera);
+    model.frameBytes = frameBytes(grid, scene.camera, model.images);
     model.leftOut = {LeftOut::secondHalf, LeftOut::cornersOfBand};
     if (layout.box != lattice.bounds())
         model.leftOut.push_back(LeftOut::emptySpace);

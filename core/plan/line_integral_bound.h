@@ -20,8 +20,8 @@ struct LayerMaxima {
 
     float &at(int sample, int row, int column) {
         return values[(std::size_t(sample) * std::size_t(rows) + std::size_t(row)) *
-                        std::size_t(columns) +
-                    std::size_t(column)];
+                          std::size_t(columns) +
+                      std::size_t(column)];
     }
 };
 

@@ -274,13 +274,8 @@ private:
 
     // While the last spectrum is prepared, the others exist already.
     std::size_t bytesOf(const fourier::SpectrumLayout &layout, const SliceGrid &grid) const {
-        const scene::Camera &camera = m_scene.camera;
-        // Two images are mixed into a picture of three channels.
-        const std::size_t mixed = m_composition.images == 2
-                                      ? std::size_t(camera.width) * camera.height * sizeof(float)
-                                      : 0;
         return layout.peakBytes() + (m_fields.size() - 1) * layout.bytes() +
-               std::size_t(m_composition.images) * frameBytes(grid, camera) + mixed;
+               frameBytes(grid, m_scene.camera, m_composition.images);
     }
 
     // Keeps the plan if it is the best so far: the fastest within the tolerance, or, if there is
@@ -381,13 +376,16 @@ void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
     // to 10.4 times it, relative to the brightest pixel.
     constexpr double atEdges = 12.0;
     const double tolerance = scene.tolerance, error = plan.predictedError;
-    const double left = margin * std::sqrt(std::max(0.0, tolerance * tolerance - error * error));
-    if (scene.interpolation.isUniform || plan.spectrum.width() < 2 || left < leastShare * tolerance)
+    const double remaining =
+        margin * std::sqrt(std::max(0.0, tolerance * tolerance - error * error));
+    if (scene.interpolation.isUniform || plan.spectrum.width() < 2 ||
+        remaining < leastShare * tolerance)
         return;
-    plan.adaptiveError = left;
+    plan.adaptiveError = remaining;
+    plan.adaptiveTolerance = remaining * std::sqrt(imageShare(scene.camera, fields));
     plan.image = scene.image;
-    plan.predictedError = std::hypot(error, left);
-    plan.predictedMaximum += atEdges * left;
+    plan.predictedError = std::hypot(error, remaining);
+    plan.predictedMaximum += atEdges * remaining;
 }
 
 } // namespace pellucid::plan

@@ -40,7 +40,9 @@ struct RenderPlan {
     /// The part of `predictedError` that frames may make by narrower kernels, see
     /// AdaptiveWidths; 0: one kernel reads every frequency.
     double adaptiveError = 0.0;
-    scene::ImageDefinition image; ///< for which that is
+    /// The same, relative to the whole projection, of which the image may show a part.
+    double adaptiveTolerance = 0.0;
+    scene::ImageDefinition image; ///< for which these are
     int together = 1;             ///< of the composition
 };
 

@@ -29,9 +29,10 @@ double reachPixels(const scene::Camera &camera, const FieldOfView &fieldOfView,
 
 } // namespace
 
-std::size_t frameBytes(const SliceGrid &grid, const scene::Camera &camera) {
-    return (std::size_t(grid.columns) * grid.rows * 2 + std::size_t(camera.width) * camera.height) *
-           sizeof(float);
+std::size_t frameBytes(const SliceGrid &grid, const scene::Camera &camera, int images) {
+    const std::size_t lines = std::size_t(grid.columns) * grid.rows * 2,
+                      pixels = std::size_t(camera.width) * camera.height;
+    return (std::size_t(images) * lines + (images > 1 ? 3U : 1U) * pixels) * sizeof(float);
 }
 
 FieldOfView fieldOfViewOf(const volume::Lattice &lattice, const volume::VoxelBox &box) {

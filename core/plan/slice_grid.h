@@ -24,9 +24,9 @@ struct FieldOfView {
     double aliasingLimit = 3e-4;
 };
 
-/// The memory of a camera's frames besides the spectra: the lines between the two transforms, and
-/// the image.
-std::size_t frameBytes(const SliceGrid &grid, const scene::Camera &camera);
+/// The memory of a camera's frames besides the spectra: the lines between the two transforms of
+/// each image, and the picture, which has three channels if there is more than one image.
+std::size_t frameBytes(const SliceGrid &grid, const scene::Camera &camera, int images);
 
 /// The field of view of any field within a box.
 FieldOfView fieldOfViewOf(const volume::Lattice &lattice, const volume::VoxelBox &box);

@@ -60,7 +60,7 @@ struct PointSum {
 };
 
 /// Adds the errors of the points, by entry, times the squared factor of the reconstruction. Every
-/// instruction set comes to the same sums, and so to the same widths. *Shape*: eight errors.
+/// instruction set comes to the same sums of the same errors. *Shape*: eight errors.
 void sumErrors(const PointSum &sum, float *errors);
 
 } // namespace pellucid::plan

@@ -21,12 +21,14 @@ constexpr double pi = std::numbers::pi;
 
 // Blocks have half the error at their brightest cell.
 constexpr float brightestShare = 2.0F;
-// Points of a patch are at most this far apart along each axis.
-constexpr double cellsPerPoint = 6.0;
+// Points are closer than blocks are long, so that a block in a patch has a point.
+constexpr double cellsPerPoint = 6.5;
 // Patches of fewer cells are small, see PatchPoints.
-constexpr double smallestPatch = 12.0, aroundPatch = 1.5;
+constexpr double smallestPatch = 12.0;
+// Cells beyond a patch that the kernels of its frequencies read. A block may end there.
+constexpr double aroundPatch = 1.5;
 // Margin for the energy of a view, which is sampled by direction.
-constexpr double leastMargin = 0.9;
+constexpr double leastMargin = 0.8;
 // The reconstruction's factor is tabled to here; beyond, it stays below its largest value there.
 constexpr float factorsPerCycle = 128.0F;
 constexpr int tabledCycles = 4;
@@ -35,15 +37,16 @@ constexpr int tabledCycles = 4;
 constexpr int faceSide = 8;
 constexpr int directionCount = 3 * faceSide * faceSide;
 
-glm::dvec3 directionOf(int n) {
+// `a` and `b`: away from the middle of the part that a direction represents, -0.5 to 0.5.
+glm::dvec3 directionOf(int n, double a, double b) {
     const int face = n / (faceSide * faceSide);
-    const auto tangent = [](int at) {
-        return std::tan(0.25 * pi * ((2 * at + 1.0) / faceSide - 1.0));
+    const auto tangent = [](double at) {
+        return std::tan(0.25 * pi * ((2.0 * at + 1.0) / faceSide - 1.0));
     };
     glm::dvec3 direction;
     direction[face] = 1.0;
-    direction[(face + 1) % 3] = tangent(n / faceSide % faceSide);
-    direction[(face + 2) % 3] = tangent(n % faceSide);
+    direction[(face + 1) % 3] = tangent(n / faceSide % faceSide + a); // NOLINT: whole
+    direction[(face + 2) % 3] = tangent(n % faceSide + b);
     return glm::normalize(direction);
 }
 
@@ -120,6 +123,26 @@ struct SpectrumEnergies::Blocks {
         return cells;
     }
 
+    // The integral of the energy times the radius, up to a radius.
+    double energyAlong(const glm::dvec3 &direction, double radiusPerMm,
+                       const fourier::Spectrum &spectrum,
+                       const scene::ImageDefinition &image) const {
+        constexpr int points = 24;
+        const glm::dvec3 cells = cellsPer(direction);
+        const double step = radiusPerMm / points;
+        double sum = 0.0;
+        for (int k = 0; k < points; ++k) {
+            const double radius = (k + 0.5) * step;
+            double factor = 1.0;
+            for (int d = 0; d < 3; ++d)
+                factor *= scene::reconstructionFactor(image, radius * cells[d] / padded[d]);
+            const glm::dvec3 at = radius * cells;
+            sum += radius * step * factor * factor *
+                   std::norm(spectrum.between({at.x, at.y, at.z}, spectrum.layout().kernels));
+        }
+        return sum;
+    }
+
     SpectrumBlocks blocks;
     volume::Lattice lattice;
     volume::GridSize padded;
@@ -134,29 +157,21 @@ SpectrumEnergies::SpectrumEnergies(const fourier::Spectrum &spectrum,
                                    const fourier::KernelsByWidth &kernels,
                                    const scene::ImageDefinition &image, double tolerance,
                                    const task::Progress &progress) {
-    const auto made = task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
+    const auto made = task::orOutOfMemory(task::because::noMemoryForTheKernelWidths, [&] {
         return std::make_shared<Blocks>(spectrum, kernels, image);
     });
     const volume::Lattice &lattice = made->lattice;
     double cellsPerMm = 0.0;
     for (int d = 0; d < 3; ++d)
         cellsPerMm = std::max(cellsPerMm, made->padded[d] * lattice.spacingMm(d));
-    m_lowPerMm = lowCells / cellsPerMm;
+    const double lowPerMm = lowCells / cellsPerMm;
     m_low.resize(directionCount);
     tbb::parallel_for(0, directionCount, [&](int n) {
-        constexpr int points = 24;
-        const glm::dvec3 direction = directionOf(n), cells = made->cellsPer(direction);
-        const double step = m_lowPerMm / points;
+        // The spectrum of a sheet is a line that may be narrower than the distance of directions.
         double sum = 0.0;
-        for (int k = 0; k < points; ++k) {
-            const double radius = (k + 0.5) * step;
-            double factor = 1.0;
-            for (int d = 0; d < 3; ++d)
-                factor *= scene::reconstructionFactor(image, radius * cells[d] / made->padded[d]);
-            const glm::dvec3 at = radius * cells;
-            sum += radius * step * factor * factor *
-                   std::norm(spectrum.between({at.x, at.y, at.z}, spectrum.layout().kernels));
-        }
+        for (const double a : {-0.25, 0.25})
+            for (const double b : {-0.25, 0.25})
+                sum += 0.25 * made->energyAlong(directionOf(n, a, b), lowPerMm, spectrum, image);
         m_low[std::size_t(n)] = float(sum);
     });
     // A plane that is dark everywhere, as far as twice the Nyquist frequency, has so little.
@@ -221,18 +236,14 @@ PatchPoints::PatchPoints(const PlanePatch &patch) {
                  cellsV = longest(patch.perRow) * patch.rows;
     isSmall = std::min(cellsU, cellsV) < smallestPatch;
     const auto countAlong = [&](double length) {
-        const int even = std::max(1, int(std::ceil(length / cellsPerPoint)));
-        return isSmall ? std::max(3, even) : even;
+        return std::max(3, 1 + int(std::ceil((length + 2.0 * aroundPatch) / cellsPerPoint)));
     };
     const int countU = countAlong(cellsU), countV = countAlong(cellsV);
     count = std::size_t(countU) * std::size_t(countV);
-    // Cells beyond the patch that the kernels of its frequencies read.
-    const double aroundU = isSmall ? aroundPatch / cellsU : 0.0,
-                 aroundV = isSmall ? aroundPatch / cellsV : 0.0;
-    const double stepU = patch.columns * (1.0 + 2.0 * aroundU) / (isSmall ? countU - 1 : countU),
-                 stepV = patch.rows * (1.0 + 2.0 * aroundV) / (isSmall ? countV - 1 : countV);
-    const double firstU = isSmall ? -aroundU * patch.columns : 0.5 * stepU,
-                 firstV = isSmall ? -aroundV * patch.rows : 0.5 * stepV;
+    const double aroundU = aroundPatch / cellsU, aroundV = aroundPatch / cellsV;
+    const double stepU = patch.columns * (1.0 + 2.0 * aroundU) / (countU - 1),
+                 stepV = patch.rows * (1.0 + 2.0 * aroundV) / (countV - 1);
+    const double firstU = -aroundU * patch.columns, firstV = -aroundV * patch.rows;
     for (std::size_t d = 0; d < 3; ++d) {
         for (int v = 0; v < countV; ++v)
             for (int u = 0; u < countU; ++u)
@@ -262,7 +273,8 @@ SpectrumEnergies::Errors SpectrumEnergies::errorsIn(const PlanePatch &patch,
     }
     Errors errors{};
     sumErrors(sum, errors.data());
-    // A line may fill a small patch.
+    // A line of cells may fill a small patch, which then has all of the brightest cell's error, not
+    // the half that blocks have.
     const float scale = points.isSmall ? brightestShare : 1.0F / float(points.count);
     for (float &error : errors)
         error *= scale;

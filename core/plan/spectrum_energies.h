@@ -32,12 +32,13 @@ struct PlanePatch {
 /// cells. *Shape*: a whole number of vectors; only the first `count` points are used.
 struct PatchPoints {
     static constexpr std::size_t vector = 16;
-    /// At most `cellsPerPoint` cells apart along each axis.
+    /// Closer than blocks are long, from edge to edge and a little beyond: frequencies at the edge
+    /// read cells there.
     explicit PatchPoints(const PlanePatch &patch);
 
     std::size_t count = 0;
     /// Whether patches are smaller than blocks, which say little of where in them the energy is:
-    /// then the largest error of any point counts, and the points surround the patch.
+    /// then the largest error of any point counts.
     bool isSmall = false;
     std::array<std::vector<float>, 3> cells;
     std::array<float, 3> reach{}; ///< from a point to the end of its part of the patch, by axis
@@ -75,7 +76,6 @@ private:
     double leastOfAll() const; ///< of `least`
     std::shared_ptr<const Blocks> m_blocks;
     std::vector<float> m_low; ///< by direction, of three faces of a cube
-    double m_lowPerMm = 0.0;
 };
 
 } // namespace pellucid::plan

@@ -83,7 +83,7 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
             scene::Scene uniform = scene;
             uniform.interpolation.isUniform = true;
             plan::RenderPlan plan =
-                plan::planRender(uniform, summaries, {render::FrameJob::maxChannels, 1},
+                plan::planRender(uniform, summaries, {render::FrameJob::maxImages, 1},
                                  {budget.bytes > taken ? budget.bytes - taken : 0});
             render::EngineSpectra spectra{{}, {}, scale};
             for (std::size_t n = 0; n < count; ++n) {
@@ -136,7 +136,7 @@ LayerSet::sumKept(const std::vector<render::ChannelWeights> &channelWeights) con
     constexpr std::size_t block = 1024;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (pixels + block - 1) / block, 16),
                       [&](const tbb::blocked_range<std::size_t> &range) {
-                          std::array<std::array<float, block>, render::FrameJob::maxChannels> sums;
+                          std::array<std::array<float, block>, render::FrameJob::maxImages> sums;
                           for (std::size_t b = range.begin(); b != range.end(); ++b) {
                               const std::size_t first = b * block,
                                                 size = std::min(block, pixels - first);

@@ -47,8 +47,7 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
     const plan::SliceGrid least =
         plan::sliceGrid(scene.camera, {{summaries.front().energy.spread}, 1.0},
                         summaries.front().lattice, scene.image);
-    const std::size_t frame =
-        std::size_t(composition.images) * plan::frameBytes(least, scene.camera);
+    const std::size_t frame = plan::frameBytes(least, scene.camera, composition.images);
     if (frame > budget.bytes)
         throw task::Error(task::ErrorCode::outOfMemory,
                           task::because::imageNeedsMemory(scene.camera.width, scene.camera.height,
@@ -119,13 +118,13 @@ std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineS
         plan::AdaptiveWidths::Energies energies;
         for (const auto &spectrum : of)
             energies.push_back(std::make_shared<const plan::SpectrumEnergies>(
-                *spectrum, *kernels, plan.image, plan.adaptiveError, progress));
+                *spectrum, *kernels, plan.image, plan.adaptiveTolerance, progress));
         return energies;
     };
     auto fields = energiesOf(spectra.fields), gradients = energiesOf(spectra.gradients);
     return std::make_shared<const plan::AdaptiveWidths>(std::move(kernels), std::move(fields),
                                                         std::move(gradients), plan.image,
-                                                        plan.adaptiveError);
+                                                        plan.adaptiveTolerance);
 }
 
 std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan::RenderPlan &plan,

@@ -51,9 +51,10 @@ std::size_t ExactEngine::bytes(const volume::Lattice &lattice, const volume::Vox
                                const shading::Shading &shading) {
     const std::size_t imageBytes =
         images * (WideKernel::bytes(box) + sliceBytes(lattice, camera, image));
-    // The enlarged field and its shaded copy.
-    const std::size_t shadingBytes =
-        shading.isPlain() ? 0 : 2 * lattice.size().count() * sizeof(float);
+    // The enlarged field and its shaded copy; two colors are mixed to fields of three.
+    const std::size_t copies = images == 2 ? 5 : 2,
+                      shadingBytes =
+                          shading.isPlain() ? 0 : copies * lattice.size().count() * sizeof(float);
     return imageBytes + shadingBytes;
 }
 

@@ -30,24 +30,26 @@ struct FrameBuffers {
         strips = std::span(tables->strips).first(std::size_t(count));
         const plan::SliceGrid need{std::max(allocated.columns, inputs.grid.columns),
                                    std::max(allocated.rows, inputs.grid.rows)};
-        const int channels = inputs.mixing.channels;
-        if (need != allocated || channels > allocatedChannels)
-            allocate(need, std::max(channels, allocatedChannels));
-        fitLines(channels, std::size_t(stripsOf(std::min(imageRows, inputs.grid.rows))) *
-                               strips.size() * stripLanes * stripFloats);
+        const int images = inputs.mixing.imageCount;
+        if (need != allocated || images > allocatedImages)
+            allocate(need, std::max(images, allocatedImages));
+        fitLines(images, std::size_t(stripsOf(std::min(imageRows, inputs.grid.rows))) *
+                             strips.size() * stripLanes * stripFloats);
     }
 
     // The lines between the two transforms. A picture finer than the voxels has a large grid, of
     // which little is read.
-    void fitLines(int channels, std::size_t floats) {
-        constexpr std::size_t spare = 8; // a larger share is returned
-        if (lines.size() >= std::size_t(channels) && floats <= lineFloats &&
+    void fitLines(int images, std::size_t floats) {
+        // Views of one zoom differ by less than this in what they read. Much longer lines are
+        // freed.
+        constexpr std::size_t spare = 8;
+        if (lines.size() >= std::size_t(images) && floats <= lineFloats &&
             lineFloats <= spare * floats)
             return;
         lines.clear();
         lineFloats = 0;                               // while memory runs out
         const std::size_t more = floats + floats / 4; // for views that read a little more
-        for (int c = 0; c < channels; ++c)
+        for (int c = 0; c < images; ++c)
             lines.push_back(
                 system::allocatePages(more * sizeof(float), task::because::anImageOfThisSize));
         lineFloats = more;
@@ -74,10 +76,10 @@ struct FrameBuffers {
     }
 
     // Allocates buffers for every grid up to a size.
-    void allocate(const plan::SliceGrid &grid, int channels) {
+    void allocate(const plan::SliceGrid &grid, int images) {
         // Set last: if memory runs out half way, the buffers must not look ready.
         allocated = {0, 0};
-        allocatedChannels = 0;
+        allocatedImages = 0;
         const std::size_t stripCount = stripsOf(grid.columns / 2);
         const std::size_t columns = stripCount * stripLanes;
         const std::size_t length = std::size_t(stripsOf(std::max(grid.rows, grid.columns))) *
@@ -95,18 +97,18 @@ struct FrameBuffers {
                                   task::because::anImageOfThisSize);
         stripMemory.clear();
         for (std::size_t n = 0; n < scratch.size(); ++n) {
-            stripMemory.push_back(floats(std::size_t(channels + 1) * length * stripFloats));
+            stripMemory.push_back(floats(std::size_t(images + 1) * length * stripFloats));
             auto *const stripBuffer = reinterpret_cast<float *>(stripMemory.back().get());
-            for (int c = 0; c < channels; ++c)
+            for (int c = 0; c < images; ++c)
                 scratch[n].strips[std::size_t(c)] =
                     stripBuffer + std::size_t(c) * length * stripFloats;
-            scratch[n].spare = stripBuffer + std::size_t(channels) * length * stripFloats;
+            scratch[n].spare = stripBuffer + std::size_t(images) * length * stripFloats;
             auto *const first = reinterpret_cast<FrequencyBatch *>(batches.get());
             scratch[n].batches = first + n * (batchesAhead + 1);
             std::uninitialized_default_construct_n(scratch[n].batches, batchesAhead + 1);
         }
         allocated = grid;
-        allocatedChannels = channels;
+        allocatedImages = images;
     }
 
     // Sets the phases of columns and rows.
@@ -133,7 +135,7 @@ struct FrameBuffers {
     std::unique_ptr<GridTables> tables;
     std::array<std::unique_ptr<GridTables>, 2> others;
     plan::SliceGrid allocated{0, 0};
-    int allocatedChannels = 0;
+    int allocatedImages = 0;
     std::size_t lineFloats = 0; ///< of each image
     std::shared_ptr<std::byte[]> columnPhase, batches;
     std::vector<std::shared_ptr<std::byte[]>> lines, stripMemory;
@@ -155,7 +157,7 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
     job.cellLayout = &spectrum.cellLayout();
     job.sources = mixing.sources.data();
     job.sourceCount = int(mixing.sources.size());
-    job.channels = mixing.channels;
+    job.imageCount = mixing.imageCount;
     job.sums = mixing.sums;
     job.shading = inputs.isShaded ? &inputs.shading : nullptr;
     job.image = image;
@@ -180,7 +182,7 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
     job.alongRows = &tables.alongRows;
     job.halfColumns = &tables.halfColumns;
     job.unpackReal = tables.unpackReal.data();
-    for (std::size_t c = 0; c < std::size_t(job.channels); ++c)
+    for (std::size_t c = 0; c < std::size_t(job.imageCount); ++c)
         job.lines[c] = reinterpret_cast<float *>(buffers.lines[c].get());
     job.zero = inputs.zero;
     job.imageColors = inputs.imageColors();
@@ -291,9 +293,13 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
                                            picture::FrameTimes *times) {
     const double start = frameClockSeconds();
     FrameBuffers &buffers = *m_buffers;
-    const FrameInputs inputs = buffers.setup.inputsFor(
-        m_parts.spectra, m_parts.channelWeights, camera, image, shading,
-        [&](int count, const std::function<void(int)> &work) { runOn(buffers.team, count, work); });
+    const FrameInputs inputs = task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
+        return buffers.setup.inputsFor(m_parts.spectra, m_parts.channelWeights, camera, image,
+                                       shading,
+                                       [&](int count, const std::function<void(int)> &work) {
+                                           runOn(buffers.team, count, work);
+                                       });
+    });
     picture::ProjectionImage result{
         camera.width, camera.height, camera.pixelMm, {}, inputs.pictureChannels()};
     task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {

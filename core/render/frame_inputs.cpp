@@ -41,13 +41,12 @@ std::vector<plan::SliceSource> sliceSources(const FrameInputs &inputs,
             plan::SliceSource source{.field = from.field,
                                      .isGradient = from.kind == FrameKind::gradient,
                                      .offset = term.cells};
-            for (std::size_t image = 0; image < std::size_t(mixing.channels); ++image) {
+            for (std::size_t image = 0; image < std::size_t(mixing.imageCount); ++image) {
                 const FrameShading::Image &shade = inputs.shading.images[image];
-                const double share =
-                    from.channelWeights[mixing.sums > 1 ? image : 0] * from.unitShare;
+                const double share = from.weights[mixing.sums > 1 ? image : 0];
                 ChannelWeights color = mixing.imageColor(image);
                 // A single image needs one channel, with the amplitudes of all three.
-                if (mixing.channels == 1)
+                if (mixing.imageCount == 1)
                     color = {std::hypot(color[0], color[1], color[2]), 0.0, 0.0};
                 for (std::size_t c = 0; c < color.size(); ++c) {
                     const double weight =
@@ -116,7 +115,7 @@ plan::WidthMap::Shares FrameInputs::widthShares(const scene::Camera &camera,
 
 FrameInputs::ImageColors FrameInputs::imageColors() const {
     ImageColors colors{};
-    for (std::size_t image = 0; image < std::size_t(mixing.channels); ++image)
+    for (std::size_t image = 0; image < std::size_t(mixing.imageCount); ++image)
         for (std::size_t c = 0; c < 3; ++c)
             colors[image][c] = float(mixing.grey ? 1.0 : mixing.imageColor(image)[c]);
     return colors;
@@ -157,14 +156,14 @@ FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
         (!inputs.shading.lit || m_widths->hasGradients())) {
         const plan::SlicePlane plane = slicePlane(camera, inputs.grid, inputs.geometry);
         // The moments of a linear cue have kernels of one width.
-        using Elsewhere = plan::AdaptiveWidths::Elsewhere;
-        inputs.widths =
-            inputs.isShaded
-                ? m_widths->mapFor(plane, sliceSources(inputs, spectrum.layout()),
-                                   lowEnergy(inputs, spectra, plane),
-                                   inputs.shading.cued ? Elsewhere::leftOut : Elsewhere::narrower,
-                                   forEach)
-                : m_widths->mapFor(axes, plane, channelWeights, forEach);
+        using Reduction = plan::AdaptiveWidths::Reduction;
+        inputs.widths = inputs.isShaded
+                            ? m_widths->mapFor(plane, sliceSources(inputs, spectrum.layout()),
+                                               lowEnergy(inputs, spectra, plane),
+                                               inputs.shading.cued ? Reduction::skippingOnly
+                                                                   : Reduction::narrowerKernels,
+                                               forEach)
+                            : m_widths->mapFor(axes, plane, channelWeights, forEach);
         inputs.kernels = m_widths->kernels();
     }
     inputs.zero = zeroSums(inputs.mixing, inputs.shading, spectrum.layout());

@@ -32,7 +32,7 @@ struct FrameInputs {
     /// The factor of the sums. The image of a grey picture also has its channel weight in it.
     double unit() const;
     /// The colors of the images of a color picture, whose sum is the picture.
-    using ImageColors = std::array<std::array<float, 3>, FrameJob::maxChannels>;
+    using ImageColors = std::array<std::array<float, 3>, FrameJob::maxImages>;
     ImageColors imageColors() const;
 };
 

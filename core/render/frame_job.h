@@ -54,10 +54,9 @@ enum class FrameKind { field, gradient };
 struct FrameSource {
     const std::byte *cells = nullptr;
     std::size_t field = 0;                                 ///< index in the engine's spectra
-    std::array<float, 3> channelWeights{1.0F, 1.0F, 1.0F}; ///< in each sum
+    std::array<float, 3> channelWeights{1.0F, 1.0F, 1.0F}; ///< of the cells in each sum
     FrameKind kind = FrameKind::field;
-    /// Converts the channel weights to the spectrum's own unit.
-    double unitShare = 1.0;
+    std::array<double, 3> weights{1.0, 1.0, 1.0}; ///< the same, of the field
 };
 
 /// A shading::SliceShading in terms of the spectra's cells. With F and G the slices of f and of
@@ -96,14 +95,14 @@ using ZeroSums = std::array<std::array<ZeroSum, 3>, 2>;
 /// The data that the parts of a frame share. All threads read it; each part writes only its own
 /// output.
 struct FrameJob {
-    static constexpr int maxChannels = 3; ///< images, or channels of the picture
+    static constexpr int maxImages = 3;
 
     const fourier::SpectrumLayout *layout = nullptr; ///< of all sources
     const fourier::CellLayout *cellLayout = nullptr;
     const FrameSource *sources = nullptr;
     int sourceCount = 1;
     /// The number of images: as many as the picture's colors have rank; in colored light three.
-    int channels = 1;
+    int imageCount = 1;
     /// The number of sums of the sources: one for all images, or one each.
     int sums = 1;
     const FrameShading *shading = nullptr; ///< null: none
@@ -133,17 +132,17 @@ struct FrameJob {
 
     /// The result of the transform along the image rows' direction: [group of 16 image
     /// rows][column][strip], of each channel.
-    std::array<float *, maxChannels> lines{};
+    std::array<float *, maxImages> lines{};
     ZeroSums zero{};
     /// A color picture is the sum of the images in these colors.
-    std::array<std::array<float, 3>, maxChannels> imageColors{};
+    std::array<std::array<float, 3>, maxImages> imageColors{};
     float *samples = nullptr; ///< imageRows x imageColumns x pictureChannels
 };
 
 /// Scratch of one thread: an array of `length` strips for each channel, one more strip array, and a
 /// few batches.
 struct FrameScratch {
-    std::array<float *, FrameJob::maxChannels> strips{};
+    std::array<float *, FrameJob::maxImages> strips{};
     float *spare = nullptr;
     FrequencyBatch *batches = nullptr; ///< `batchesAhead` + 1 of them
     /// The total time of strips, and of their interpolation alone.

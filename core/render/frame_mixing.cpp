@@ -31,7 +31,7 @@ Mixing::Mixing(const EngineSpectra &spectra, const std::vector<ChannelWeights> &
     if (!shading.isGrey() && basis.colors.size() > 1)
         basis = {{primaries.begin(), primaries.end()}, weights};
     sums = int(basis.colors.size());
-    channels = shading.isGrey() ? sums : FrameJob::maxChannels;
+    imageCount = shading.isGrey() ? sums : FrameJob::maxImages;
     std::copy(basis.colors.begin(), basis.colors.end(), colors.begin());
     const bool isLit =
         std::any_of(shading.channels.begin(), shading.channels.end(),
@@ -49,18 +49,18 @@ Mixing::Mixing(const EngineSpectra &spectra, const std::vector<ChannelWeights> &
 }
 
 void Mixing::add(const fourier::Spectrum &spectrum, FrameKind kind, std::size_t field,
-                 const ChannelWeights &share) {
+                 const ChannelWeights &weights) {
     const double s = spectrum.unit() / unit;
     sources.push_back({spectrum.cells(),
                        field,
-                       {float(s * share[0]), float(s * share[1]), float(s * share[2])},
+                       {float(s * weights[0]), float(s * weights[1]), float(s * weights[2])},
                        kind,
-                       1.0 / s});
+                       weights});
     const auto &moments = spectrum.moments();
-    for (std::size_t c = 0; c < share.size(); ++c) {
+    for (std::size_t c = 0; c < weights.size(); ++c) {
         Dc &sum = dc[std::size_t(kind)][c];
-        sum.value += share[c] * spectrum.dc();
-        sum.moments += share[c] * glm::dvec3(moments[0], moments[1], moments[2]);
+        sum.value += weights[c] * spectrum.dc();
+        sum.moments += weights[c] * glm::dvec3(moments[0], moments[1], moments[2]);
     }
 }
 
@@ -100,7 +100,7 @@ FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mi
         // Opposite lights cancel in the gradient, but their magnitudes add up.
         frame.lit = frame.lit || image.magnitude != 0.0F;
         // The images of one sum are colored here.
-        if (mixing.channels > mixing.sums) {
+        if (mixing.imageCount > mixing.sums) {
             const double share = mixing.colors.front()[c];
             image.ambient *= float(share);
             image.magnitude *= float(share);

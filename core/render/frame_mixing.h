@@ -16,14 +16,14 @@ struct Mixing {
 
     std::vector<FrameSource> sources;
     bool grey; ///< the picture has one channel
-    int sums = 1, channels = 1;
+    int sums = 1, imageCount = 1;
     double unit = 1.0; ///< of the sums
     /// The colors of the sums. The picture needs as many sums as its colors have rank, see
     /// classify::ColorBasis; colored light needs one sum, or red, green and blue.
     std::array<ChannelWeights, 3> colors{primaries};
     /// The color of an image. Colored light gives one sum three images, which have theirs already.
     const ChannelWeights &imageColor(std::size_t image) const {
-        return channels > sums ? primaries[image] : colors[image];
+        return imageCount > sums ? primaries[image] : colors[image];
     }
     /// The sums at frequency 0, and their first moments in samples from the wrap voxel.
     struct Dc {
@@ -34,9 +34,9 @@ struct Mixing {
 
 private:
     static constexpr auto &primaries = classify::ColorBasis::primaries;
-    // `share`: in each sum.
+    // `weights`: in each sum.
     void add(const fourier::Spectrum &spectrum, FrameKind kind, std::size_t field,
-             const ChannelWeights &share);
+             const ChannelWeights &weights);
 };
 
 /// A picture's shading in terms of cells and sums, without the moment kernels. *Shape*: `toWrap`

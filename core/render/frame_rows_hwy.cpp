@@ -62,7 +62,7 @@ const float *transformedRows(const FrameJob &job, std::size_t image, int group, 
 }
 
 // Sixteen by sixteen samples of each image, rows in order.
-using Blocks = float[FrameJob::maxChannels][stripLanes * stripLanes];
+using Blocks = float[FrameJob::maxImages][stripLanes * stripLanes];
 
 // Sixteen pixels of red, green and blue: a row of the blocks.
 HWY_INLINE void colorPixels(const FrameJob &job, const Blocks &blocks, std::size_t row,
@@ -74,10 +74,10 @@ HWY_INLINE void colorPixels(const FrameJob &job, const Blocks &blocks, std::size
             return hn::Load(d, blocks[image] + first + lane);
         };
         const auto channel = [&](std::size_t c) {
-            if (job.channels == FrameJob::maxChannels) // red, green and blue
+            if (job.imageCount == FrameJob::maxImages) // red, green and blue
                 return samples(c);
             auto sum = hn::Mul(samples(0), hn::Set(d, job.imageColors[0][c]));
-            if (job.channels == 2)
+            if (job.imageCount == 2)
                 sum = hn::MulAdd(samples(1), hn::Set(d, job.imageColors[1][c]), sum);
             return sum;
         };
@@ -87,9 +87,9 @@ HWY_INLINE void colorPixels(const FrameJob &job, const Blocks &blocks, std::size
 
 void finishSixteenRows(const FrameJob &job, int group, FrameScratch &scratch) {
     // The transform of an image frees one array for the next one.
-    std::array<const float *, FrameJob::maxChannels> images{};
+    std::array<const float *, FrameJob::maxImages> images{};
     float *spare = scratch.spare;
-    for (std::size_t image = 0; image < std::size_t(job.channels); ++image) {
+    for (std::size_t image = 0; image < std::size_t(job.imageCount); ++image) {
         images[image] = transformedRows(job, image, group, scratch.strips[image], spare);
         if (images[image] == spare)
             spare = scratch.strips[image];
@@ -112,7 +112,7 @@ void finishSixteenRows(const FrameJob &job, int group, FrameScratch &scratch) {
             transpose(from(0), stripLanes, samples + column, stride);
             continue;
         }
-        for (std::size_t image = 0; image < std::size_t(job.channels); ++image)
+        for (std::size_t image = 0; image < std::size_t(job.imageCount); ++image)
             transpose(from(image), stripLanes, blocks[image], stripLanes);
         for (std::size_t row = 0; row < std::size_t(rowCount); ++row) {
             float *const to = samples + row * stride + std::size_t(column) * channels;

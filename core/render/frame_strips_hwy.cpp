@@ -83,7 +83,7 @@ void interpolateRows(const FrameJob &job, int strip, const Rows &rows, FrameScra
 // Sets rows of the strip to zero.
 void clearRows(const FrameJob &job, const Rows &rows, FrameScratch &scratch) {
     const auto clear = [&](int first, int last) {
-        for (int c = 0; c < job.channels && first <= last; ++c)
+        for (int c = 0; c < job.imageCount && first <= last; ++c)
             std::memset(scratch.strips[std::size_t(c)] + std::size_t(first) * stripFloats, 0,
                         std::size_t(last - first + 1) * stripFloats * sizeof(float));
     };
@@ -117,6 +117,7 @@ template <class Cell> void interpolateStrip(const FrameJob &job, int strip, Fram
     const int outer = job.strips[strip].outerRow;
     if (job.widths == nullptr)
         return interpolateRows<Cell>(job, strip, {-outer, outer, job.layout->width()}, scratch);
+    static_assert(plan::WidthMap::tileColumns == stripLanes);
     const auto widths = job.widths->strip(strip);
     const int begin = -job.widths->tiles * plan::WidthMap::tileRows;
     for (std::size_t tile = 0, next = 0; tile < widths.size(); tile = next) {
@@ -134,7 +135,7 @@ void sliceOneStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
     const StripBounds &bounds = job.strips[strip];
     const double start = frameClockSeconds();
     // Rows beyond the disc are zero.
-    for (int c = 0; c < job.channels; ++c)
+    for (int c = 0; c < job.imageCount; ++c)
         std::memset(scratch.strips[std::size_t(c)] + std::size_t(bounds.outerRow + 1) * stripFloats,
                     0,
                     std::size_t(job.rows - 2 * bounds.outerRow - 1) * stripFloats * sizeof(float));
@@ -146,7 +147,7 @@ void sliceOneStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
 
     const int imageRows = std::min(job.imageRows, job.rows);
     const std::size_t columns = std::size_t(job.stripCount) * stripLanes;
-    for (std::size_t c = 0; c < std::size_t(job.channels); ++c) {
+    for (std::size_t c = 0; c < std::size_t(job.imageCount); ++c) {
         const float *const result = runTransform(*job.alongRows, scratch.strips[c], scratch.spare);
         for (int row = 0; row < imageRows; row += stripLanes) {
             const float *const from = result + std::size_t(row) * stripFloats;

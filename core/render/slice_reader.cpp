@@ -35,7 +35,7 @@ std::array<Read, 3> SliceReader::at(const std::array<double, 3> &cells,
     for (int term = 0; term < m_shading.termCount; ++term)
         addTerm(cells, term, kernels, images);
     std::array<Read, 3> channels{};
-    for (std::size_t image = 0; image < std::size_t(m_mixing.channels); ++image)
+    for (std::size_t image = 0; image < std::size_t(m_mixing.imageCount); ++image)
         for (std::size_t c = 0; c < 3; ++c)
             channels[c] += Complex(m_mixing.imageColor(image)[c]) * images[image];
     return channels;
@@ -82,13 +82,11 @@ void SliceReader::addTerm(const std::array<double, 3> &central, int term,
         if (isExact)
             plain.error = cued.error = 0.0;
         for (std::size_t c = 0; c < std::size_t(m_mixing.sums); ++c) {
-            const double share =
-                double(source.channelWeights[c]) * m_mixing.unit / spectrumOf(source).unit();
-            reads[0][kind][c] += share * plain;
-            reads[1][kind][c] += share * cued;
+            reads[0][kind][c] += source.weights[c] * plain;
+            reads[1][kind][c] += source.weights[c] * cued;
         }
     }
-    for (std::size_t c = 0; c < std::size_t(m_mixing.channels); ++c) {
+    for (std::size_t c = 0; c < std::size_t(m_mixing.imageCount); ++c) {
         const FrameShading::Image &image = m_shading.images[c];
         const std::size_t sum = m_mixing.sums == 1 ? 0 : c;
         double gradient = 0.0, excess = 0.0;

@@ -64,9 +64,9 @@ std::optional<task::Reason> Narrowing::warning() const {
 void Narrowing::requireDistinct() const {
     constexpr double maxMerged = 0.5, maxLost = 1e-4;
     if (m_lost > maxLost * (m_largest - m_smallest) && merged().share > maxMerged)
-        throw task::Error(
-            task::ErrorCode::unusable,
-            task::because::valuesAreOne(fmt::format("{}", m_smallest), fmt::format("{}", m_largest)));
+        throw task::Error(task::ErrorCode::unusable,
+                          task::because::valuesAreOne(fmt::format("{}", m_smallest),
+                                                      fmt::format("{}", m_largest)));
 }
 
 } // namespace pellucid::volume

@@ -53,7 +53,8 @@ private:
     Merged merged() const;
     void keep(double value);
 
-    double m_lost = 0.0, m_smallest = std::numeric_limits<double>::infinity(), m_largest = -m_smallest;
+    double m_lost = 0.0, m_smallest = std::numeric_limits<double>::infinity(),
+           m_largest = -m_smallest;
     std::size_t m_every, m_untilKept, m_notFinite = 0;
     std::vector<double> m_kept;
 };

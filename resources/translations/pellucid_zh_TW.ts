@@ -766,6 +766,10 @@
         <translation>記憶體不足以容納基底場</translation>
     </message>
     <message>
+        <source>not enough memory to choose the kernel widths</source>
+        <translation>記憶體不足以選擇核函數寬度</translation>
+    </message>
+    <message>
         <source>not enough memory for the lit field</source>
         <translation>記憶體不足以容納受光的場</translation>
     </message>
@@ -3707,12 +3711,12 @@
         <translation>、</translation>
     </message>
     <message>
-        <source>Read</source>
-        <translation>讀取</translation>
+        <source>Kernel widths</source>
+        <translation>核函數寬度</translation>
     </message>
     <message>
-        <source>Share of the frequencies that a kernel of each width reads; narrow kernels are accurate enough where there is little energy, and the rest does not matter</source>
-        <translation>各寬度的核所讀取頻率的比例；能量少之處較窄的核已足夠準確，其餘則無關緊要</translation>
+        <source>Share of the frequencies that kernels of each width read. Narrow kernels are accurate enough where there is little energy. Frequencies with almost none are not read.</source>
+        <translation>各寬度的核函數所讀頻率的比例。能量少之處，較窄的核函數已足夠準確；幾乎沒有能量的頻率則不讀取。</translation>
     </message>
     <message>
         <source>width %1: %2</source>

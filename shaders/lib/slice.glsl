@@ -2,7 +2,7 @@
 // The slice at a frequency, with or without cue and light, as in core/render/frame_*_hwy.inc.
 // FIELD_PAGES: number of textures ("pages") of fields; PAGES: the same plus those of gradients,
 // which follow. A page holds one or more stacked spectra, or one of the SLABS slabs of a spectrum.
-// SUMS, CHANNELS: 1 to 3; SHADED, CUED, LIT: 0 or 1.
+// SUMS, IMAGES: 1 to 3; SHADED, CUED, LIT: 0 or 1.
 layout(binding = FIRST_SPECTRUM) uniform sampler3D pages[PAGES];
 
 // The last row of each column inside the disc of the band.
@@ -128,7 +128,7 @@ void addSource(int source, Sum sum, int first, inout Sum sums[kinds * SUMS]) {
 }
 
 void addTerm(int term, Taps taps, bool mirrored, bool isCentre, vec3 q,
-             inout vec2 slice[CHANNELS]) {
+             inout vec2 slice[IMAGES]) {
     Sum sums[kinds * SUMS];
     for (int s = 0; s < kinds * SUMS; ++s) {
         sums[s].value = vec2(0.0);
@@ -155,7 +155,7 @@ void addTerm(int term, Taps taps, bool mirrored, bool isCentre, vec3 q,
 #endif
         }
     float sign = mirrored ? -1.0 : 1.0;
-    for (int c = 0; c < CHANNELS; ++c) {
+    for (int c = 0; c < IMAGES; ++c) {
         int of = SUMS == 1 ? 0 : c;
 #if SHADED
         vec2 value = shaded(c, shadesOf(sums[of], sign),
@@ -168,8 +168,8 @@ void addTerm(int term, Taps taps, bool mirrored, bool isCentre, vec3 q,
 }
 
 // *Requires*: a row of -rows/2 to rows/2 - 1, inside the disc.
-void sliceAt(int column, int row, out vec2 slice[CHANNELS]) {
-    for (int c = 0; c < CHANNELS; ++c)
+void sliceAt(int column, int row, out vec2 slice[IMAGES]) {
+    for (int c = 0; c < IMAGES; ++c)
         slice[c] = vec2(0.0);
     int width = widthAt(column, row);
     if (width == 0)
@@ -191,6 +191,6 @@ void sliceAt(int column, int row, out vec2 slice[CHANNELS]) {
                                         ofCentre);
     float turns = turnsOf(centre);
     vec2 phase = factor * vec2(cosineOfTurn(turns), sineOfTurn(turns));
-    for (int c = 0; c < CHANNELS; ++c)
+    for (int c = 0; c < IMAGES; ++c)
         slice[c] = multiplied(phase, slice[c]);
 }

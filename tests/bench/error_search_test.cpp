@@ -3,10 +3,13 @@
 // searches for as long as you like.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "app/bench/error_search.h"
 #include "app/bench/error_sweep.h"
+#include "app/bench/measure.h"
 #include "core/phantom/phantom.h"
 #include "core/plan/render_plan.h"
 #include "core/reference/wide_kernel.h"
@@ -53,14 +56,20 @@ TEST(ErrorSearch, TheErrorOfAFreshPictureIsCloseToWhatIsMeasured) {
 
 // Three fields for each seed; the bench takes 200.
 TEST(ErrorSweep, EveryToleranceIsKeptAndNoErrorIsHigherThanStated) {
-    int pictures = 0;
+    int pictures = 0, planned = 0;
     for (const std::uint64_t seed : {std::uint64_t(20261125), test::freshSeed()})
         bench::sweep(3, seed, [&](const bench::SweptPicture &picture) {
             ++pictures;
             EXPECT_LE(picture.measured, picture.stated) << "seed " << seed << ", " << picture.name;
             EXPECT_LE(picture.measured, picture.planned) << "seed " << seed << ", " << picture.name;
+            if (picture.planned > picture.tolerance)
+                return; // the plan says that it misses the tolerance
+            ++planned;
+            EXPECT_LE(picture.measured, picture.tolerance)
+                << "seed " << seed << ", " << picture.name;
         });
     EXPECT_EQ(pictures, 2 * 3 * 5 * 6);
+    EXPECT_GT(planned, pictures / 2);
 }
 
 scene::Scene sceneFor(const volume::Lattice &lattice, const glm::dquat &view, double tolerance) {
@@ -74,7 +83,7 @@ scene::Scene sceneFor(const volume::Lattice &lattice, const glm::dquat &view, do
 bench::Verdict judged(const volume::Lattice &lattice, std::vector<float> samples,
                       const glm::dquat &view, double tolerance) {
     bench::Trial trial{
-        "",
+        "", "",
         classify::densityField(volume::Volume(lattice, std::move(samples), volume::ValueUnit::none),
                                {0.0, 1.0}),
         sceneFor(lattice, view, tolerance)};
@@ -98,6 +107,68 @@ TEST(ErrorSearch, TwoSamplesInOppositeCorners) {
         }
 }
 
+// Lines of a spectrum at the edges of tiles were once missed: kernels were too narrow for them.
+TEST(ErrorSearch, PlaneWavesAtTheEdgesOfTiles) {
+    struct Wave {
+        double x, z, phase; ///< cycles per sample; radians
+    };
+    const std::vector<std::vector<Wave>> fields{{{0.0375, -0.2024, 0.189},
+                                                 {0.1475, -0.2784, 1.616},
+                                                 {-0.0987, 0.1359, 6.210},
+                                                 {-0.0369, 0.4737, 6.233},
+                                                 {-0.2470, -0.4103, 1.004}},
+                                                {{0.0462, -0.1480, 5.306},
+                                                 {-0.2029, 0.0099, 2.159},
+                                                 {-0.0811, 0.4549, 0.651},
+                                                 {-0.0531, -0.2642, 2.195}},
+                                                {{0.2974, -0.1722, 2.016},
+                                                 {0.1854, -0.0133, 2.257},
+                                                 {-0.0907, -0.1634, 1.052},
+                                                 {0.1265, 0.3780, 4.326}}};
+    constexpr int side = 48;
+    const auto lattice = volume::Lattice::centred({side, side, side}, {1, 1, 1});
+    const auto hann = [](int n) {
+        return std::pow(std::sin(std::numbers::pi * (n + 0.5) / side), 2);
+    };
+    for (const std::vector<Wave> &waves : fields) {
+        std::vector<float> samples;
+        for (int k = 0; k < side; ++k)
+            for (int j = 0; j < side; ++j)
+                for (int i = 0; i < side; ++i) {
+                    double sum = 0.0;
+                    for (const Wave &wave : waves)
+                        sum += std::cos(2.0 * std::numbers::pi *
+                                            (wave.x * (i - 23.5) + wave.z * (k - 23.5)) +
+                                        wave.phase);
+                    samples.push_back(float(hann(i) * hann(j) * hann(k) *
+                                            (0.5 + 0.5 * sum / double(waves.size()))));
+                }
+        for (const double tolerance : {1e-2, 3e-3}) {
+            bench::Trial trial{
+                .field = classify::densityField(
+                    volume::Volume(lattice, samples, volume::ValueUnit::none), {0.0, 1.0}),
+                .scene = sceneFor(lattice, scene::viewOrientation(scene::StandardView::front),
+                                  tolerance)};
+            trial.scene.camera.width = trial.scene.camera.height = 50;
+            const bench::Verdict verdict = bench::judge(trial);
+            EXPECT_LE(verdict.measured, verdict.predicted) << waves.size() << ' ' << tolerance;
+            EXPECT_LE(verdict.measured, verdict.ofView) << waves.size() << ' ' << tolerance;
+        }
+    }
+}
+
+// Thick slices dim the edge of the band except in one direction, whose tails fold back together.
+TEST(ErrorSearch, TwoSamplesOfThickSlicesSeenObliquely) {
+    const auto lattice = volume::Lattice::centred({40, 24, 16}, {1.0, 1.0, 5.47});
+    std::vector<float> samples(lattice.size().count(), 0.0F);
+    samples.front() = samples.back() = 1.0F;
+    for (const glm::dquat &view : bench::randomViews(12, 777))
+        for (const double tolerance : {1.1e-3, 1e-4}) {
+            const auto verdict = judged(lattice, samples, view, tolerance);
+            EXPECT_LE(verdict.measured, verdict.ofView) << tolerance;
+        }
+}
+
 // Along an axis one moment kernel reads the whole depth. Its error was once missing from the
 // picture's own prediction.
 TEST(ErrorSearch, AFullLinearCueAlongAnAxis) {
@@ -107,7 +178,7 @@ TEST(ErrorSearch, AFullLinearCueAlongAnAxis) {
     const auto field = classify::densityField(volume, classify::defaultFieldWindow(volume));
     for (const auto view : {scene::StandardView::front, scene::StandardView::top})
         for (const double tolerance : {1.1e-3, 1e-4}) {
-            bench::Trial trial{"", field,
+            bench::Trial trial{"", "", field,
                                sceneFor(volume.lattice(), scene::viewOrientation(view), tolerance)};
             trial.scene.shading.cue.kind = shading::CueKind::linear;
             trial.scene.shading.cue.strength = 1.0;
@@ -133,7 +204,7 @@ TEST(ErrorSearch, PatternsWhoseLinesLieInTheRollOff) {
                             samples.push_back(j % 2 == 1 && (k % 2 == 1 || !inBoth) ? 1.0F : 0.0F);
                 const bool isCubic = reconstruction == scene::Reconstruction::cubic;
                 bench::Trial trial{
-                    "",
+                    "", "",
                     classify::densityField(
                         volume::Volume(lattice, std::move(samples), volume::ValueUnit::none),
                         {0.0, 1.0}),
@@ -166,7 +237,7 @@ TEST(ErrorSearch, AFewPixelsBesideABrightSample) {
         for (const int side : {1, 2, 8}) {
             at(6) = at(26) = faint;
             bench::Trial trial{
-                "",
+                "", "",
                 classify::densityField(volume::Volume(lattice, samples, volume::ValueUnit::none),
                                        {0.0, 1.0}),
                 sceneFor(lattice, scene::viewOrientation(scene::StandardView::front), 1.1e-3)};

@@ -10,10 +10,10 @@ namespace pellucid {
 
 namespace {
 
-// The default frame must beat the ray sum. A slow machine passes too, because it slows both. They
-// take turns in blocks: after each ray sum its threads wait for more work on the frame's
-// processors. Measured: 9 to 22 times the speed of the ray sum at 128^3 on two threads of AVX-512.
-// Other processes slow some rounds, so the second best of four counts.
+// The default frame must beat the ray sum. A slow machine passes too, because it slows both. Frames
+// and ray sums are timed in blocks, because the ray sum's threads keep the processors busy for a
+// while after it ends. Measured: 9 to 22 times the speed of the ray sum at 128^3 on two threads of
+// AVX-512. Other processes slow some rounds, so the second best of four counts.
 TEST(Performance, TheDefaultFrameBeatsTheRaySum) {
     const bench::Subject subject = bench::noiseSphere(128);
     const volume::Lattice &lattice = subject.field.values.lattice();

@@ -75,7 +75,7 @@ TEST_F(FrameBlock, LiesWhereTheShadersReadIt) {
         {"radices[0]", offsetof(FrameBlock, radices)}};
     const gpu::Defines defines{
         {"WIDTH", 4}, {"EVEN_TERMS", 4}, {"MOMENT_TERMS", 4}, {"FIELD_PAGES", 1}, {"PAGES", 2},
-        {"SLABS", 1}, {"SUMS", 1},       {"CHANNELS", 1},     {"SHADED", 1},      {"CUED", 1},
+        {"SLABS", 1}, {"SUMS", 1},       {"IMAGES", 1},       {"SHADED", 1},      {"CUED", 1},
         {"LIT", 1},   {"TRILINEAR", 0},  {"FUSED", 1},        {"ROOM", 512}};
     card->device().run([&] {
         const unsigned program = card->device().program("columns.comp", defines).id();

@@ -10,10 +10,12 @@
 #include <QSignalSpy>
 
 #include "app/exit_code.h"
+#include "core/picture/compose.h"
 #include "tests/support/fields.h"
 #include "tests/support/fragile_context.h"
 #include "ui/engine/gl_probe.h"
 #include "ui/export/scene_files.h"
+#include "ui/views/projection_canvas.h"
 
 namespace pellucid {
 
@@ -81,6 +83,27 @@ private slots:
         QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !jobs().isRunning(), patienceMs);
         settle();
         QVERIFY(largestDifference(canvas(), projection()->picture()) <= 1);
+    }
+
+    // As with a graphics card and a picture of the processor.
+    void openGlDrawsAPictureOfTheProcessor() {
+        needCard();
+        const auto canvas = ui::makeOpenGlCanvas(nullptr);
+        auto *const widget = qobject_cast<QOpenGLWidget *>(canvas->widget());
+        widget->setAttribute(Qt::WA_DontShowOnScreen);
+        widget->resize(40, 30);
+        picture::ProjectionImage image{.width = 40, .height = 30, .channels = 3};
+        for (int n = 0; n < 40 * 30 * 3; ++n)
+            image.samples.push_back(float(n % 113) / 113.0F);
+        const scene::Tone tone{0.1, 0.8, true};
+        const auto rgba = picture::compose(image, tone);
+        const QImage expected(rgba.data(), 40, 30, QImage::Format_RGBA8888);
+        canvas->setTone({*tone.low, *tone.high}, tone.inverted);
+        canvas->setImage(std::make_shared<const picture::ProjectionImage>(std::move(image)));
+        widget->show();
+        QVERIFY(
+            largestDifference(widget->grabFramebuffer().convertToFormat(QImage::Format_RGBA8888),
+                              expected) <= 1);
     }
 
     // Pixel for pixel on the processor; on the card within the rounding of two engines to eight

@@ -23,7 +23,7 @@ namespace {
 
 enum class Mode { plain, twoColors, light };
 constexpr std::array modes{std::pair{Mode::plain, "X-ray"},
-                           std::pair{Mode::twoColors, "two coloured classes"},
+                           std::pair{Mode::twoColors, "two colored classes"},
                            std::pair{Mode::light, "one light"}};
 
 // Classes below and above the middle of the brighter samples, whatever the modality.

@@ -165,7 +165,8 @@ private slots:
             program.window().openPaths({QString::fromStdString(large.string())});
             const bool isOver = QTest::qWaitFor(rests, patienceMs);
             // Frames, too.
-            (void)QTest::qWaitFor([&] { return view->showsFinalImage() || !failures.isEmpty(); }, 2000);
+            (void)QTest::qWaitFor([&] { return view->showsFinalImage() || !failures.isEmpty(); },
+                                  2000);
             little.reset();
             QVERIFY(isOver);
             const bool isOpen = document.volume()->lattice().size().k == 128;
@@ -173,7 +174,8 @@ private slots:
             refused += failed.size() + failures.size() > 0 ? 1 : 0;
             for (const auto &failure : failed)
                 QCOMPARE(fs::path(failure[1].toString().toStdString()), large);
-            QVERIFY2(isOpen || failed.size() + failures.size() > 0, qPrintable(QString::number(mb)));
+            QVERIFY2(isOpen || failed.size() + failures.size() > 0,
+                     qPrintable(QString::number(mb)));
             program.window().openPaths({headPath()});
             QTRY_VERIFY_WITH_TIMEOUT(document.volume()->lattice().size().k == 80 && rests(),
                                      patienceMs);

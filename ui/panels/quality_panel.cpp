@@ -157,10 +157,10 @@ void QualityPanel::addFigures(QFormLayout *form) {
     m_model = addFigure(form, tr("Per frame"), "modelLabel",
                         tr("Spectra, slices, images and multiplications that a frame needs"));
     m_model->setWordWrap(true);
-    m_widths = addFigure(form, tr("Read"), "widthsLabel",
-                         tr("Share of the frequencies that a kernel of each width reads; narrow "
-                            "kernels are accurate "
-                            "enough where there is little energy, and the rest does not matter"));
+    m_widths = addFigure(form, tr("Kernel widths"), "widthsLabel",
+                         tr("Share of the frequencies that kernels of each width read. Narrow "
+                            "kernels are accurate enough where there is little energy. "
+                            "Frequencies with almost none are not read."));
     m_widths->setWordWrap(true);
     m_leftOut = addFigure(form, tr("Skipped"), "leftOutLabel",
                           tr("Stages that are skipped because this scene does not need them"));

@@ -217,6 +217,10 @@ std::unique_ptr<ProjectionCanvas> makeProjectionCanvas(QWidget *parent) {
         return std::make_unique<RasterCanvas>(parent);
     if (capabilities->software)
         return std::make_unique<SoftwareCanvas>(parent);
+    return makeOpenGlCanvas(parent);
+}
+
+std::unique_ptr<ProjectionCanvas> makeOpenGlCanvas(QWidget *parent) {
     return std::make_unique<GlCanvas>(parent);
 }
 

@@ -27,5 +27,7 @@ public:
 /// A canvas on OpenGL 3.3 or newer with the GLSL tone pass; on the processor if there is no OpenGL,
 /// or only a software renderer.
 std::unique_ptr<ProjectionCanvas> makeProjectionCanvas(QWidget *parent);
+/// The canvas on OpenGL, whatever draws it.
+std::unique_ptr<ProjectionCanvas> makeOpenGlCanvas(QWidget *parent);
 
 } // namespace pellucid::ui

@@ -24,9 +24,9 @@ constexpr double smoothFrameMs = 35.0;
 // The first frame also allocates its memory and may take three times as long as the next.
 constexpr double firstFrameFactor = 3.0;
 constexpr int restMs = 120;
-// Frames that read or transform every frequency of the picture cost what its pixels cost: theirs
-// are no finer than this, in pixels per voxel or across the volume, whichever allows more. Finer
-// ones would show the smoothness of the reconstruction, not the patient.
+// With one kernel, or on the card, a frame costs as much as its pixels. Its pixels are then no
+// smaller than a quarter of a voxel, or 1/4096 of the volume's diameter if that is less: smaller
+// ones would show only the smoothness of the reconstruction.
 constexpr double pixelsPerVoxel = 4.0, pixelsAcross = 4096.0;
 
 } // namespace
@@ -235,12 +235,12 @@ void ProjectionView::requestFrame(bool moving) {
     m_pending = true;
     const plan::RenderPlan &plan = m_prepared->plan;
     const volume::Lattice &lattice = m_document.volume()->lattice();
-    // The card transforms the whole grid.
-    const bool readsBand = plan.adaptiveError > 0.0 && plan.image == m_document.scene().image &&
-                           !m_onCard && !m_isComparing;
-    const double finest = readsBand ? 0.0
-                                    : std::min(lattice.shortestStepMm() / pixelsPerVoxel,
-                                               2.0 * lattice.radiusMm() / pixelsAcross);
+    // The picture that this one is compared with may be read by one kernel.
+    const bool isAdaptive = plan.adaptiveError > 0.0 && plan.image == m_document.scene().image &&
+                            !m_onCard && !m_isComparing;
+    const double finest = isAdaptive ? 0.0
+                                     : std::min(lattice.shortestStepMm() / pixelsPerVoxel,
+                                                2.0 * lattice.radiusMm() / pixelsAcross);
     shading::Shading shading = m_document.scene().shading;
     if (shading.isLit() && !m_prepared->canBeLit) // until light is prepared, the shading stays
         shading = m_drawnShading;

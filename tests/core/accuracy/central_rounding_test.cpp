@@ -6,7 +6,6 @@
 #include <cmath>
 #include <memory>
 
-#include "core/plan/slice_grid.h"
 #include "core/prepare/prepared_engine.h"
 #include "tests/support/fields.h"
 
@@ -80,10 +79,13 @@ TEST_P(CentralRounding, IsTheDifferenceThat16BitCellsMake) {
     const auto picture = rounded->render(scene.camera, scene.image, scene.shading),
                truth = exact->render(scene.camera, scene.image, scene.shading);
     ASSERT_EQ(picture.samples.size(), truth.samples.size());
-    const accuracy::CentralEnergies central = accuracy::centralEnergies(
-        rounded->parts(), scene.camera,
-        plan::sliceGrid(scene.camera, plan.fieldOfView, field.values.lattice(), scene.image),
-        scene.shading);
+    const auto parts = rounded->parts();
+    render::FrameSetup setup(plan.fieldOfView);
+    const accuracy::CentralEnergies central =
+        accuracy::centralEnergies(parts.spectra,
+                                  setup.inputsFor(parts.spectra, parts.channelWeights, scene.camera,
+                                                  scene.image, scene.shading),
+                                  scene.camera);
     const auto channels = std::size_t(picture.channels);
     const double pixelMm2 = scene.camera.pixelMm * scene.camera.pixelMm;
     for (std::size_t c = 0; c < channels; ++c) {
@@ -121,11 +123,12 @@ TEST(CentralRoundingOfFloats, IsZeroForFloatCells) {
     scene.camera = scene::defaultCamera(field.values.lattice());
     scene.interpolation.storage = fourier::Storage::float32;
     const auto prepared = prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {});
-    const accuracy::CentralEnergies central =
-        accuracy::centralEnergies(prepared.engine->parts(), scene.camera,
-                                  plan::sliceGrid(scene.camera, prepared.plan.fieldOfView,
-                                                  field.values.lattice(), scene.image),
-                                  {});
+    const auto parts = prepared.engine->parts();
+    render::FrameSetup setup(parts.fieldOfView);
+    const accuracy::CentralEnergies central = accuracy::centralEnergies(
+        parts.spectra,
+        setup.inputsFor(parts.spectra, parts.channelWeights, scene.camera, scene.image, {}),
+        scene.camera);
     EXPECT_EQ(central.image[0], 0.0);
     EXPECT_EQ(central.error[0], 0.0);
 }

@@ -67,7 +67,7 @@ TEST_F(FrameModel, LightTakesASpectrumOfTheGradientAndASineCueTwoMoreSlices) {
     EXPECT_FALSE(isLeftOut(cued, plan::LeftOut::depthCue));
 }
 
-TEST_F(FrameModel, ColorsTakeAnImageForEachThatTheyAreMixedFromAndATintTakesNone) {
+TEST_F(FrameModel, MixedColorsTakeTwoOrThreeImagesAndATintOne) {
     const auto tinted = model({1, SpectrumOf::look, 1});
     EXPECT_EQ(tinted.combination, plan::Combination::tinted);
     EXPECT_EQ(tinted.images, 1);

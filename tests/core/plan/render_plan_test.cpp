@@ -105,7 +105,7 @@ TEST(RenderPlan, FieldsThatAddUpCostTheirErrorTimesTheRootOfTheirNumber) {
     EXPECT_EQ(together.together, 2);
 }
 
-// Noise has no dark frequencies, unless the pixels are finer than the samples.
+// White noise has no frequencies of low energy, unless the pixels are finer than the samples.
 TEST(RenderPlan, OnlySmoothFieldsAndFinePixelsLeaveErrorForNarrowKernels) {
     const volume::Lattice lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
     const auto adaptiveErrorOf = [&](const classify::DensityField &field, double pixelMm) {

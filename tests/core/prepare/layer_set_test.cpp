@@ -194,7 +194,8 @@ TEST(LayerSet, KnowsTheErrorOfItsSums) {
                 layers->detailLoss(),
                 plan::SpectrumOf::layer};
             const auto picture = prepared.engine->render(scene.camera, scene.image);
-            const auto predicted = prepare::errorOf(prepared, picture, scene.camera, scene.image, {});
+            const auto predicted =
+                prepare::errorOf(prepared, picture, scene.camera, scene.image, {});
             const double measured = test::relativeL2(picture.samples, truth);
             ASSERT_TRUE(predicted);
             EXPECT_GE(*predicted, measured);

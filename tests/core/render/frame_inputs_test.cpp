@@ -50,7 +50,7 @@ TEST_F(FrameInputs, LightsAreOffWithoutGradients) {
     EXPECT_EQ(unlit.pictureChannels(), 1);
     EXPECT_TRUE(withLight.shading.lit);
     EXPECT_EQ(withLight.pictureChannels(), 3);
-    EXPECT_EQ(withLight.mixing.channels, 3);
+    EXPECT_EQ(withLight.mixing.imageCount, 3);
 }
 
 TEST_F(FrameInputs, OneColorIsGivenToTheOneImage) {
@@ -62,7 +62,7 @@ TEST_F(FrameInputs, OneColorIsGivenToTheOneImage) {
     parts.channelWeights = {{1.0, 0.5, 0.25}};
     const render::FrameInputs colored = inputsOf(parts, {});
     EXPECT_EQ(colored.pictureChannels(), 3);
-    EXPECT_EQ(colored.mixing.channels, 1);
+    EXPECT_EQ(colored.mixing.imageCount, 1);
     EXPECT_EQ(colored.imageColors().front(), (std::array{1.0F, 0.5F, 0.25F}));
     EXPECT_EQ(colored.unit(), colored.geometry.cellArea * colored.mixing.unit);
     EXPECT_FALSE(colored.isShaded);
@@ -79,7 +79,7 @@ TEST_F(FrameInputs, HaveAsManyImagesAsTheColorsHaveRank) {
         parts.channelWeights = weights;
         const render::FrameInputs inputs = inputsOf(parts, shading);
         EXPECT_EQ(inputs.mixing.sources.size(), 4U);
-        return std::pair(inputs.mixing.channels, inputs.pictureChannels());
+        return std::pair(inputs.mixing.imageCount, inputs.pictureChannels());
     };
     using Images = std::pair<int, int>;
     EXPECT_EQ(imagesOf({white, white, {0.5, 0.5, 0.5}, white}), Images(1, 1));

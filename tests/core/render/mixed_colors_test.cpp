@@ -53,7 +53,7 @@ TEST(MixedColors, AreWithinTheToleranceOfTheExactPicture) {
         }
 }
 
-// Alike fields far apart: their errors are in phase, while their images do not overlap.
+// Equal fields far apart: their errors are in phase, while their images do not overlap.
 TEST(MixedColors, KeepTheToleranceWhereErrorsAddUp) {
     const volume::Lattice lattice = volume::Lattice::centred({48, 20, 20}, {1.0, 1.0, 1.0});
     classify::ShownFields fields{{}, {{{1.0, 0.9, 0.8}, {1.0, 0.8, 0.9}}}};
