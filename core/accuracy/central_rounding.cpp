@@ -135,6 +135,8 @@ private:
         for (std::size_t c = 0; c < 3; ++c) {
             sum.image[c] *= unit;
             sum.error[c] *= unit;
+            for (const std::array<Read, 3> &wave : waves.images)
+                sum.slice[c] += std::norm(wave[c].value) * m_inputs.geometry.cellArea;
         }
         return sum;
     }

@@ -14,6 +14,7 @@ namespace pellucid::accuracy {
 struct CentralEnergies {
     /// By channel of the picture. *Units*: of the picture squared, times mm^2.
     std::array<double, 3> image{}, error{};
+    std::array<double, 3> slice{}; ///< the cells' energy over the whole period
     /// The rounding error's energy over that of the cells, over all kept cells.
     double cellRounding = 0.0;
 };

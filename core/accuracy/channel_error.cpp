@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "core/accuracy/coarse_plane.h"
+#include "core/accuracy/edge_tails.h"
 #include "core/accuracy/picture_sums.h"
 #include "core/plan/error_prediction.h"
 #include "core/plan/folded_tails.h"
@@ -62,6 +62,7 @@ public:
           m_imageEnergy(m_sums.energy * m_pixelMm * m_pixelMm),
           m_centralImage(context.central.image[std::size_t(channel)]),
           m_centralError(context.central.error[std::size_t(channel)]),
+          m_centralSlice(context.central.slice[std::size_t(channel)]),
           m_narrowing(context.narrowing[std::size_t(channel)]),
           m_sliceEnergy(context.slice.whole[std::size_t(channel)]),
           m_edge(context.slice.edge[std::size_t(channel)]) {
@@ -94,26 +95,6 @@ private:
         // Of their joint projection.
         double projectionInPicture = 0.0;
         double aliasesInPicture = 0.0;
-    };
-    // The energy of blocks by their place in the projection, over two periods each way from the
-    // middle of the picture.
-    struct Places {
-        static constexpr int side = 32;
-        struct Place {
-            double energy = 0.0;
-            glm::dvec2 moment{0.0}; ///< mm
-        };
-        std::array<Place, std::size_t(side) * side> places;
-
-        void add(glm::dvec2 atMm, glm::dvec2 periodMm, double energy) {
-            const auto bin = [&](int axis) {
-                return std::clamp(int(0.5 * side * (atMm[axis] / periodMm[axis] + 1.0)), 0,
-                                  side - 1);
-            };
-            Place &place = places[std::size_t(bin(1) * side + bin(0))];
-            place.energy += energy;
-            place.moment += energy * atMm;
-        }
     };
     // The rounding of fields of a few samples, and of others.
     struct Rounding {
@@ -258,7 +239,7 @@ private:
                      dimmed = cueRms * cueRms * m_energyWithoutCue / m_blocks.all;
         return m_fields.rounding * m_fields.rounding * m_fields.kernelEnergy * m_blocks.inverse /
                m_energyWithoutCue * (cue.isActive() ? std::max(1.0, dimmed) : 1.0) *
-               std::max(0.05 * whole, whole - m_centralImage);
+               std::max(0.05 * whole, whole - m_centralSlice);
     }
 
     // All cells of the spectrum of a few samples are alike and round alike, so the central cells
@@ -293,47 +274,9 @@ private:
             patternMargin * m_imageEnergy *
             (m_sums.across * m_blocks.tailsAcross + m_sums.down * m_blocks.tailsDown) /
             m_blocks.all;
-        return std::max({edgeMargin * tailsOfEdge(), pattern, tailsOfLattice(whole)});
-    }
-
-    // The response of the band's disc to a point falls as r^-3/2, and faster where the roll-off is
-    // resolved. Its part at an angle comes from the frequencies at the edge of the disc in that
-    // direction, so thick slices, which dim most of the edge, have tails in few directions. Those
-    // that leave the picture come back after a period. Places keep their share of the energy.
-    double tailsOfEdge() const {
-        constexpr int steps = 64;
-        constexpr double radius = 0.5; // of the disc, cycles per pixel
-        const double rollOff = m_context.image.rollOff,
-                     periodPixels = glm::length(m_periodMm) / m_pixelMm,
-                     step = periodPixels / steps;
-        double sum = 0.0;
-        for (const auto &place : m_places.places) {
-            if (!(place.energy > 0.0))
-                continue;
-            const glm::dvec2 from = place.moment / place.energy;
-            for (int n = 0; n < 2 * SliceEnergies::directions; ++n) {
-                const double density = m_edge[std::size_t(n % SliceEnergies::directions)];
-                const double angle = std::numbers::pi * (n + 0.5) / SliceEnergies::directions;
-                const glm::dvec2 along(std::cos(angle), std::sin(angle));
-                double inPicture = 0.0;
-                for (int k = 0; k < steps; ++k) {
-                    const double r = (k + 0.5) * step, u = rollOff * r;
-                    const glm::dvec2 at = from + r * m_pixelMm * along;
-                    const bool isFolded =
-                        std::abs(at.x) > 0.5 * m_windowMm.x || std::abs(at.y) > 0.5 * m_windowMm.y;
-                    if (isFolded && CoarsePlane::isWithin(at.x, m_periodMm.x, m_windowMm.x) &&
-                        CoarsePlane::isWithin(at.y, m_periodMm.y, m_windowMm.y)) {
-                        // Without the oscillation where it is fast.
-                        const double falls =
-                            u < 1.5 ? 1.0 / (1.0 + u * u) : 0.5 / std::pow(u * u - 1.0, 2);
-                        inPicture += step * falls / (r * r);
-                    }
-                }
-                sum += place.energy * density * inPicture;
-            }
-        }
-        return sum * std::numbers::pi / SliceEnergies::directions * radius /
-               (2.0 * std::numbers::pi * std::numbers::pi) / m_blocks.all;
+        const double edge = edgeTails(m_places, {m_windowMm, m_periodMm, m_pixelMm},
+                                      m_context.image.rollOff, m_edge);
+        return std::max({edgeMargin * edge, pattern, tailsOfLattice(whole)});
     }
 
     // Tails of the lattice's own band cannot be derived from the edge of the picture's band, which
@@ -396,10 +339,10 @@ private:
     glm::dvec2 m_windowMm, m_periodMm; ///< of the picture; of the slice grid
     double m_coarseMm;                 ///< pixel size of coarse planes
     PictureSums m_sums;
-    double m_imageEnergy, m_centralImage, m_centralError, m_narrowing;
+    double m_imageEnergy, m_centralImage, m_centralError, m_centralSlice, m_narrowing;
     double m_sliceEnergy;                                        ///< over the whole period
     const std::array<double, SliceEnergies::directions> &m_edge; ///< see SliceEnergies
-    Places m_places;
+    ProjectedPlaces m_places;
     std::vector<double> m_mass, m_energy; ///< of blocks, without the cue
     double m_energyWithoutCue = 0.0;
     BlockSums m_blocks;

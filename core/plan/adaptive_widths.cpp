@@ -226,7 +226,7 @@ public:
         float error = 0.0F;
         while (from > 0) {
             Saving best;
-            float least = std::numeric_limits<float>::infinity();
+            float cheapest = std::numeric_limits<float>::infinity();
             const int first =
                 reduction == AdaptiveWidths::Reduction::narrowerKernels ? from - 1 : 0;
             for (int width = first; width >= 0; --width) {
@@ -234,8 +234,8 @@ public:
                     continue;
                 const float more = std::max(0.0F, errors[SpectrumEnergies::entryOf(width)] - error);
                 const float price = more / float(readTime(from) - readTime(width));
-                if (price <= least) {
-                    least = price;
+                if (price <= cheapest) {
+                    cheapest = price;
                     best = {classOf(price), std::uint8_t(width), more};
                 }
             }
@@ -280,7 +280,7 @@ void inOrder(int count, const std::function<void(int)> &work) {
 
 WidthMap AdaptiveWidths::mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
                                 std::span<const Weights> weights, const ForEach &forEach) const {
-    double least = 0.0;
+    double minEnergy = 0.0;
     std::vector<SliceSource> sources;
     for (std::size_t f = 0; f < m_fields.size(); ++f) {
         if (weights[f] == Weights{})
@@ -288,22 +288,23 @@ WidthMap AdaptiveWidths::mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
         SliceSource source{.field = f};
         for (std::size_t c = 0; c < 3; ++c) {
             source.amplitude[c] = std::abs(weights[f][c]);
-            least += weights[f][c] * weights[f][c] * m_fields[f]->least(axes);
+            minEnergy += weights[f][c] * weights[f][c] * m_fields[f]->minEnergy(axes);
         }
         // One channel's amplitudes are enough for a single field.
         if (m_fields.size() == 1)
             source.amplitude = {std::hypot(weights[f][0], weights[f][1], weights[f][2]), 0.0, 0.0};
         sources.push_back(source);
     }
-    return mapFor(plane, sources, least, Reduction::narrowerKernels, forEach);
+    return mapFor(plane, sources, minEnergy, Reduction::narrowerKernels, forEach);
 }
 
 WidthMap AdaptiveWidths::mapFor(const SlicePlane &plane, std::span<const SliceSource> sources,
-                                double least, Reduction reduction, const ForEach &forEach) const {
+                                double minEnergy, Reduction reduction,
+                                const ForEach &forEach) const {
     const Circle circle(plane);
     // Where little is known to be in the picture, everything is read.
     const double budget =
-        std::max(m_tolerance * m_tolerance * least, std::numeric_limits<double>::min());
+        std::max(m_tolerance * m_tolerance * minEnergy, std::numeric_limits<double>::min());
     std::vector<Tiles::Measured> measured;
     for (const SliceSource &source : sources)
         measured.push_back(

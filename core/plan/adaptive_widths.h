@@ -82,9 +82,9 @@ public:
                     std::span<const Weights> weights, const ForEach &forEach = inOrder) const;
     /// How frequencies that do not need the widest kernel are treated.
     enum class Reduction { narrowerKernels, skippingOnly };
-    /// For frames with cue or light. `least`: the energy of low frequencies of the picture; the
+    /// For frames with cue or light. `minEnergy`: the energy of low frequencies of the picture; the
     /// whole has more. *Units*: of the spectrum squared, over mm^2.
-    WidthMap mapFor(const SlicePlane &plane, std::span<const SliceSource> sources, double least,
+    WidthMap mapFor(const SlicePlane &plane, std::span<const SliceSource> sources, double minEnergy,
                     Reduction reduction, const ForEach &forEach = inOrder) const;
     bool hasGradients() const { return !m_gradients.empty(); }
 

@@ -28,7 +28,7 @@ constexpr double smallestPatch = 12.0;
 // Cells beyond a patch that the kernels of its frequencies read. A block may end there.
 constexpr double aroundPatch = 1.5;
 // Margin for the energy of a view, which is sampled by direction.
-constexpr double leastMargin = 0.8;
+constexpr double minEnergyMargin = 0.8;
 // The reconstruction's factor is tabled to here; beyond, it stays below its largest value there.
 constexpr float factorsPerCycle = 128.0F;
 constexpr int tabledCycles = 4;
@@ -178,7 +178,7 @@ SpectrumEnergies::SpectrumEnergies(const fourier::Spectrum &spectrum,
     constexpr double darkShare = 1e-3;
     const double farthestPerMm = 1.0 / lattice.shortestStepMm();
     const double dark =
-        darkShare * tolerance * tolerance * leastOfAll() / (pi * farthestPerMm * farthestPerMm);
+        darkShare * tolerance * tolerance * minEnergyOfAll() / (pi * farthestPerMm * farthestPerMm);
     SpectrumBlocks &blocks = made->blocks;
     tbb::parallel_for(0, blocks.columns * blocks.planes, [&](int part) {
         progress.check();
@@ -203,9 +203,9 @@ float SpectrumEnergies::energyBound(const PlanePatch &patch) const {
     for (std::size_t d = 0; d < 3; ++d) {
         const auto padded = float(all.padded[int(d)]);
         const auto middle = float(patch.middle(d)), reach = float(patch.reach(d));
-        const float least = std::max(0.0F, std::abs(middle) - reach);
+        const float nearest = std::max(0.0F, std::abs(middle) - reach);
         factor *=
-            all.factors[std::size_t(std::min(lastFactor, int(least / padded * factorsPerCycle)))];
+            all.factors[std::size_t(std::min(lastFactor, int(nearest / padded * factorsPerCycle)))];
         const float folded = std::abs(
             middle - padded * float(int(middle / padded + (middle < 0.0F ? -0.5F : 0.5F))));
         const std::vector<float> &slabs = all.slabs[d];
@@ -281,18 +281,18 @@ SpectrumEnergies::Errors SpectrumEnergies::errorsIn(const PlanePatch &patch,
     return errors;
 }
 
-double SpectrumEnergies::leastOfAll() const {
-    return 2.0 * pi * leastMargin * double(*std::min_element(m_low.begin(), m_low.end()));
+double SpectrumEnergies::minEnergyOfAll() const {
+    return 2.0 * pi * minEnergyMargin * double(*std::min_element(m_low.begin(), m_low.end()));
 }
 
-double SpectrumEnergies::least(const glm::dmat3 &axes) const {
+double SpectrumEnergies::minEnergy(const glm::dmat3 &axes) const {
     constexpr int points = 64;
     double sum = 0.0;
     for (int n = 0; n < points; ++n) {
         const double angle = pi * (n + 0.5) / points;
         sum += m_low[std::size_t(indexOf(std::cos(angle) * axes[0] + std::sin(angle) * axes[1]))];
     }
-    return 2.0 * leastMargin * sum * pi / points;
+    return 2.0 * minEnergyMargin * sum * pi / points;
 }
 
 } // namespace pellucid::plan

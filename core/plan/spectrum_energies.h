@@ -67,13 +67,13 @@ public:
     Errors errorsIn(const PlanePatch &patch, const PatchPoints &points) const;
     /// The energy of the low frequencies of a view, less a margin: the whole view has more.
     /// *Shape*: `axes`: columns U, V and W. *Units*: of the spectrum squared, over mm^2.
-    double least(const glm::dmat3 &axes) const;
+    double minEnergy(const glm::dmat3 &axes) const;
     /// Blocks are too coarse for frequencies within so many cells of frequency 0 along each axis.
     static constexpr double lowCells = 12.0;
 
 private:
     struct Blocks;
-    double leastOfAll() const; ///< of `least`
+    double minEnergyOfAll() const; ///< of `minEnergy`
     std::shared_ptr<const Blocks> m_blocks;
     std::vector<float> m_low; ///< by direction, of three faces of a cube
 };

@@ -28,14 +28,16 @@ double energy(const classify::DensityField &field) {
     return sum;
 }
 
-} // namespace
-
+// The detail that averages lose: the energy of the differences between samples and their means,
+// relative to the field's.
 double lostDetail(const classify::DensityField &field, const classify::DensityField &means) {
     const double all = energy(field);
     const double kept = energy(means) * (means.values.lattice().cellVolumeMm3() /
                                          field.values.lattice().cellVolumeMm3());
     return all > 0.0 ? std::sqrt(std::max(0.0, 1.0 - kept / all)) : 0.0;
 }
+
+} // namespace
 
 FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                        std::span<const plan::FieldSummary> summaries, const plan::Budget &budget,

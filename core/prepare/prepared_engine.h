@@ -32,9 +32,6 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &fields,
                        std::span<const plan::FieldSummary> summaries, const plan::Budget &budget,
                        const task::Progress &progress = {});
 
-/// The share of a field's energy, as a relative L2 error, that means of blocks lose.
-double lostDetail(const classify::DensityField &field, const classify::DensityField &means);
-
 /// An engine, ready to render.
 struct PreparedEngine {
     std::shared_ptr<render::ProjectionEngine> engine;

@@ -368,12 +368,9 @@ TEST(Shading, HardFieldsKeepTheTolerance) {
     EXPECT_LE(flat.worstError(), 1.1e-3);
     std::vector<float> one(11 * 9 * 7, 0.0F);
     one[(5 * 9 + 2) * 11 + 8] = 1.0F;
-    const volume::Volume point(volume::Lattice::centred({11, 9, 7}, {1, 1.5, 2}), std::move(one),
+    const volume::Volume point(volume::Lattice::centred({11, 9, 7}, {1, 1.5, 2}), one,
                                volume::ValueUnit::none);
-    Subject voxel(classify::fieldOf(point, {point.visit([](auto s) {
-                                        return std::vector<float>(s.begin(), s.end());
-                                    })}),
-                  everything);
+    Subject voxel(classify::fieldOf(point, one), everything);
     EXPECT_LE(voxel.worstError(), 1.1e-3);
     std::vector<float> nothing(8 * 8 * 8, 0.0F);
     const volume::Volume empty(volume::Lattice::centred({8, 8, 8}, {1, 1, 1}), nothing,
@@ -386,15 +383,13 @@ TEST(Shading, HardFieldsKeepTheTolerance) {
 // What is reduced to fit the memory keeps the brightness: the scale is the volume's own.
 TEST(Shading, AReducedVolumeIsShadedAlike) {
     Subject subject(headField(), {.cue = linear, .ambient = 0.2, .lights = {oblique}});
-    const auto reduced =
-        prepare::prepareEngine(subject.scene, subject.fields,
-                               {subject.prepared.plan.bytes / 3 +
-                                prepare::bytesForLight(subject.scene.shading, {72, 70, 40}, 1)});
+    const scene::Scene &scene = subject.scene;
+    const std::size_t light = prepare::bytesForLight(scene.shading, {72, 70, 40}, 1),
+                      budget = subject.prepared.plan.bytes / 3 + light;
+    const auto reduced = prepare::prepareEngine(scene, subject.fields, {budget});
     ASSERT_LT(reduced.bytes, subject.prepared.bytes / 2);
     const auto fine = subject.image(someViews().front()).samples;
-    const auto coarse =
-        reduced.engine->render(subject.scene.camera, subject.scene.image, subject.scene.shading)
-            .samples;
+    const auto coarse = reduced.engine->render(scene.camera, scene.image, scene.shading).samples;
     // Means of two samples an axis lose edges; twice the scale would be an error of one.
     EXPECT_LT(test::relativeL2(coarse, fine), 0.3);
 }
