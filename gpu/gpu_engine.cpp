@@ -74,7 +74,8 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
                                                            const shading::Shading &shading,
                                                            CardTimes *times) {
     const render::FrameInputs inputs = task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
-        return m_setup->inputsFor(m_textures->spectra(), m_channelWeights, camera, image, shading);
+        return m_setup->inputsFor(m_textures->spectra(), m_channelWeights, camera, image, shading,
+                                  plan::onAllThreads);
     });
     if (inputs.isEmpty()) {
         if (times != nullptr)

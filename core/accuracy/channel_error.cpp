@@ -24,8 +24,6 @@ namespace {
 // 1304, 1401 to 1403, 1501, 1701), which can therefore no longer test them; those of coarse pixels,
 // points and tails also to counterexamples and to seeds 9001, 9101 and 9301.
 constexpr double coherentMargin = 2.7, ///< aliases, block by block
-    narrowMargin = 3.0,                ///< of a part, for narrower kernels
-    spreadMargin = 2.0,                ///< the same, by area
     sampleMargin = 1.3,                ///< narrower kernels, of which a sample is known
     detailMargin = 2.4,                ///< aliases of detail finer than the blocks
     coarsePixelMargin = 2.5,           ///< aliases in pixels larger than the blocks
@@ -36,12 +34,16 @@ constexpr double coherentMargin = 2.7, ///< aliases, block by block
     litPointMargin = 1.5,              ///< the same under light
     meanPointMargin = 2.2,             ///< the same, judged by the mean over cells
     partOfPointsMargin = 3.0,          ///< the same in a part of the picture
-    sliceMargin = 1.3,    ///< the energy of the whole slice, of which a sample is known
-    edgeMargin = 3.0,     ///< tails of the roll-off, by direction
-    patternMargin = 50.0; ///< tails of patterns
+    sliceMargin = 1.3,        ///< the energy of the whole slice, of which a sample is known
+    edgeMargin = 3.0,         ///< tails of the roll-off, by direction
+    patternMargin = 50.0,     ///< tails of patterns in the picture
+    outsideMargin = 40.0,     ///< tails of patterns beside the picture
+    outsidePointMargin = 5.0; ///< the same of a few samples, whose tails the edge has
 // The share of the plan's bound that every picture is charged with, for errors that no term
 // describes.
 constexpr double unseenShare = 0.08;
+// The roughness of a projection relative to its field, fitted to crops beside points and noise.
+constexpr double projectedRoughness = 0.4;
 // Similar errors add up to point-like aliases. This share of their energy may fall into any part of
 // the picture.
 constexpr double pointShare = 0.69;
@@ -89,6 +91,7 @@ private:
     struct BlockSums {
         // Summed block by block.
         double all = 0.0, inPicture = 0.0;
+        double beyond = 0.0;                       ///< of blocks with samples beside the picture
         double aliases = 0.0;                      ///< in the picture
         double inverse = 0.0;                      ///< of blocks without the cue, divided by h^2
         double tailsAcross = 0.0, tailsDown = 0.0; ///< of their tails in the picture
@@ -129,22 +132,25 @@ private:
         const glm::dvec2 pan = m_camera.panMm;
         const double rollOff = m_context.image.rollOff;
         const plan::SliceGrid &grid = m_context.grid;
+        // A picture may be smaller than a coarse pixel.
+        const glm::dvec2 aliasWindow = m_windowMm + 2.0 * m_coarseMm;
         CoarsePlane plain(m_periodMm, m_coarseMm), aliases(m_periodMm, m_coarseMm);
         for (std::size_t n = 0; n < m_energy.size(); ++n) {
             if (m_energy[n] == 0.0)
                 continue;
             const CoarseFields::Block &block = m_fields.blocks[n];
             // Returns the energy in the picture.
-            const auto add = [&](CoarsePlane &plane, const glm::dvec3 &at, double amplitude) {
+            const auto add = [&](CoarsePlane &plane, const glm::dvec3 &at, double amplitude,
+                                 const glm::dvec2 &window) {
                 const glm::dvec3 seen = toCamera * at;
                 const double weight = amplitude * value(seen.z / m_fields.depthRadiusMm);
                 plane.add(seen.x - pan.x, seen.y - pan.y, weight * m_mass[n]);
                 const bool isInside =
-                    CoarsePlane::isWithin(seen.x - pan.x, m_periodMm.x, m_windowMm.x) &&
-                    CoarsePlane::isWithin(seen.y - pan.y, m_periodMm.y, m_windowMm.y);
+                    CoarsePlane::isWithin(seen.x - pan.x, m_periodMm.x, window.x) &&
+                    CoarsePlane::isWithin(seen.y - pan.y, m_periodMm.y, window.y);
                 return isInside ? weight * weight * m_energy[n] : 0.0;
             };
-            m_blocks.inPicture += add(plain, block.fromCentreMm, 1.0);
+            m_blocks.inPicture += add(plain, block.fromCentreMm, 1.0, m_windowMm);
             const glm::dvec3 seen = toCamera * block.fromCentreMm;
             const double weight = value(seen.z / m_fields.depthRadiusMm),
                          here = weight * weight * m_energy[n];
@@ -155,19 +161,49 @@ private:
             m_blocks.tailsDown += here * plan::tailInImage(rollOff, grid.rows, m_camera.height,
                                                            (seen.y - pan.y) / m_pixelMm);
             m_blocks.inverse += double(block.inverse) * m_energy[n];
-            for (std::size_t d = 0; d < 3; ++d) {
-                const glm::dvec3 &period = m_fields.periodsMm[d];
+            if (reachesBeyond(block, {seen.x - pan.x, seen.y - pan.y}))
+                m_blocks.beyond += here;
+            forAliases(block, [&](const glm::dvec3 &offset, double amplitude) {
                 m_blocks.aliases +=
-                    add(aliases, block.fromCentreMm - period, double(block.aliases[2 * d]));
-                m_blocks.aliases +=
-                    add(aliases, block.fromCentreMm + period, double(block.aliases[2 * d + 1]));
-            }
+                    add(aliases, block.fromCentreMm + offset, amplitude, aliasWindow);
+            });
         }
         m_blocks.projectionInPicture = plain.energyIn({0.0, 0.0}, m_windowMm);
-        m_blocks.aliasesInPicture = aliases.energyIn({0.0, 0.0}, m_windowMm);
+        m_blocks.aliasesInPicture = aliases.energyIn({0.0, 0.0}, aliasWindow);
     }
 
-    bool isWhole() const { return m_blocks.all - m_blocks.inPicture <= 1e-9 * m_blocks.all; }
+    // The aliases of a block: along one axis, or the products of two or three. `use`: gets the
+    // offset and the amplitude.
+    template <class F> void forAliases(const CoarseFields::Block &block, const F &use) const {
+        constexpr double negligible = 1e-7;
+        const auto along = [&](std::size_t d, int m) {
+            return m == 0 ? 1.0 : double(block.aliases[2 * d + (m > 0 ? 1 : 0)]);
+        };
+        for (int k = -1; k <= 1; ++k)
+            for (int j = -1; j <= 1; ++j)
+                for (int i = -1; i <= 1; ++i) {
+                    const double amplitude = along(0, i) * along(1, j) * along(2, k);
+                    if ((i != 0 || j != 0 || k != 0) && std::abs(amplitude) > negligible)
+                        use(double(i) * m_fields.periodsMm[0] + double(j) * m_fields.periodsMm[1] +
+                                double(k) * m_fields.periodsMm[2],
+                            amplitude);
+                }
+    }
+
+    // Whether the picture misses some sample of a block; `seen`: its middle.
+    bool reachesBeyond(const CoarseFields::Block &block, const glm::dvec2 &seen) const {
+        for (int axis = 0; axis < 2; ++axis) {
+            double half = 0.0;
+            for (std::size_t d = 0; d < 3; ++d)
+                half += double(block.halfSteps[d]) *
+                        std::abs(glm::dot(m_fields.lattice.step(int(d)), m_axes[axis]));
+            if (std::abs(seen[axis]) + half > 0.5 * m_windowMm[axis])
+                return true;
+        }
+        return false;
+    }
+
+    bool isWhole() const { return m_blocks.beyond <= 1e-9 * m_blocks.all; }
 
     // Coarse pixels larger than the blocks spread each block over several pixels.
     double coherentAliases() const {
@@ -176,12 +212,12 @@ private:
     }
 
     // Detail finer than the blocks (edges and noise) has aliases in proportion to its energy.
-    // Beside the picture, samples are taken as uncorrelated.
+    // Beside the picture, samples are taken as uncorrelated. Blocks at its edge count as beside it.
     double detailAliases() const {
         const double cellMm3 = m_fields.lattice.cellVolumeMm3(),
                      lengthMm =
                          cellMm3 / std::max(std::pow(cellMm3, 2.0 / 3.0), m_pixelMm * m_pixelMm),
-                     outside = std::max(0.0, m_blocks.all - m_blocks.inPicture),
+                     outside = std::max(m_blocks.beyond, m_blocks.all - m_blocks.inPicture),
                      unseen = std::max(0.05 * m_imageEnergy,
                                        m_imageEnergy - m_blocks.projectionInPicture);
         return m_blocks.aliases * (unseen + outside * lengthMm) / m_blocks.all;
@@ -232,13 +268,15 @@ private:
     }
 
     // The rounding of all cells except the central ones, over the whole period. The cue weights it
-    // by the depths of the whole period, and the image by the depths of the field.
+    // by the depths of the whole period, and the image by the depths of the field. Where the field
+    // is dark, a few bright cells beside it dominate.
     double otherRounding(double whole) const {
         const shading::DepthCue &cue = m_context.shading.cue;
         const double cueRms = plan::cueRms(cue),
                      dimmed = cueRms * cueRms * m_energyWithoutCue / m_blocks.all;
         return m_fields.rounding * m_fields.rounding * m_fields.kernelEnergy * m_blocks.inverse /
-               m_energyWithoutCue * (cue.isActive() ? std::max(1.0, dimmed) : 1.0) *
+               m_energyWithoutCue *
+               (cue.isActive() ? std::max(1.0, dimmed * std::min(2.0, dimmed)) : 1.0) *
                std::max(0.05 * whole, whole - m_centralSlice);
     }
 
@@ -268,11 +306,21 @@ private:
     }
 
     // Tails of the roll-off that come back into the picture after a period. The sampled edge of the
-    // band may miss the lines of a pattern, which the picture shows.
+    // band may miss the lines of a pattern. In the picture they are seen; beside it, the field's
+    // own roughness tells, reduced because projections are smoother than samples, and limited to
+    // that of white samples in pixels of this size.
     double foldedTails(double whole) const {
+        double roughness = 0.0;
+        for (const auto &spread : m_fields.spreads)
+            roughness = std::max(roughness, spread->roughness);
+        const double stepMm = m_fields.lattice.shortestStepMm(),
+                     white = std::min(1.0, 0.2 * std::pow(std::max(1.0, m_pixelMm / stepMm), 2.0)),
+                     margin = std::lerp(outsideMargin, outsidePointMargin, sparsity()),
+                     outside = margin * std::min(projectedRoughness * roughness, white) *
+                               (whole - m_imageEnergy);
         const double pattern =
-            patternMargin * m_imageEnergy *
-            (m_sums.across * m_blocks.tailsAcross + m_sums.down * m_blocks.tailsDown) /
+            ((patternMargin * m_sums.across * m_imageEnergy + outside) * m_blocks.tailsAcross +
+             (patternMargin * m_sums.down * m_imageEnergy + outside) * m_blocks.tailsDown) /
             m_blocks.all;
         const double edge = edgeTails(m_places, {m_windowMm, m_periodMm, m_pixelMm},
                                       m_context.image.rollOff, m_edge);
@@ -295,27 +343,8 @@ private:
         return worst;
     }
 
-    // The error of narrower kernels follows the field's energy, but tiles are so narrow that part
-    // of it spreads over the whole picture.
-    double narrowing() const {
-        double area = 1.0; // the picture's share of the field's
-        for (int axis = 0; axis < 2; ++axis) {
-            const double lengthMm = extentMm(m_axes[axis]);
-            area *= std::min(lengthMm, m_windowMm[axis]) / lengthMm;
-        }
-        const double share =
-            std::max(narrowMargin * m_blocks.inPicture / m_blocks.all, spreadMargin * area);
-        return sampleMargin * m_narrowing * std::min(1.0, share);
-    }
-
-    // The extent of the lattice along a direction.
-    double extentMm(const glm::dvec3 &direction) const {
-        const volume::Lattice &lattice = m_fields.lattice;
-        double extent = 0.0;
-        for (int d = 0; d < 3; ++d)
-            extent += lattice.size()[d] * std::abs(glm::dot(lattice.step(d), direction));
-        return extent;
-    }
+    // The picture may show a small part with all of the detail that narrower kernels blur.
+    double narrowing() const { return sampleMargin * m_narrowing; }
 
     // A linear cue has its own kernels for depth, and these have their own error: the energy
     // without the cue, times the depth of a period.

@@ -20,6 +20,7 @@ struct AxisBlock {
     double middle;        ///< index of its middle in the lattice
     double before, after; ///< amplitudes of the aliases of the periods below and above
     double inverse;       ///< 1/h^2
+    double halfSteps;     ///< from the middle to the outer samples
 };
 
 // One axis of a layout, with the fields' energy along it.
@@ -102,7 +103,7 @@ private:
         return {middle + m_first,
                 std::copysign(std::sqrt(before / all), m_kernel.apodisation(x - 1.0)),
                 std::copysign(std::sqrt(after / all), m_kernel.apodisation(x + 1.0)),
-                isShort() ? 1.0 : inverse / all};
+                isShort() ? 1.0 : inverse / all, 0.5 * (range.last - range.first)};
     }
 
     const fourier::Kernel &m_kernel;
@@ -121,6 +122,7 @@ CoarseFields::Block blockAt(const std::array<std::uint8_t, 3> &at, const AxisBlo
                          lattice.center().mm;
     block.aliases = {float(i.before), float(i.after),  float(j.before),
                      float(j.after),  float(k.before), float(k.after)};
+    block.halfSteps = {float(i.halfSteps), float(j.halfSteps), float(k.halfSteps)};
     block.inverse = float(i.inverse * j.inverse * k.inverse);
     return block;
 }

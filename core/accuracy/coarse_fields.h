@@ -16,8 +16,9 @@ namespace pellucid::accuracy {
 struct CoarseFields {
     struct Block { ///< one place; any field may have a part in it
         glm::dvec3 fromCentreMm{0.0};
-        std::array<float, 6> aliases{}; ///< of the aliases along each axis, in periods -1 and 1
-        float inverse = 1.0F;           ///< 1/h^2, the product over the axes
+        std::array<float, 6> aliases{};   ///< of the aliases along each axis, in periods -1 and 1
+        std::array<float, 3> halfSteps{}; ///< from the middle to the outer samples, by axis
+        float inverse = 1.0F;             ///< 1/h^2, the product over the axes
     };
     struct Part { ///< the part of a field in a block
         std::uint32_t block = 0;

@@ -63,7 +63,7 @@ PictureSums pictureSums(const picture::ProjectionImage &picture, int channel) {
     };
     EdgeFilter filter;
     // A subset of the lines of a large picture is enough.
-    constexpr int enough = 128;
+    constexpr int enough = 64;
     const auto along = [&](int lines, int length, const auto &sample) {
         std::array<double, 2> sums{};
         const int step = std::max(1, lines / enough);

@@ -69,7 +69,7 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
     const shading::SliceShading slices = shading::sliceShading(shading, camera.axes(), {});
     render::FrameSetup setup(m_fieldOfView, engine.widths);
     const render::FrameInputs inputs =
-        setup.inputsFor(engine.spectra, channelWeights, camera, image, shading);
+        setup.inputsFor(engine.spectra, channelWeights, camera, image, shading, plan::onAllThreads);
     const PictureContext context{picture,
                                  camera,
                                  image,

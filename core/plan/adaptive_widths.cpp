@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include "core/plan/cost_model.h"
 
 namespace pellucid::plan {
@@ -276,6 +278,10 @@ WidthMap::Shares WidthMap::shares(const SlicePlane &plane) const {
 void inOrder(int count, const std::function<void(int)> &work) {
     for (int n = 0; n < count; ++n)
         work(n);
+}
+
+void onAllThreads(int count, const std::function<void(int)> &work) {
+    tbb::parallel_for(0, count, work);
 }
 
 WidthMap AdaptiveWidths::mapFor(const glm::dmat3 &axes, const SlicePlane &plane,

@@ -59,6 +59,7 @@ struct WidthMap {
 /// Runs `work(n)` for n = 0..count-1, in any order and on any threads. The work does not throw.
 using ForEach = std::function<void(int count, const std::function<void(int)> &work)>;
 void inOrder(int count, const std::function<void(int)> &work);
+void onAllThreads(int count, const std::function<void(int)> &work);
 
 /// Chooses the kernel widths for each view. Most frequencies of a picture have almost no energy: a
 /// narrow kernel is accurate enough for them, or they need not be read. The fastest choice within

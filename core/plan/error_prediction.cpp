@@ -271,7 +271,7 @@ double minRms(const std::function<double(double)> &cue, const EnergySpread &spre
 }
 
 // A floor for where the cue is darkest: neighbours are brighter.
-constexpr double darkest = 0.02;
+constexpr double darkest = 0.002;
 
 } // namespace
 

@@ -220,23 +220,13 @@ TEST_P(AdaptiveWidths, DifferNoMoreThanPredictedUnderCuesAndLights) {
 // The point of narrower kernels: a smooth field needs few taps.
 TEST(WidthShares, ASmoothFieldReadsLessThanHalfOfTheTaps) {
     const volume::Lattice lattice = lattices()[0];
-    std::vector<float> samples;
-    for (int k = 0; k < 60; ++k)
-        for (int j = 0; j < 60; ++j)
-            for (int i = 0; i < 60; ++i) {
-                const glm::dvec3 mm = lattice.patient(volume::VoxelIndex{i, j, k}).mm;
-                samples.push_back(float(std::exp(-glm::dot(mm, mm) / 100.0)));
-            }
+    const volume::Volume blob = test::volumeOf(
+        lattice, [](const glm::dvec3 &mm) { return std::exp(-glm::dot(mm, mm) / 100.0); });
     scene::Scene scene = sceneOf(lattice, 1.0, 5);
     scene.interpolation = {};
     scene.tolerance = 1e-2;
     const auto prepared = prepare::prepareEngine(
-        scene,
-        classify::ShownFields{
-            {classify::densityField(
-                volume::Volume(lattice, std::move(samples), volume::ValueUnit::none), {0.0, 1.0})},
-            {}},
-        {});
+        scene, classify::ShownFields{{classify::densityField(blob, {0.0, 1.0})}, {}}, {});
     picture::FrameTimes times;
     prepared.engine->render(scene.camera, scene.image, {}, &times);
     const auto &shares = times.widthShares;
