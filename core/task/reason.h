@@ -100,7 +100,7 @@ constexpr int placesIn(std::string_view english) {
 /// One for each sentence: `because::isEmpty`, `because::gapBetween(mm, a, b)`.
 namespace because {
 #define PELLUCID_REASON(name, english)                                                             \
-    inline constexpr Because<placesIn(english)> name{Reason::Id::name};
+    inline constexpr Because<placesIn(english)> name{Reason::Id::name}; // NOLINT: a name
 #include "core/task/reasons.inc"
 #undef PELLUCID_REASON
 } // namespace because
