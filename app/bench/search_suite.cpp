@@ -85,7 +85,9 @@ void runSweepSuite(const Report &report, int fields, std::uint64_t seed) {
         if (picture.measured > picture.planned)
             reportPicture(picture, "the plan's bound is too low");
     });
-    for (auto &[tolerance, at] : tolerances) {
+    for (auto &entry : tolerances) {
+        const double tolerance = entry.first;
+        Tolerance &at = entry.second;
         if (at.stated.empty())
             continue;
         std::sort(at.stated.begin(), at.stated.end());
