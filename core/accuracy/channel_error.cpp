@@ -22,7 +22,7 @@ namespace {
 // Margins, as energy, for what coarse blocks and mean energies do not model. They were fitted to
 // 2,000 random pictures of the bench's suite `pictures` (seeds 604, 911, 1201 to 1204, 1301 to
 // 1304, 1401 to 1403, 1501, 1701), which can therefore no longer test them; those of coarse pixels,
-// points and tails also to counterexamples and to seeds 9001, 9101 and 9301.
+// points and tails also to counterexamples and to seeds 9001, 9101, 9301 and 777001.
 constexpr double coherentMargin = 2.7, ///< aliases, block by block
     sampleMargin = 1.3,                ///< narrower kernels, of which a sample is known
     detailMargin = 2.4,                ///< aliases of detail finer than the blocks
@@ -95,7 +95,7 @@ private:
         double aliases = 0.0;                      ///< in the picture
         double inverse = 0.0;                      ///< of blocks without the cue, divided by h^2
         double tailsAcross = 0.0, tailsDown = 0.0; ///< of their tails in the picture
-        // Of their joint projection.
+        // Energies of the joint projection.
         double projectionInPicture = 0.0;
         double aliasesInPicture = 0.0;
     };

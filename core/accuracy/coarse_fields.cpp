@@ -60,7 +60,7 @@ public:
         return worst;
     }
 
-    // Of a few samples, all cells are alike, and errors stay where the samples are.
+    // The cells of a few samples are alike, so their errors stay where the samples are.
     std::vector<double> roundingShares() const {
         constexpr int steps = 24;
         std::vector<double> shares(steps);

@@ -34,7 +34,7 @@ struct Interpolation {
     /// Reads every frequency of a picture with the same kernel, even where the tolerance would
     /// allow a narrower one or none.
     bool isUniform = false;
-    /// Whether the planner has choices to make that the tolerance depends on.
+    /// Whether the planner makes every choice that the tolerance depends on.
     bool isPlanned() const { return !kernel && !padding && !storage; }
     bool operator==(const Interpolation &) const = default;
 };
