@@ -19,6 +19,7 @@ struct Context {
 void addInfoCommand(CLI::App &app, const Context &context);
 void addRenderCommand(CLI::App &app, const Context &context);
 void addVolumeCommand(CLI::App &app, const Context &context);
+void addSegmentCommand(CLI::App &app, const Context &context);
 void addPresetCommand(CLI::App &app, const Context &context);
 void addPhantomCommand(CLI::App &app, const Context &context);
 

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +14,7 @@
 #include "app/cli/json_text.h"
 #include "app/cli/terminal.h"
 #include "core/dicom/scan.h"
+#include "core/segment/segmentation.h"
 #include "core/task/error.h"
 
 namespace pellucid::cli {
@@ -48,6 +50,43 @@ json volumeJson(const dicom::VolumeEntry &v) {
     return out;
 }
 
+// The names of a file's segments, or why it cannot be read.
+struct SegmentNames {
+    std::vector<std::string> names;
+    std::optional<task::Reason> reason;
+};
+
+SegmentNames segmentNames(const dicom::SegmentationFile &file) {
+    try {
+        return {segment::segmentNames(file.path), std::nullopt};
+    } catch (const task::Error &error) {
+        return {{}, error.reason()};
+    }
+}
+
+json segmentationJson(const dicom::Catalogue &catalogue, const dicom::SegmentationFile &file) {
+    const SegmentNames segments = segmentNames(file);
+    json out = {{"path", catalogue.named(file.path).string()},
+                {"modality", file.modality},
+                {"description", file.description},
+                {"segments", segments.names}};
+    if (segments.reason)
+        out["reason"] = segments.reason->english();
+    return out;
+}
+
+void printSegmentation(const dicom::Catalogue &catalogue, const dicom::SegmentationFile &file) {
+    const SegmentNames segments = segmentNames(file);
+    fmt::print("    {} {}: {}\n", printable(file.modality), printable(file.description),
+               printable(catalogue.named(file.path).string()));
+    std::string names;
+    for (const std::string &name : segments.names)
+        names += (names.empty() ? "" : ", ") + name;
+    fmt::print("      {}\n", segments.reason ? printable(segments.reason->english())
+                                             : fmt::format("{} segments: {}", segments.names.size(),
+                                                           printable(names)));
+}
+
 json catalogueJson(const dicom::Catalogue &catalogue) {
     json patients = json::array();
     for (const auto &p : catalogue.patients) {
@@ -67,10 +106,14 @@ json catalogueJson(const dicom::Catalogue &catalogue) {
                                   {"body_part", e.bodyPart},
                                   {"volumes", volumes}});
             }
+            json segmentations = json::array();
+            for (const auto &file : s.segmentations)
+                segmentations.push_back(segmentationJson(catalogue, file));
             studies.push_back({{"uid", s.uid},
                                {"date", s.date},
                                {"description", s.description},
-                               {"series", series}});
+                               {"series", series},
+                               {"segmentations", segmentations}});
         }
         patients.push_back({{"id", p.id},
                             {"name", p.name},
@@ -107,6 +150,8 @@ void printCatalogue(const dicom::Catalogue &catalogue) {
                         fmt::print("        {}\n", printable(w.english()));
                 }
             }
+            for (const auto &file : s.segmentations)
+                printSegmentation(catalogue, file);
         }
     }
     if (!catalogue.skipped.empty())

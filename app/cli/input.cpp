@@ -45,6 +45,10 @@ void requireNotRead(const std::vector<std::filesystem::path> &outs,
     check(path);
     for (const dicom::Skipped &s : catalogue.skipped)
         check(s.path);
+    for (const dicom::Patient &patient : catalogue.patients)
+        for (const dicom::Study &study : patient.studies)
+            for (const dicom::SegmentationFile &file : study.segmentations)
+                check(file.path);
     for (const dicom::Selection &s : dicom::selections(catalogue)) {
         for (const dicom::InstanceFile &file : s.series->files)
             check(file.path);

@@ -9,6 +9,7 @@
 
 #include "app/cli/input.h"
 #include "app/cli/scene_options.h"
+#include "app/cli/segment_options.h"
 #include "core/presets/preset_library.h"
 #include "core/task/error.h"
 
@@ -27,21 +28,11 @@ std::vector<double> weightsFromText(const std::string &text) {
 }
 
 classify::TissueClass classFromText(const std::string &text) {
-    const auto equals = text.find('=');
-    const auto colon = text.find(':', equals == std::string::npos ? 0 : equals);
-    if (equals == std::string::npos)
-        throw Error(ErrorCode::usage,
-                    because::inWords("--class: '" + text + "' is not NAME=WEIGHT[:#rrggbb]"));
-    classify::TissueClass tissue = classNamed(text.substr(0, equals));
+    const WeightedName named = parseWeightedName("--class", text);
+    classify::TissueClass tissue = classNamed(named.name);
     // Grey unless a color is named: so is the picture then.
-    tissue.color = colon == std::string::npos ? classify::Color{}
-                                              : classify::colorFromText(text.substr(colon + 1));
-    tissue.weight =
-        parseNumbers("--class",
-                     text.substr(equals + 1, colon == std::string::npos ? std::string::npos
-                                                                        : colon - equals - 1),
-                     ',', 1)
-            .front();
+    tissue.color = named.color.value_or(classify::Color{});
+    tissue.weight = named.weight;
     return tissue;
 }
 

@@ -66,6 +66,7 @@ int run(int argc, char **argv) {
     cli::addInfoCommand(app, context);
     cli::addRenderCommand(app, context);
     cli::addVolumeCommand(app, context);
+    cli::addSegmentCommand(app, context);
     cli::addPresetCommand(app, context);
     cli::addPhantomCommand(app, context);
     // CLI11 itself would only report that a subcommand is missing.
@@ -77,7 +78,7 @@ int run(int argc, char **argv) {
     };
     if (argc > 1 && !known(argv[1]))
         return report(std::string("unknown command '") + argv[1] +
-                          "': use info, render, volume, preset or phantom",
+                          "': use info, render, volume, segment, preset or phantom",
                       exitCode(task::ErrorCode::usage));
     try {
         app.parse(argc, argv);

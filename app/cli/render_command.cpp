@@ -17,6 +17,7 @@
 #include "app/cli/renderer.h"
 #include "app/cli/scene_fields.h"
 #include "app/cli/scene_options.h"
+#include "app/cli/segment_options.h"
 #include "app/cli/terminal.h"
 #include "core/files/file_set.h"
 #include "core/system/memory.h"
@@ -95,7 +96,9 @@ private:
             m_outs.push_back(out);
         m_input = openInput(m_options.input, m_outs, m_context);
         m_warnings = englishTexts(volume().notes().warnings);
-        m_scene = m_planned = sceneFor(m_options.scene, m_command, m_preset, volume());
+        m_segments = loadSegments(m_options.scene.segmentations, m_outs, volume(), m_context);
+        m_scene = m_planned =
+            sceneFor(m_options.scene, m_command, m_preset, volume(), m_segments.get());
         // The scene file may have brought colors.
         checkOutput(out, classify::isGrey(m_scene.look) && m_scene.shading.isGrey());
     }
@@ -113,7 +116,7 @@ private:
                 because::inWords(fmt::format("the volume needs {} MB, but only {} MB are allowed",
                                              (m_held >> 20) + 1, m_options.memory >> 20)),
                 m_options.input.path);
-        m_fields = fieldsFor(m_scene, volume(), m_context);
+        m_fields = fieldsFor(m_scene, volume(), m_segments, m_context);
         m_whyEmpty = whyEmpty(m_scene, volume(), m_fields);
         // If the program asked for more than is available, the system would kill it.
         m_budget.bytes = system::availableMemoryBytes();
@@ -128,10 +131,10 @@ private:
         try {
             m_renderer.reset();
             if (m_fields.channels.empty()) // this is not the first plan
-                m_fields = fieldsFor(m_scene, volume(), m_context);
+                m_fields = fieldsFor(m_scene, volume(), m_segments, m_context);
             // Another plan may need them, and steps of classes take long.
             classify::ShownFields fields = m_fields;
-            if (!classify::hasSteps(m_scene.look.classes))
+            if (!classify::haveRegions(m_scene.look.classes))
                 m_fields = {};
             m_renderer.emplace(m_planned, std::move(fields), m_budget, m_context);
             m_renderer->use(m_card);
@@ -234,6 +237,7 @@ private:
                             {"pixel_mm", m_scene.camera.pixelMm},
                             {"frames", frames()},
                             {"volume", volumeJson()},
+                            {"segmentations", segmentationsJson()},
                             {"window", {m_window.low, m_window.high}},
                             {"shading", json::parse(shading::toJson(m_scene.shading))},
                             {"milliseconds", timesJson()},
@@ -253,6 +257,22 @@ private:
                 {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
                 {"tilt_deg", l.shearRad() * 180.0 / 3.14159265358979323846},
                 {"series", m_input.seriesUid}};
+    }
+
+    json segmentationsJson() const {
+        json all = json::array();
+        if (!m_segments)
+            return all;
+        for (const segment::Segmentation &segmentation : m_segments->segmentations()) {
+            json segments = json::array();
+            for (const segment::Segment &segment : segmentation.segments)
+                segments.push_back(
+                    {{"name", segment.name}, {"volume_ml", segment.volumeMm3 / 1000.0}});
+            all.push_back({{"title", segmentation.title},
+                           {"segments", segments},
+                           {"warnings", englishTexts(segmentation.warnings)}});
+        }
+        return all;
     }
 
     json timesJson() const {
@@ -275,6 +295,7 @@ private:
     std::optional<presets::Preset> m_preset; ///< of --preset
     std::vector<fs::path> m_outs;
     Input m_input;
+    std::shared_ptr<const segment::SegmentSet> m_segments; ///< of --segmentation, or null
     std::vector<std::string> m_warnings;
     scene::Scene m_scene;
     scene::Scene m_planned; ///< with a smaller tolerance, if a part of the volume needs one

@@ -26,8 +26,10 @@ classify::FieldWindow windowFor(const scene::Scene &scene, const volume::Volume 
 }
 
 classify::ShownFields fieldsFor(const scene::Scene &scene, const volume::Volume &volume,
+                                const std::shared_ptr<const segment::SegmentSet> &segments,
                                 const Context &context) {
     preprocess::StepCache steps(budgetOfSteps);
+    steps.setSegments(segments);
     return classify::cropped(classify::shownFields(volume, windowFor(scene, volume), scene.look,
                                                    &steps, task::Progress(context.stop)),
                              scene.crop);

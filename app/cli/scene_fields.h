@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,15 +10,17 @@
 #include "core/classify/shown_fields.h"
 #include "core/presets/preset.h"
 #include "core/scene/scene.h"
+#include "core/segment/segment_set.h"
 
 namespace pellucid::cli {
 
 /// The window of a scene's field: its own, or the volume's default.
 classify::FieldWindow windowFor(const scene::Scene &scene, const volume::Volume &volume);
 
-/// The cropped fields of a volume that a scene shows. The results of steps are not kept. *Throws*
-/// Error{outOfMemory}, Cancelled.
+/// The cropped fields of a volume that a scene shows. `segments`: null if none are loaded. The
+/// results of steps are not kept. *Throws* Error{outOfMemory}, Cancelled.
 classify::ShownFields fieldsFor(const scene::Scene &scene, const volume::Volume &volume,
+                                const std::shared_ptr<const segment::SegmentSet> &segments,
                                 const Context &context);
 
 /// Warnings about options that contradict each other or do not suit the volume, a line each.

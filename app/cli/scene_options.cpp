@@ -12,6 +12,7 @@
 
 #include "app/cli/input.h"
 #include "app/cli/look_options.h"
+#include "app/cli/segment_options.h"
 #include "core/files/read_text.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
@@ -121,6 +122,19 @@ void addLookOptions(CLI::App &command, SceneOptions &options) {
                     "NAME=WEIGHT[:#rrggbb]: show only the named classes, each with a weight "
                     "from 0 to 2; may be repeated")
         ->allow_extra_args(false);
+    CLI::Option *segmentation =
+        command
+            .add_option("--segmentation", options.segmentations,
+                        "A segmentation of the volume: DICOM SEG, RT structure set, or labels in "
+                        "NRRD, NIfTI or MetaImage; shows its segments; may be repeated")
+            ->check(notEmpty())
+            ->allow_extra_args(false);
+    command
+        .add_option("--segment", options.segments,
+                    "NAME=WEIGHT[:#rrggbb]: show only the named segments, each with a weight from "
+                    "0 to 2; '*' in NAME stands for any characters; may be repeated")
+        ->allow_extra_args(false)
+        ->needs(segmentation);
 }
 
 void addShadingOptions(CLI::App &command, SceneOptions &options) {
@@ -252,7 +266,8 @@ void setSize(scene::Camera &camera, const SceneOptions &o, const CLI::App &comma
 }
 
 void setLook(scene::Scene &scene, const SceneOptions &o, const CLI::App &command,
-             const std::optional<presets::Preset> &preset, const volume::Volume &volume) {
+             const std::optional<presets::Preset> &preset, const volume::Volume &volume,
+             const segment::SegmentSet *segments) {
     if (preset)
         scene.fieldWindow = preset->window;
     if (isGiven(command, "--window"))
@@ -261,6 +276,8 @@ void setLook(scene::Scene &scene, const SceneOptions &o, const CLI::App &command
         scene.look = presets::lookFor(
             *preset, scene.fieldWindow.value_or(classify::defaultFieldWindow(volume)));
     changeLook(scene.look, o);
+    if (segments != nullptr)
+        showSegments(scene.look, o, *segments);
 }
 
 void setShading(scene::Scene &scene, const SceneOptions &o, const CLI::App &command,
@@ -315,13 +332,14 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
 }
 
 scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
-                      const std::optional<presets::Preset> &preset, const volume::Volume &volume) {
+                      const std::optional<presets::Preset> &preset, const volume::Volume &volume,
+                      const segment::SegmentSet *segments) {
     const volume::Lattice &lattice = volume.lattice();
     scene::Scene scene = startingScene(o, command, lattice);
     setOrientation(scene.camera, o, command);
     setPixel(scene.camera, o, command, lattice);
     setSize(scene.camera, o, command);
-    setLook(scene, o, command, preset, volume);
+    setLook(scene, o, command, preset, volume, segments);
     setShading(scene, o, command, preset);
     if (isGiven(command, "--crop")) {
         const auto n = parseNumbers("--crop", o.crop, ',', 6);

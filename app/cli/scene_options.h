@@ -7,6 +7,7 @@
 
 #include "core/presets/preset.h"
 #include "core/scene/scene.h"
+#include "core/segment/segment_set.h"
 
 namespace CLI {
 class App;
@@ -19,7 +20,7 @@ struct SceneOptions {
     std::string scene, preset, view, orientation, size, window, bezier, reconstruction, quality,
         kernel, storage, depthCue, lightFrame, crop;
     bool isUniform = false;
-    std::vector<std::string> classes, lights;
+    std::vector<std::string> classes, lights, segmentations, segments;
     double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0, pixelMm = 0.0, rollOff = -1.0,
            tolerance = 0.0, padding = 0.0, ambient = 1.0;
 };
@@ -28,9 +29,10 @@ struct SceneOptions {
 void addSceneOptions(CLI::App &command, SceneOptions &options);
 
 /// The scene that the options ask for: the scene file's, or else the default one, changed by the
-/// preset and then by the options that are given. *Throws* Error{usage}; Error{unusable} for a
-/// file.
+/// preset and then by the options that are given. `segments`: null if none are loaded. *Throws*
+/// Error{usage}; Error{unusable} for a file.
 scene::Scene sceneFor(const SceneOptions &options, const CLI::App &command,
-                      const std::optional<presets::Preset> &preset, const volume::Volume &volume);
+                      const std::optional<presets::Preset> &preset, const volume::Volume &volume,
+                      const segment::SegmentSet *segments);
 
 } // namespace pellucid::cli

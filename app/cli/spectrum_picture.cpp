@@ -10,6 +10,7 @@
 #include "app/cli/json_text.h"
 #include "app/cli/look_options.h"
 #include "app/cli/scene_fields.h"
+#include "app/cli/segment_options.h"
 #include "app/cli/terminal.h"
 #include "core/files/image_files.h"
 #include "core/prepare/prepared_engine.h"
@@ -48,11 +49,12 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
     const Input input = openInput(inputOptions, {out}, context);
     const volume::Volume &volume = input.loaded.volume;
     const auto preset = presetFor(options);
-    scene::Scene scene = sceneFor(options, command, preset, volume);
+    const auto segments = loadSegments(options.segmentations, {out}, volume, context);
+    scene::Scene scene = sceneFor(options, command, preset, volume, segments.get());
     scene.shading = {}; // may come from a preset or a scene file
     const task::Progress progress(context.stop);
     const classify::FieldWindow window = windowFor(scene, volume);
-    const classify::ShownFields fields = fieldsFor(scene, volume, context);
+    const classify::ShownFields fields = fieldsFor(scene, volume, segments, context);
     if (const std::string why = whyEmpty(scene, volume, fields); !why.empty())
         throw Error(ErrorCode::unusable, because::inWords(why));
     const auto prepared = prepare::prepareEngine(

@@ -8,6 +8,7 @@
 #include "app/cli/input.h"
 #include "app/cli/look_options.h"
 #include "app/cli/scene_options.h"
+#include "app/cli/segment_options.h"
 #include "app/cli/spectrum_picture.h"
 #include "core/classify/shown_fields.h"
 #include "core/preprocess/step_cache.h"
@@ -27,13 +28,14 @@ struct Options {
     bool field = false, edges = false, spectrum = false, gzip = false, json = false;
 };
 
-// Completes the classes for a look: a name alone has the weight 1.
+// Completes the classes and segments for a look: a name alone has the weight 1.
 SceneOptions withWeights(SceneOptions scene, bool edges) {
     if (edges)
         scene.classes = {"edges"};
-    for (std::string &text : scene.classes)
-        if (text.find('=') == std::string::npos)
-            text += "=1";
+    for (auto *const names : {&scene.classes, &scene.segments})
+        for (std::string &text : *names)
+            if (text.find('=') == std::string::npos)
+                text += "=1";
     return scene;
 }
 
@@ -46,9 +48,14 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     if (std::filesystem::path(o.out).extension() != ".nrrd")
         throw task::Error(task::ErrorCode::usage,
                           because::inWords("-o: '" + o.out + "' must end in .nrrd"));
-    if (command.count("--window") > 0 && !o.field && o.scene.classes.empty() && !o.edges)
+    const bool hasSegment = !o.scene.segments.empty();
+    if (command.count("--window") > 0 && !o.field && o.scene.classes.empty() && !o.edges &&
+        !hasSegment)
         throw task::Error(task::ErrorCode::usage,
-                          because::inWords("--window needs --field or --class"));
+                          because::inWords("--window needs --field, --class or --segment"));
+    if (!o.scene.segmentations.empty() && !hasSegment)
+        throw task::Error(task::ErrorCode::usage,
+                          because::inWords("--segmentation needs --segment"));
     if (o.scene.classes.size() > 1)
         throw task::Error(task::ErrorCode::usage,
                           because::inWords("--class: only one class can be written"));
@@ -61,6 +68,15 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const Input input = openInput(o.input, {o.out}, context);
     const volume::Volume &volume = input.loaded.volume;
     const auto encoding = o.gzip ? volume::NrrdEncoding::gzip : volume::NrrdEncoding::raw;
+    const auto segments = loadSegments(o.scene.segmentations, {o.out}, volume, context);
+    classify::Look shown;
+    if (segments)
+        showSegments(shown, withWeights(o.scene, false), *segments);
+    if (shown.classes.size() > 1)
+        throw task::Error(task::ErrorCode::usage,
+                          because::inWords("--segment: only one segment can be written"));
+    if (!shown.classes.empty())
+        tissue = shown.classes.front();
     if (!o.field && !tissue) {
         volume::writeNrrd(o.out, volume, encoding, task::Progress(context.stop));
         return;
@@ -68,6 +84,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const task::Progress progress(context.stop);
     const auto wanted = window.value_or(classify::defaultFieldWindow(volume));
     preprocess::StepCache steps(0); // no step runs twice
+    steps.setSegments(segments);
     const auto field = tissue ? classify::classField(volume, wanted, *tissue, &steps, progress)
                               : classify::densityField(volume, wanted, progress);
     volume::writeNrrd(o.out, field.values.asVolume(), encoding, task::Progress(context.stop));
@@ -100,7 +117,8 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
     addSceneOptions(*c, o->scene);
     for (CLI::Option *option : c->get_options())
         if (std::find(before.begin(), before.end(), option) == before.end() &&
-            option->get_name() != "--window" && option->get_name() != "--class")
+            option->get_name() != "--window" && option->get_name() != "--class" &&
+            option->get_name() != "--segmentation" && option->get_name() != "--segment")
             option->needs(spectrum)->group("With --spectrum");
     for (const char *name : shadingOptions)
         c->get_option(name)->group(""); // refused, therefore not offered
@@ -109,6 +127,12 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
                       "NAME[=WEIGHT[:#rrggbb]], may be repeated")
         ->excludes(field)
         ->excludes(edges);
+    c->get_option("--segment")
+        ->description("Write the field of a segment; with --spectrum: NAME[=WEIGHT[:#rrggbb]], may "
+                      "be repeated")
+        ->excludes(field)
+        ->excludes(edges)
+        ->excludes("--class");
     c->add_flag("--json", o->json, "Print a report as one JSON object")->needs(spectrum);
     c->callback([o, c, context] { naming(o->input.path, [&] { run(*o, *c, context); }); });
 }

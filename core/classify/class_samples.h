@@ -7,6 +7,7 @@
 
 #include "core/classify/tissue_class.h"
 #include "core/task/progress.h"
+#include "core/volume/coverage.h"
 #include "core/volume/volume.h"
 
 namespace pellucid::classify {
@@ -26,19 +27,22 @@ struct ClassSamples {
     DensityKind density = DensityKind::window;
     /// *Shape*: one per sample; null: inside everywhere.
     std::shared_ptr<const std::vector<Region>> regions;
+    /// The share of each sample that belongs to the class's region; null: all of it.
+    std::shared_ptr<const volume::Coverage> coverage;
 };
 
-/// Runs the steps of classes. An interface, because they are implemented in core/preprocess.
+/// Finds the samples of classes: takes their segments and runs their steps. An interface, because
+/// they are implemented in core/preprocess.
 class StepRunner {
 public:
     virtual ~StepRunner() = default;
-    /// *Throws* Error{outOfMemory}, Cancelled.
+    /// *Throws* Error{usage} if the class's segment is not loaded, Error{outOfMemory}, Cancelled.
     virtual ClassSamples run(const volume::Volume &volume, const TissueClass &tissue,
                              const task::Progress &progress) = 0;
 };
 
 /// The samples of a class: the volume's own, or the runner's result. *Throws* Error{usage} if there
-/// are steps but no runner.
+/// are steps or a segment but no runner.
 ClassSamples samplesOf(const volume::Volume &volume, const TissueClass &tissue, StepRunner *runner,
                        const task::Progress &progress = {});
 

@@ -40,7 +40,7 @@ DensityField layerField(const volume::Volume &volume, const FieldWindow &window,
     return task::orOutOfMemory(task::because::noMemoryForABasisField, [&] {
         std::vector<std::vector<float>> sums(
             1, std::vector<float>(volume.lattice().size().count(), 0.0F));
-        addCurves(volume, nullptr, {&curve, 1}, sums, progress);
+        addCurves({volume}, {&curve, 1}, sums, progress);
         return fieldOf(volume, std::move(sums.front()));
     });
 }

@@ -8,9 +8,9 @@
 
 namespace pellucid::classify {
 
-bool hasSteps(const std::vector<TissueClass> &classes) {
+bool haveRegions(const std::vector<TissueClass> &classes) {
     return std::any_of(classes.begin(), classes.end(),
-                       [](const TissueClass &tissue) { return !tissue.steps.empty(); });
+                       [](const TissueClass &tissue) { return !tissue.isRange(); });
 }
 
 std::vector<TissueClass> visibleClasses(const Look &look) {

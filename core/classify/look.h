@@ -9,8 +9,8 @@
 
 namespace pellucid::classify {
 
-/// More cannot be distinguished, and each may need a spectrum.
-inline constexpr std::size_t maxClasses = 64;
+/// An atlas of the whole body has some hundred segments.
+inline constexpr std::size_t maxClasses = 1000;
 
 /// How a volume is shown: its density through a transfer function, or, if there are classes, the
 /// sum of weight times class in the colors of the classes.
@@ -23,8 +23,8 @@ struct Look {
 /// *Throws* Error{usage} naming the value that is out of range.
 void validate(const Look &look);
 
-/// Whether any of the classes has steps.
-bool hasSteps(const std::vector<TissueClass> &classes);
+/// Whether values alone do not decide about any of the classes: it has steps, or a segment.
+bool haveRegions(const std::vector<TissueClass> &classes);
 
 /// The classes with a nonzero weight; the others cost nothing.
 std::vector<TissueClass> visibleClasses(const Look &look);

@@ -54,6 +54,10 @@ TissueClass classFrom(const JsonValue &in) {
     }
     if (const JsonValue function = in["transfer_function"])
         tissue.transferFunction = functionFrom(function);
+    if (const JsonValue segment = in["segment"])
+        tissue.segment = segment.text();
+    if (const JsonValue edge = in["edge"])
+        tissue.edge = edge.number();
     if (const JsonValue steps = in["steps"])
         for (const JsonValue &step : steps.elements())
             tissue.steps.push_back(stepFrom(step));
@@ -69,6 +73,10 @@ json classJson(const TissueClass &tissue) {
                 {"color", colorText(tissue.color)}};
     if (tissue.transferFunction)
         out["transfer_function"] = tissue.transferFunction->weights;
+    if (!tissue.segment.empty())
+        out["segment"] = tissue.segment;
+    if (tissue.edge != 0.0)
+        out["edge"] = tissue.edge;
     for (const Step &step : tissue.steps) {
         json one = {{"kind", describe(step.kind).name}};
         for (const auto &[name, value] : step.parameters)

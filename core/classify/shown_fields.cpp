@@ -19,8 +19,9 @@ bool isDensity(const Look &look) {
     return look.classes.empty() && look.transferFunction.isPlain();
 }
 
-// The most memory that running steps needs, in floats per sample: edges hold the smoothed values,
-// their second derivative and its zero crossings, besides the memory for smoothing.
+// The most memory that finding the samples of classes needs, in floats per sample: edges hold the
+// smoothed values, their second derivative and its zero crossings, besides the memory for
+// smoothing.
 constexpr std::size_t stepFloats = 6;
 
 std::function<double(double)> shapeOf(const std::optional<TransferFunction> &function) {
@@ -37,8 +38,8 @@ WeightedCurve curveOf(const TissueClass &tissue, const FieldWindow &window, Dens
             std::array{w * amounts[0], w * amounts[1], w * amounts[2]}};
 }
 
-// The sums of the classes. All classes without steps share one pass over the volume. *Shape*: one
-// entry of `amounts` for each class.
+// The sums of the classes. All classes that values alone define share one pass over the volume.
+// *Shape*: one entry of `amounts` for each class.
 void addClasses(const volume::Volume &volume, const FieldWindow &window,
                 const std::vector<TissueClass> &shown, const std::vector<ColorBasis::Rgb> &amounts,
                 StepRunner *runner, std::vector<std::vector<float>> &sums,
@@ -47,26 +48,26 @@ void addClasses(const volume::Volume &volume, const FieldWindow &window,
     double done = 0.0;
     for (std::size_t n = 0; n < shown.size(); ++n) {
         const TissueClass &tissue = shown[n];
-        if (tissue.steps.empty()) {
+        if (tissue.isRange()) {
             together.push_back(curveOf(tissue, window, DensityKind::window, amounts[n]));
             continue;
         }
         const double next = done + 0.9 / double(shown.size());
         const ClassSamples samples = samplesOf(volume, tissue, runner, progress.part(done, next));
         const WeightedCurve curve = curveOf(tissue, window, samples.density, amounts[n]);
-        addCurves(samples.values, samples.regions.get(), {&curve, 1}, sums);
+        addCurves(samples, {&curve, 1}, sums);
         done = next;
     }
     if (!together.empty())
-        addCurves(volume, nullptr, together, sums, progress.part(done, 1.0));
+        addCurves({volume}, together, sums, progress.part(done, 1.0));
 }
 
 } // namespace
 
 ClassSamples samplesOf(const volume::Volume &volume, const TissueClass &tissue, StepRunner *runner,
                        const task::Progress &progress) {
-    if (tissue.steps.empty())
-        return {volume, DensityKind::window, nullptr};
+    if (tissue.isRange())
+        return {volume};
     if (runner == nullptr)
         throw task::Error(task::ErrorCode::usage, task::because::stepsCannotRun(tissue.name));
     return runner->run(volume, tissue, progress);
@@ -76,7 +77,7 @@ std::size_t peakBytes(const Look &look, std::size_t samples) {
     if (isDensity(look))
         return 0; // is read from the volume
     const std::size_t floats =
-        channelsOf(look) + (hasSteps(visibleClasses(look)) ? stepFloats : std::size_t(0));
+        channelsOf(look) + (haveRegions(visibleClasses(look)) ? stepFloats : std::size_t(0));
     return floats * samples * sizeof(float);
 }
 
@@ -95,7 +96,7 @@ ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window,
         if (look.classes.empty()) {
             const WeightedCurve curve{ValueCurve(window, DensityKind::window, std::nullopt,
                                                  shapeOf(look.transferFunction))};
-            addCurves(volume, nullptr, {&curve, 1}, sums, progress);
+            addCurves({volume}, {&curve, 1}, sums, progress);
         } else {
             addClasses(volume, window, shown, basis.amounts, runner, sums, progress);
         }

@@ -31,7 +31,8 @@ ShownFields inPrimaries(ShownFields fields, const task::Progress &progress = {})
 /// made, including the result.
 std::size_t peakBytes(const Look &look, std::size_t samples);
 
-/// `runner`: may be null if no class has steps. *Throws* Error{outOfMemory}, Cancelled.
+/// `runner`: may be null if no class has steps or a segment. *Throws* Error{outOfMemory},
+/// Cancelled.
 ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window, const Look &look,
                         StepRunner *runner, const task::Progress &progress = {});
 

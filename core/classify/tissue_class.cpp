@@ -59,6 +59,9 @@ void validate(const TissueClass &tissue) {
         refuse(
             because::classWeightOutOfRange(fmt::format("{:g}", tissue.weight),
                                            fmt::format("{:g}", TransferFunction::largestWeight)));
+    if (!(tissue.edge >= 0.0 && tissue.edge <= softestEdge))
+        refuse(because::edgeOutOfRange(fmt::format("{:g}", tissue.edge),
+                                       fmt::format("{:g}", softestEdge)));
     for (const double c : {tissue.color.red, tissue.color.green, tissue.color.blue})
         if (!(c >= 0.0 && c <= 1.0))
             refuse(because::colorOutOfRange);
@@ -93,8 +96,8 @@ const std::vector<TissueClass> &standardClasses() {
         {"contrast", 150, 500, 60, 1.0, {1.0, 0.35, 0.3}},
         {"bone", 250, 2500, 150, 1.0, {1.0, 0.95, 0.85}},
         {"metal", 2500, 32767, 300, 1.0, {0.7, 0.9, 1.0}},
-        {"body", -900, 32767, 50, 1.0, {0.85, 0.85, 0.85}, {}, {{StepKind::body, {}}}},
-        {"edges", -600, 32767, 100, 1.0, {0.9, 0.95, 1.0}, {}, {{StepKind::edges, {}}}}};
+        {"body", -900, 32767, 50, 1.0, {0.85, 0.85, 0.85}, {}, {{StepKind::body, {}}}, {}, 0.0},
+        {"edges", -600, 32767, 100, 1.0, {0.9, 0.95, 1.0}, {}, {{StepKind::edges, {}}}, {}, 0.0}};
     return classes;
 }
 

@@ -32,11 +32,23 @@ struct TissueClass {
     std::optional<TransferFunction> transferFunction;
     /// Preceding steps, in this order: those that change values come first.
     std::vector<Step> steps;
+    /// The name of the segment that the class is a part of; empty: of the whole volume.
+    std::string segment;
+    /// Fades the borders of a region that the segment or the steps define, which would ring, as a
+    /// Gaussian of this standard deviation does. *Units*: samples, 0 to `softestEdge`.
+    double edge = 0.0;
     bool operator==(const TissueClass &) const = default;
 
     /// 0 to 1: a raised cosine around each end of the range.
     double membership(double value) const;
+    /// Whether values alone decide which samples belong to the class.
+    bool isRange() const { return steps.empty() && segment.empty(); }
 };
+
+/// A range that contains every value, for classes that a segment defines.
+inline constexpr double lowestValue = -1e9, highestValue = 1e9;
+/// The edge of a segment's class unless another is chosen.
+inline constexpr double defaultEdge = 0.5, softestEdge = 4.0;
 
 /// Each step takes seconds; more are of no use.
 inline constexpr std::size_t maxSteps = 16;

@@ -83,25 +83,37 @@ float ValueCurve::at(float value, Region region) const {
     return shown;
 }
 
-void addCurves(const volume::Volume &volume, const std::vector<Region> *region,
-               std::span<const WeightedCurve> curves, std::span<std::vector<float>> sums,
-               const task::Progress &progress) {
-    const volume::GridSize size = volume.lattice().size();
-    const std::size_t plane = std::size_t(size.i) * size.j;
+void addCurves(const ClassSamples &from, std::span<const WeightedCurve> curves,
+               std::span<std::vector<float>> sums, const task::Progress &progress) {
+    const volume::GridSize size = from.values.lattice().size();
+    const std::vector<Region> *const regions = from.regions.get();
+    const volume::Coverage *const coverage = from.coverage.get();
+    const volume::VoxelBox box =
+        coverage != nullptr ? coverage->box : from.values.lattice().bounds();
     const auto addPlanes = [&](auto samples, const auto &shares) {
-        tbb::parallel_for(0, size.k, [&](int k) {
+        tbb::parallel_for(box.lo.k, box.hi.k, [&](int k) {
             progress.check();
-            for (std::size_t n = k * plane; n < (k + 1) * plane; ++n) {
-                const Region where = region != nullptr ? (*region)[n] : Region::inside;
-                if (where == Region::outside)
-                    continue;
-                const Shares share = shares(samples[n], where);
-                for (std::size_t c = 0; c < sums.size(); ++c)
-                    sums[c][n] += share[c];
+            for (int j = box.lo.j; j < box.hi.j; ++j) {
+                const std::size_t row = size.offsetOf(0, j, k);
+                const std::uint8_t *const part =
+                    coverage != nullptr
+                        ? coverage->shares.data() + coverage->offsetOf({box.lo.i, j, k})
+                        : nullptr;
+                for (int i = box.lo.i; i < box.hi.i; ++i) {
+                    const std::size_t n = row + std::size_t(i);
+                    const Region where = regions != nullptr ? (*regions)[n] : Region::inside;
+                    const std::uint8_t covered = part != nullptr ? part[i - box.lo.i] : 255;
+                    if (where == Region::outside || covered == 0)
+                        continue;
+                    const Shares share = shares(samples[n], where);
+                    const float scale = float(covered) / float(volume::Coverage::whole);
+                    for (std::size_t c = 0; c < sums.size(); ++c)
+                        sums[c][n] += scale * share[c];
+                }
             }
         });
     };
-    volume.visit([&](auto samples) {
+    from.values.visit([&](auto samples) {
         using T = std::remove_const_t<typename decltype(samples)::element_type>;
         if constexpr (std::is_same_v<T, std::int16_t>) {
             const std::vector<Shares> table = tableOf(curves);

@@ -36,11 +36,9 @@ struct WeightedCurve {
     std::array<double, 3> weights{1.0, 1.0, 1.0};
 };
 
-/// Adds for each curve and sample: sums[c] += weight_c curve(value). *Shape*: one region per
-/// sample, or null for inside; one to three sums, each with the volume's number of samples.
-/// *Throws* Cancelled.
-void addCurves(const volume::Volume &volume, const std::vector<Region> *region,
-               std::span<const WeightedCurve> curves, std::span<std::vector<float>> sums,
-               const task::Progress &progress = {});
+/// Adds for each curve and sample of a class: sums[c] += weight_c share curve(value). *Shape*: one
+/// to three sums, each with the volume's number of samples. *Throws* Cancelled.
+void addCurves(const ClassSamples &samples, std::span<const WeightedCurve> curves,
+               std::span<std::vector<float>> sums, const task::Progress &progress = {});
 
 } // namespace pellucid::classify

@@ -10,6 +10,8 @@
 #include <thread>
 #include <unistd.h>
 
+#include <glm/gtx/component_wise.hpp>
+
 #include "core/decoder/child.h"
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
@@ -115,6 +117,17 @@ DecodedFile::DecodedFile(InstanceHeader h, std::span<const std::uint16_t> s,
 DecodedFile::DecodedFile(DecodedFile &&other) noexcept = default;
 
 DecodedFile::~DecodedFile() {
+    if (m_child)
+        m_decoder->release(std::move(m_child));
+}
+
+DecodedSegmentation::DecodedSegmentation(SegmentationHeader h, std::span<const std::byte> p,
+                                         std::unique_ptr<Child> child, Decoder &decoder)
+    : header(std::move(h)), pixels(p), m_child(std::move(child)), m_decoder(&decoder) {}
+
+DecodedSegmentation::DecodedSegmentation(DecodedSegmentation &&other) noexcept = default;
+
+DecodedSegmentation::~DecodedSegmentation() {
     if (m_child)
         m_decoder->release(std::move(m_child));
 }
@@ -228,6 +241,53 @@ DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress)
             return h;
         });
         return DecodedFile(std::move(header), samples, std::move(child), *this);
+    });
+}
+
+DecodedSegmentation Decoder::segmentation(const fs::path &path, const task::Progress &progress) {
+    const OpenFile file = open(path);
+    checkStart(file, path);
+    return naming(path, [&] {
+        auto child =
+            ask({Message::Kind::segmentation, 0, file.bytes, 0}, file.descriptor.get(), progress);
+        std::span<const std::byte> pixels;
+        SegmentationHeader header = answerOf(child, progress, [&](const Child::Answer &answer) {
+            SegmentationHeader h = unpackSegmentation(answer.body);
+            const std::uint64_t count = sampleCount(h.instance);
+            const std::uint64_t bytes =
+                h.kind == SegmentationKind::binary ? (count + 7) / 8 : 2 * count;
+            if (h.instance.rows > 65535 || h.instance.columns > 65535 || count == 0 ||
+                answer.data.size() != bytes)
+                throw Error(ErrorCode::unusable, because::decodedToNonsense);
+            file.requireUnchanged();
+            pixels = answer.data;
+            return h;
+        });
+        return DecodedSegmentation(std::move(header), pixels, std::move(child), *this);
+    });
+}
+
+DecodedStructureSet Decoder::structureSet(const fs::path &path, const task::Progress &progress) {
+    const OpenFile file = open(path);
+    checkStart(file, path);
+    return naming(path, [&] {
+        auto child =
+            ask({Message::Kind::structureSet, 0, file.bytes, 0}, file.descriptor.get(), progress);
+        DecodedStructureSet set = answerOf(child, progress, [&](const Child::Answer &answer) {
+            DecodedStructureSet read{unpackStructureSet(answer.body), {}};
+            const std::uint64_t points = pointCount(read.header);
+            if (answer.data.size() != points * sizeof(glm::dvec3))
+                throw Error(ErrorCode::unusable, because::decodedToNonsense);
+            read.points.resize(points);
+            std::memcpy(read.points.data(), answer.data.data(), answer.data.size());
+            for (const glm::dvec3 &point : read.points)
+                if (!(glm::compMax(glm::abs(point)) <= farthestMm))
+                    throw Error(ErrorCode::unusable, because::decodedToNonsense);
+            file.requireUnchanged();
+            return read;
+        });
+        release(std::move(child));
+        return set;
     });
 }
 

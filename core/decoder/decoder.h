@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/decoder/instance.h"
+#include "core/decoder/segmentation_file.h"
 #include "core/decoder/volume_layout.h"
 #include "core/task/progress.h"
 
@@ -34,6 +35,31 @@ public:
 private:
     std::unique_ptr<Child> m_child;
     class Decoder *m_decoder;
+};
+
+/// A decoded segmentation. Its decoder is not used for other files while this object exists.
+class DecodedSegmentation {
+public:
+    DecodedSegmentation(SegmentationHeader header, std::span<const std::byte> pixels,
+                        std::unique_ptr<Child> child, class Decoder &decoder);
+    ~DecodedSegmentation();
+    DecodedSegmentation(DecodedSegmentation &&other) noexcept;
+
+    SegmentationHeader header;
+    /// *Shape*: frames x rows x columns, of a binary segmentation a bit each, the lowest of a byte
+    /// first, without a gap between rows or frames; of others 16-bit values. A compromised decoder
+    /// may change them while they are read.
+    std::span<const std::byte> pixels;
+
+private:
+    std::unique_ptr<Child> m_child;
+    class Decoder *m_decoder;
+};
+
+/// An RT structure set. *Shape* of the points: of every contour of every structure, in order.
+struct DecodedStructureSet {
+    StructureSetHeader header;
+    std::vector<glm::dvec3> points; ///< in patient space, mm
 };
 
 /// The contents of an archive, file by file; `data` comes in parts, the last with `isLast`.
@@ -65,6 +91,10 @@ public:
     /// there is no decoder, Cancelled.
     InstanceHeader header(const std::filesystem::path &path, const task::Progress &progress = {});
     DecodedFile image(const std::filesystem::path &path, const task::Progress &progress = {});
+    DecodedSegmentation segmentation(const std::filesystem::path &path,
+                                     const task::Progress &progress = {});
+    DecodedStructureSet structureSet(const std::filesystem::path &path,
+                                     const task::Progress &progress = {});
     DirectoryFile directory(const std::filesystem::path &path, const task::Progress &progress = {});
     /// Calls `announce` with the names and sizes of all files first, then passes on their data.
     /// Callbacks may throw.
@@ -91,6 +121,7 @@ public:
 
 private:
     friend class DecodedFile;
+    friend class DecodedSegmentation;
     std::unique_ptr<Child> acquire(const task::Progress &progress);
     std::unique_ptr<Child> startChild(const task::Progress &progress) const;
     void release(std::unique_ptr<Child> child);

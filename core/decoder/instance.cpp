@@ -2,6 +2,9 @@
 #include "core/decoder/instance.h"
 
 #include <algorithm>
+#include <numeric>
+
+#include "core/decoder/segmentation_file.h"
 
 namespace pellucid::decoder {
 
@@ -9,19 +12,40 @@ namespace {
 
 namespace because = task::because;
 
-// Media Storage Directory Storage; Segmentation and Label Map
-// Segmentation Storage (PS3.4, B.5).
+// Media Storage Directory Storage; Segmentation, Label Map Segmentation and RT Structure Set
+// Storage (PS3.4, B.5).
 constexpr const char *directoryClass = "1.2.840.10008.1.3.10";
 constexpr const char *segmentationClass = "1.2.840.10008.5.1.4.1.1.66.4",
-                     *labelMapClass = "1.2.840.10008.5.1.4.1.1.66.7";
+                     *labelMapClass = "1.2.840.10008.5.1.4.1.1.66.7",
+                     *structureSetClass = "1.2.840.10008.5.1.4.1.1.481.3";
 
 } // namespace
+
+bool isSegmentation(const InstanceHeader &h) {
+    return h.sopClassUid == segmentationClass || h.sopClassUid == labelMapClass;
+}
+
+bool isStructureSet(const InstanceHeader &h) {
+    return h.sopClassUid == structureSetClass;
+}
+
+std::uint64_t pointCount(const StructureSetHeader &header) {
+    std::uint64_t points = 0;
+    for (const Structure &structure : header.structures)
+        points =
+            std::accumulate(structure.contourSizes.begin(), structure.contourSizes.end(), points);
+    return points;
+}
 
 std::optional<task::Reason> whyUnusable(const InstanceHeader &h) {
     if (h.sopClassUid == directoryClass)
         return because::isAnIndex;
-    if (h.sopClassUid == segmentationClass || h.sopClassUid == labelMapClass)
+    if (isSegmentation(h) || isStructureSet(h))
         return because::isASegmentation;
+    return whyUndecodable(h);
+}
+
+std::optional<task::Reason> whyUndecodable(const InstanceHeader &h) {
     if (h.floatPixels)
         return because::hasFloatingPointPixels;
     if (!h.hasPixels)

@@ -40,6 +40,7 @@ struct FrameHeader {
     double sliceThicknessMm = 0.0;       ///< 0 if unknown
     Rescale rescale;
     std::string imageType; ///< values joined with backslashes
+    int segment = 0;       ///< ReferencedSegmentNumber of a segmentation's frame; 0: none
     /// Attributes that can distinguish volumes at the same positions, by name: temporal position,
     /// acquisition, echo, ... Missing attributes are not listed.
     std::map<std::string, std::string> dimensions;
@@ -102,6 +103,8 @@ bool isHuge(const InstanceHeader &header, std::uint64_t fileBytes);
 
 /// Why a file's pixels cannot be part of a volume or an image set, or nothing if they can.
 std::optional<task::Reason> whyUnusable(const InstanceHeader &header);
+/// Why monochrome pixels of 8 or 16 bits cannot be decoded, whatever the file is.
+std::optional<task::Reason> whyUndecodable(const InstanceHeader &header);
 
 /// The contents of a DICOMDIR, or a DICOM file that is not one.
 struct DirectoryFile {

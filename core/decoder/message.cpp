@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstring>
+#include <set>
 #include <type_traits>
 
 #include <glm/geometric.hpp>
@@ -134,6 +135,7 @@ template <class A> void pass(A &archive, FrameHeader &frame) {
     pass(archive, frame.rescale.isSlopeReadable);
     pass(archive, frame.rescale.isInterceptReadable);
     pass(archive, frame.imageType);
+    pass(archive, frame.segment);
     pass(archive, frame.dimensions);
 }
 
@@ -186,9 +188,47 @@ template <class A> void pass(A &archive, VolumeLayout &layout) {
     pass(archive, layout.isDeflated);
     pass(archive, layout.isSwapped);
     pass(archive, layout.hasPatientSpace);
+    pass(archive, layout.segments);
     pass(archive, layout.dataFile);
     pass(archive, layout.at);
     pass(archive, layout.skip);
+}
+
+template <class A> void pass(A &archive, CodedConcept &code) {
+    for (std::string *const text : {&code.value, &code.scheme, &code.meaning})
+        pass(archive, *text);
+}
+
+template <class A> void pass(A &archive, SegmentDescription &segment) {
+    pass(archive, segment.number);
+    pass(archive, segment.label);
+    pass(archive, segment.description);
+    pass(archive, segment.color);
+    pass(archive, segment.category);
+    pass(archive, segment.type);
+}
+
+template <class A> void pass(A &archive, SegmentationHeader &header) {
+    pass(archive, header.instance);
+    auto kind = std::int32_t(header.kind);
+    pass(archive, kind);
+    header.kind = SegmentationKind(kind);
+    pass(archive, header.largestFraction);
+    pass(archive, header.segments);
+}
+
+template <class A> void pass(A &archive, Structure &structure) {
+    pass(archive, structure.number);
+    pass(archive, structure.name);
+    pass(archive, structure.color);
+    pass(archive, structure.type);
+    pass(archive, structure.contourSizes);
+    pass(archive, structure.ignoredContours);
+}
+
+template <class A> void pass(A &archive, StructureSetHeader &header) {
+    pass(archive, header.instance);
+    pass(archive, header.structures);
 }
 
 template <class A, class T> void pass(A &archive, std::optional<T> &value) {
@@ -243,12 +283,9 @@ template <class T> T unpacked(std::span<const std::byte> body) {
 
 } // namespace
 
-std::string pack(const InstanceHeader &header) {
-    return packed(header);
-}
+namespace {
 
-InstanceHeader unpackHeader(std::span<const std::byte> body) {
-    auto header = unpacked<InstanceHeader>(body);
+void requireValid(const InstanceHeader &header) {
     // Ranges that all other code relies on.
     const auto isWithin = [](double value, double most) { return std::abs(value) <= most; };
     const auto isUnit = [](const std::optional<glm::dvec3> &axis) {
@@ -270,9 +307,79 @@ InstanceHeader unpackHeader(std::span<const std::byte> body) {
             glm::length(position) > farthestMm || glm::compMin(spacing) < smallestSpacingMm ||
             glm::compMax(spacing) > largestSpacingMm ||
             !isWithin(frame.rescale.slope, largestRescale) ||
-            !isWithin(frame.rescale.intercept, largestRescale))
+            !isWithin(frame.rescale.intercept, largestRescale) || frame.segment < 0 ||
+            frame.segment > 65535)
             fail();
     }
+}
+
+void requireValid(const std::optional<glm::dvec3> &color) {
+    if (color && !(glm::compMin(*color) >= 0.0 && glm::compMax(*color) <= 1.0))
+        fail();
+}
+
+// Also checks the segments.
+std::set<int> numbersOf(const std::vector<SegmentDescription> &segments) {
+    std::set<int> numbers;
+    if (segments.size() > maxSegments)
+        fail();
+    for (const SegmentDescription &segment : segments) {
+        if (segment.number < 1 || segment.number > 65535 || !numbers.insert(segment.number).second)
+            fail();
+        requireValid(segment.color);
+    }
+    return numbers;
+}
+
+} // namespace
+
+std::string pack(const InstanceHeader &header) {
+    return packed(header);
+}
+
+InstanceHeader unpackHeader(std::span<const std::byte> body) {
+    auto header = unpacked<InstanceHeader>(body);
+    requireValid(header);
+    return header;
+}
+
+std::string pack(const SegmentationHeader &header) {
+    return packed(header);
+}
+
+SegmentationHeader unpackSegmentation(std::span<const std::byte> body) {
+    auto header = unpacked<SegmentationHeader>(body);
+    requireValid(header.instance);
+    if (header.kind < SegmentationKind::binary || header.kind > SegmentationKind::labelMap ||
+        header.largestFraction < 1 || header.largestFraction > 65535 || header.segments.empty())
+        fail();
+    const std::set<int> numbers = numbersOf(header.segments);
+    for (const FrameHeader &frame : header.instance.frames)
+        if (!frame.positionMm || !frame.rowAxis || !frame.columnAxis || !frame.spacingMm ||
+            (header.kind != SegmentationKind::labelMap && !numbers.contains(frame.segment)))
+            fail();
+    return header;
+}
+
+std::string pack(const StructureSetHeader &header) {
+    return packed(header);
+}
+
+StructureSetHeader unpackStructureSet(std::span<const std::byte> body) {
+    auto header = unpacked<StructureSetHeader>(body);
+    requireValid(header.instance);
+    if (header.structures.empty() || header.structures.size() > maxSegments)
+        fail();
+    for (const Structure &structure : header.structures) {
+        requireValid(structure.color);
+        if (structure.ignoredContours < 0)
+            fail();
+        for (const std::uint32_t points : structure.contourSizes)
+            if (points < 3 || points > maxContourPoints)
+                fail();
+    }
+    if (pointCount(header) > maxContourPoints)
+        fail();
     return header;
 }
 
@@ -311,6 +418,7 @@ VolumeLayout unpackLayout(std::span<const std::byte> body) {
             fail();
     if (!(glm::length(layout.originMm) <= farthestMm))
         fail();
+    numbersOf(layout.segments);
     // Divided, not multiplied: the product of three sizes may wrap.
     if (std::uint64_t(n.i) >
         std::uint64_t(volume::maxSamples) / std::uint64_t(n.j) / std::uint64_t(n.k))

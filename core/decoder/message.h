@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/decoder/instance.h"
+#include "core/decoder/segmentation_file.h"
 #include "core/decoder/volume_layout.h"
 #include "core/task/reason.h"
 
@@ -26,7 +27,9 @@ struct Message {
         samples, ///< `dataBytes`: in total; `code`: bytes each, and bits of `SampleFlag`
         granted, ///< `size`: of the arena now
         refused,
-        next, ///< part of an archive or of samples
+        next,         ///< part of an archive or of samples
+        segmentation, ///< a DICOM segmentation
+        structureSet, ///< an RT structure set
         // sent by the decoder
         ready = 100, ///< it is confined, see `Confinement`, in `code`
         need,        ///< `size`: of the arena
@@ -76,6 +79,10 @@ std::string pack(const std::vector<ArchiveFile> &files);
 std::vector<ArchiveFile> unpackArchiveFiles(std::span<const std::byte> body);
 std::string pack(const VolumeLayout &layout);
 VolumeLayout unpackLayout(std::span<const std::byte> body);
+std::string pack(const SegmentationHeader &header);
+SegmentationHeader unpackSegmentation(std::span<const std::byte> body);
+std::string pack(const StructureSetHeader &header);
+StructureSetHeader unpackStructureSet(std::span<const std::byte> body);
 /// Reads the format of `task::Reason::encoded`, with a limit on its length. Texts are made one
 /// printable line.
 task::Reason unpackReason(std::span<const std::byte> body);

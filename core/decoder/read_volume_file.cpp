@@ -58,6 +58,7 @@ OpenVolume open(const fs::path &path, const task::Progress &progress) {
         throw Error(error.code(), error.reason(), path);
     }
     file.header.volumes = layout.volumes;
+    file.header.segments = layout.segments;
     const std::string name = path.filename().string();
     file.header.notes.title = name.substr(0, name.size() - volume::volumeSuffix(path).size());
     if (!layout.hasPatientSpace)

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "core/decoder/segmentation_file.h"
 #include "core/task/progress.h"
 #include "core/volume/volume.h"
 
@@ -22,7 +24,8 @@ struct VolumeFileHeader {
     volume::Lattice lattice;
     int volumes = 1; ///< stored one after the other
     volume::VolumeNotes notes;
-    std::filesystem::path samplesFile; ///< the file itself, or the file that it names
+    std::vector<SegmentDescription> segments; ///< that it names; the number of each is its label
+    std::filesystem::path samplesFile;        ///< the file itself, or the file that it names
 };
 /// *Throws* Error{unusable}, also if the file is too short for the samples of the first volume.
 VolumeFileHeader readVolumeFileHeader(const std::filesystem::path &path,

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "core/decoder/segmentation_file.h"
 #include "core/volume/lattice.h"
 
 namespace pellucid::decoder {
@@ -45,6 +47,8 @@ struct VolumeLayout {
     bool isSwapped = false;  ///< not in this machine's byte order
     /// Whether the header gives the orientation of its space; otherwise DICOM's is assumed.
     bool hasPatientSpace = true;
+    /// Segments that the header names; the number of each is its label.
+    std::vector<SegmentDescription> segments;
     std::string dataFile; ///< as written in the header; empty: the samples are in the same file
     /// The offset of the samples or of their deflated data, and the number of bytes to skip after
     /// inflating, for example a header that is deflated with them.

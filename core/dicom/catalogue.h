@@ -72,9 +72,16 @@ struct Series {
     std::vector<InstanceFile> files;
 };
 
+/// A segmentation or an RT structure set, which belongs to the volumes of its study.
+struct SegmentationFile {
+    std::filesystem::path path;
+    std::string sopInstanceUid, description, modality;
+};
+
 struct Study {
     std::string uid, date, description;
     std::vector<Series> series;
+    std::vector<SegmentationFile> segmentations;
 };
 
 struct Patient {

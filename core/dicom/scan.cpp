@@ -72,6 +72,12 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
     std::vector<const InstanceHeader *> each;
     for (const auto &[path, header] : files)
         each.push_back(header);
+    entry.notes.studyUid = h.studyUid;
+    // Some series have another frame of reference in every file: then it means nothing.
+    if (std::all_of(each.begin(), each.end(), [&](const InstanceHeader *other) {
+            return other->frameOfReferenceUid == h.frameOfReferenceUid;
+        }))
+        entry.notes.frameOfReferenceUid = h.frameOfReferenceUid;
     for (const task::Reason &warning : warningsOfValues(each))
         entry.notes.warnings.push_back(warning);
     if (!entry.placed) // last, because the view shows that one
@@ -120,8 +126,18 @@ public:
         const auto [study, isNewStudy] =
             m_studies.try_emplace({patient->second, h.studyUid}, studies.size());
         if (isNewStudy)
-            studies.push_back({h.studyUid, h.studyDate, h.studyDescription, {}});
+            studies.push_back({h.studyUid, h.studyDate, h.studyDescription, {}, {}});
         return studies[study->second];
+    }
+    // The study of a file, or null if it is not in the catalogue.
+    Study *find(const InstanceHeader &h) {
+        const auto patient = m_patients.find({h.patientId, h.patientName});
+        if (patient == m_patients.end())
+            return nullptr;
+        const auto study = m_studies.find({patient->second, h.studyUid});
+        return study == m_studies.end()
+                   ? nullptr
+                   : &m_catalogue.patients[patient->second].studies[study->second];
     }
 
 private:
@@ -133,7 +149,8 @@ private:
 void addVolumeFile(Catalogue &catalogue, const fs::path &path,
                    const decoder::VolumeFileHeader &header) {
     if (catalogue.patients.empty() || catalogue.patients.back().id != "files")
-        catalogue.patients.push_back({"files", "Files", "", "", {{"", "", "Volume files", {}}}});
+        catalogue.patients.push_back(
+            {"files", "Files", "", "", {{"", "", "Volume files", {}, {}}}});
     Series series;
     series.description = path.filename().string();
     series.number = int(catalogue.patients.back().studies[0].series.size()) + 1;
@@ -176,7 +193,7 @@ task::Reason reasonOf(const Error &error) {
 
 // The result of reading a file: one of the headers, or why there is none.
 struct FileContents {
-    InstanceHeader header;
+    InstanceHeader header; ///< also of a segmentation, which has a reason not to be an image
     std::optional<decoder::VolumeFileHeader> volumeFile;
     std::optional<task::Reason> reason;
     bool isHuge = false;
@@ -244,8 +261,11 @@ private:
         }
         if (!contents.reason && !m_held.take(bytesToGroup(header)))
             contents.reason = because::needsTooMuchMemory;
-        if (!contents.reason)
-            contents.header = std::move(header);
+        if (contents.reason && contents.reason != task::Reason(because::isASegmentation))
+            return;
+        if (contents.reason)
+            header.frames.resize(1); // only its identity is used
+        contents.header = std::move(header);
     }
 
     const ScanOptions &m_options;
@@ -290,14 +310,17 @@ FileList listFiles(const std::vector<fs::path> &paths, const task::Progress &pro
     return list;
 }
 
-// Adds volume files and skipped files to the catalogue directly, and sorts all others into series.
+// Adds volume files and skipped files to the catalogue directly, sets segmentations aside, and
+// sorts all others into series.
 SeriesSorter sortFiles(const std::vector<fs::path> &paths, std::vector<FileContents> contents,
-                       Catalogue &catalogue) {
+                       Catalogue &catalogue, std::vector<SeriesFile> &segmentations) {
     SeriesSorter sorter;
     const std::set<fs::path> samples = samplesOf(contents);
     for (std::size_t n = 0; n < paths.size(); ++n) {
         FileContents &file = contents[n];
-        if (file.reason) {
+        if (file.reason == task::Reason(because::isASegmentation)) {
+            segmentations.push_back({paths[n], std::move(file.header)});
+        } else if (file.reason) {
             if (samples.empty() || !samples.contains(resolved(paths[n])))
                 catalogue.skipped.push_back({paths[n], *file.reason, file.isHuge});
         } else if (file.volumeFile) {
@@ -340,11 +363,21 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
     Catalogue catalogue;
     catalogue.skipped = std::move(list.skipped);
     catalogue.unpacked = std::move(list.unpacked);
-    const SeriesSorter sorter = sortFiles(list.found, std::move(contents), catalogue);
+    std::vector<SeriesFile> segmentations;
+    const SeriesSorter sorter =
+        sortFiles(list.found, std::move(contents), catalogue, segmentations);
     Studies studies(catalogue);
     for (const std::vector<SeriesFile> &files : sorter.series()) {
         Series series = seriesOf(files, catalogue.skipped, progress);
         studies.of(files.front().header).series.push_back(std::move(series));
+    }
+    for (const SeriesFile &file : segmentations) {
+        const InstanceHeader &h = file.header;
+        if (Study *const study = studies.find(h))
+            study->segmentations.push_back(
+                {file.path, h.sopInstanceUid, h.seriesDescription, h.modality});
+        else
+            catalogue.skipped.push_back({file.path, because::isASegmentation});
     }
     for (Skipped &skipped : catalogue.skipped)
         skipped.path = catalogue.named(skipped.path);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <dcmtk/config/osconfig.h>
 
@@ -11,6 +12,7 @@
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
 #include "core/parse/decode_jpeg2000.h"
+#include "core/parse/decode_pixels.h"
 #include "core/parse/decoder_warnings.h"
 #include "core/parse/fragments.h"
 #include "core/parse/frame_check.h"
@@ -154,7 +156,7 @@ void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::
     h.highBit = after.highBit;
     h.pixelRepresentation = after.pixelRepresentation;
     if (after.rows != h.rows || after.columns != h.columns || after.samplesPerPixel != 1 ||
-        whyUnusable(h))
+        whyUndecodable(h))
         fail(because::compressedImageContradictsHeader);
     if (precision > h.bitsStored && exceedsStored(dataset, h, precision)) {
         h.oddities |= decoder::otherPrecision;
@@ -249,32 +251,41 @@ void decodeFrames(const LoadedFile &file, std::size_t fileBytes, DecodedImage &i
 
 DecodedImage decoded(std::span<const std::byte> bytes) {
     const LoadedFile file = loadFile(bytes, Extent::everything);
-    DecodedImage image{headerOf(file, bytes.size()), {}};
-    InstanceHeader &h = image.header;
-    if (const auto reason = whyUnusable(h))
+    const InstanceHeader header = headerOf(file, bytes.size());
+    if (const auto reason = whyUnusable(header))
         fail(*reason);
-    const auto mosaic = mosaicOf(file.dataset(), h);
-    // For an element that the file truncates, DCMTK keeps the part that exists and fills the rest.
-    DcmElement *pixels = nullptr;
-    if (!file.isComplete && file.dataset().findAndGetElement(DCM_PixelData, pixels).good() &&
-        pixels->transferState() != ERW_ready && (h.oddities & decoder::missingDelimiter) == 0)
-        fail(because::pixelsTruncated);
-    const std::size_t samples =
-        std::size_t(h.rows) * h.columns * h.frames.size(); // at most 2^32 * 10^5
-    requireRoom(samples,
-                isNative(file.syntaxUid) &&
-                    file.syntaxUid != UID_DeflatedExplicitVRLittleEndianTransferSyntax,
-                bytes.size());
-    image.samples.resize(samples);
-    decodeFrames(file, bytes.size(), image);
+    const auto mosaic = mosaicOf(file.dataset(), header);
+    DecodedImage image = decodePixels(file, bytes.size(), header);
     if (mosaic) {
-        splitTiles(h, *mosaic);
-        image.samples = tilesOf(image.samples, *mosaic, h.rows, h.columns);
+        splitTiles(image.header, *mosaic);
+        image.samples = tilesOf(image.samples, *mosaic, image.header.rows, image.header.columns);
     }
     return image;
 }
 
 } // namespace
+
+void requireWholePixels(const LoadedFile &file, const InstanceHeader &h) {
+    DcmElement *pixels = nullptr;
+    if (!file.isComplete && file.dataset().findAndGetElement(DCM_PixelData, pixels).good() &&
+        pixels->transferState() != ERW_ready && (h.oddities & decoder::missingDelimiter) == 0)
+        fail(because::pixelsTruncated);
+}
+
+DecodedImage decodePixels(const LoadedFile &file, std::size_t fileBytes, InstanceHeader header) {
+    requireWholePixels(file, header);
+    DecodedImage image{std::move(header), {}};
+    const InstanceHeader &h = image.header;
+    const std::size_t samples =
+        std::size_t(h.rows) * h.columns * h.frames.size(); // at most 2^32 * 10^5
+    requireRoom(samples,
+                isNative(file.syntaxUid) &&
+                    file.syntaxUid != UID_DeflatedExplicitVRLittleEndianTransferSyntax,
+                fileBytes);
+    image.samples.resize(samples);
+    decodeFrames(file, fileBytes, image);
+    return image;
+}
 
 DecodedImage decodeImage(std::span<const std::byte> bytes) {
     return orDamaged([&] { return decoded(bytes); });

@@ -120,6 +120,8 @@ void readFunctionalGroups(DcmItem *groups, FrameHeader &frame) {
         if (DcmItem *type = sequenceItem(groups, tag))
             if (std::string value = readText(type, DCM_FrameType); !value.empty())
                 frame.imageType = value;
+    if (DcmItem *segment = sequenceItem(groups, DCM_SegmentIdentificationSequence))
+        frame.segment = std::clamp(readInteger(segment, DCM_ReferencedSegmentNumber), 0, 65535);
     if (DcmItem *echo = sequenceItem(groups, DCM_MREchoSequence))
         if (std::string value = readText(echo, DCM_EffectiveEchoTime); !value.empty())
             frame.dimensions["echo"] = value;

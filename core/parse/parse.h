@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "core/decoder/instance.h"
+#include "core/decoder/segmentation_file.h"
 #include "core/decoder/volume_layout.h"
 
 namespace pellucid::parse {
@@ -16,6 +18,8 @@ using decoder::DirectoryFile;
 using decoder::FrameHeader;
 using decoder::InstanceHeader;
 using decoder::SampleRange;
+using decoder::SegmentationHeader;
+using decoder::StructureSetHeader;
 using decoder::VolumeLayout;
 
 // The functions of `pellucid-decode`, for untrusted bytes. They use no path, file or process, and
@@ -27,6 +31,25 @@ InstanceHeader parseHeader(std::span<const std::byte> file);
 /// Parses a whole DICOM file and decodes every frame of it. *Throws* Error{unusable, outOfMemory}
 /// with the reason.
 DecodedImage decodeImage(std::span<const std::byte> file);
+
+/// A DICOM segmentation. *Shape* of the pixels: frames x rows x columns, of a binary segmentation a
+/// bit each, the lowest of a byte first, without a gap between rows or frames; of others 16-bit
+/// values.
+struct DecodedSegmentation {
+    SegmentationHeader header;
+    std::vector<std::byte> pixels;
+};
+/// *Throws* Error{unusable, outOfMemory} with the reason.
+DecodedSegmentation decodeSegmentation(std::span<const std::byte> file);
+
+/// An RT structure set. *Shape* of the points: x, y, z in patient space of every point, contour by
+/// contour, structure by structure. *Units*: mm.
+struct DecodedStructureSet {
+    StructureSetHeader header;
+    std::vector<double> points;
+};
+/// *Throws* Error{unusable, outOfMemory} with the reason.
+DecodedStructureSet decodeStructureSet(std::span<const std::byte> file);
 
 /// Whether it is a DICOMDIR, and the files that it lists. *Throws* Error{unusable} for a damaged
 /// DICOMDIR.

@@ -11,8 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/parse/attributes.h"
 #include "core/parse/volume_formats.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
@@ -31,7 +34,8 @@ constexpr std::size_t maxQuotedLength = 60;     // of a field's text, in reasons
 
 struct Header {
     std::map<std::string, std::string> fields;
-    std::size_t bytes = 0; ///< the samples follow
+    std::map<std::string, std::string> pairs; ///< of keys and values, which NRRD does not define
+    std::size_t bytes = 0;                    ///< the samples follow
     bool hasEnd = false;
 };
 
@@ -53,8 +57,12 @@ Header readHeader(std::span<const std::byte> file) {
     while (!header.hasEnd && !rest.empty()) {
         const std::string line = trimmed(nextLine());
         header.hasEnd = line.empty();
-        if (header.hasEnd || line.front() == '#' || line.find(":=") != std::string::npos)
+        if (header.hasEnd || line.front() == '#')
             continue;
+        if (const auto pair = line.find(":="); pair != std::string::npos) {
+            header.pairs.try_emplace(trimmed(line.substr(0, pair)), trimmed(line.substr(pair + 2)));
+            continue;
+        }
         const auto colon = line.find(':');
         if (colon == std::string::npos)
             throw Error(ErrorCode::unusable, because::nrrdLineWithoutColon);
@@ -224,6 +232,34 @@ void parseLattice(const Fields &fields, VolumeLayout &layout) {
     requireLattice(layout);
 }
 
+// The segments of a labelled volume, as 3D Slicer and dcmqi name them: Segment0_Name,
+// Segment0_Color, Segment0_LabelValue, and so on. Incomplete ones and those with the label of
+// another are left out.
+std::vector<decoder::SegmentDescription> segmentsOf(const Header &header) {
+    std::vector<decoder::SegmentDescription> segments;
+    for (std::size_t n = 0; n < decoder::maxSegments; ++n) {
+        const auto find = [&](const char *key) -> std::string {
+            const auto it = header.pairs.find(fmt::format("Segment{}_{}", n, key));
+            return it == header.pairs.end() ? std::string() : it->second;
+        };
+        if (find("Name").empty() && find("LabelValue").empty())
+            break;
+        const auto label = system::numberFrom(find("LabelValue"));
+        const auto isTaken = [&](const auto &other) { return other.number == int(*label); };
+        if (!label || !(*label >= 1.0 && *label <= 65535.0) ||
+            std::any_of(segments.begin(), segments.end(), isTaken))
+            continue;
+        decoder::SegmentDescription segment;
+        segment.number = int(*label);
+        segment.label = oneLine(find("Name"));
+        std::istringstream color(find("Color"));
+        if (glm::dvec3 rgb{0.0}; color >> rgb.x >> rgb.y >> rgb.z)
+            segment.color = glm::clamp(rgb, 0.0, 1.0);
+        segments.push_back(std::move(segment));
+    }
+    return segments;
+}
+
 } // namespace
 
 VolumeLayout parseNrrd(std::span<const std::byte> file) {
@@ -262,6 +298,7 @@ VolumeLayout parseNrrd(std::span<const std::byte> file) {
     if (layout.dataFile.empty())
         layout.at = header.bytes;
     parseLattice(fields, layout);
+    layout.segments = segmentsOf(header);
     return layout;
 }
 

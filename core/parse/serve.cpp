@@ -65,6 +65,16 @@ private:
             finish(0, decoder::pack(image.header), std::as_bytes(std::span(image.samples)));
             break;
         }
+        case Message::Kind::segmentation: {
+            const DecodedSegmentation decoded = decodeSegmentation(file.bytes());
+            finish(0, decoder::pack(decoded.header), decoded.pixels);
+            break;
+        }
+        case Message::Kind::structureSet: {
+            const DecodedStructureSet decoded = decodeStructureSet(file.bytes());
+            finish(0, decoder::pack(decoded.header), std::as_bytes(std::span(decoded.points)));
+            break;
+        }
         case Message::Kind::directory:
             finish(0, decoder::pack(parseDirectory(file.bytes())), {});
             break;

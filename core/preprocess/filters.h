@@ -40,6 +40,10 @@ Mask openingByItk(const volume::Lattice &lattice, const Mask &mask, double radiu
                   const task::Progress &progress = {});
 Mask closingByItk(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
                   const task::Progress &progress = {});
+/// All samples of the mask that are farther than a distance from all others. Beyond the border of
+/// the lattice there are none.
+Mask eroded(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+            const task::Progress &progress = {});
 /// All samples within a distance of the mask.
 Mask dilated(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
              const task::Progress &progress = {});

@@ -117,11 +117,6 @@ Mask inverted(Mask mask) {
     return mask;
 }
 
-Mask eroded(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
-            const task::Progress &progress) {
-    return isUniform(mask) ? mask : inverted(within(lattice, mask, 0, radiusMm, progress));
-}
-
 Mask grown(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
            const task::Progress &progress) {
     return isUniform(mask) ? mask : within(lattice, mask, 1, radiusMm, progress);
@@ -234,6 +229,11 @@ Mask filledSlices(const volume::Lattice &lattice, const Mask &mask,
 }
 
 } // namespace
+
+Mask eroded(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+            const task::Progress &progress) {
+    return isUniform(mask) ? mask : inverted(within(lattice, mask, 0, radiusMm, progress));
+}
 
 volume::Volume gaussian(const volume::Volume &volume, double sigmaMm,
                         const task::Progress &progress) {

@@ -18,6 +18,7 @@
 #include "core/preprocess/content_digest.h"
 #include "core/preprocess/edges.h"
 #include "core/preprocess/filters.h"
+#include "core/segment/coverages.h"
 #include "core/task/error.h"
 
 namespace pellucid::preprocess {
@@ -31,33 +32,44 @@ using classify::Step;
 using classify::StepKind;
 using classify::TissueClass;
 using Regions = std::shared_ptr<const std::vector<Region>>;
-// The result of a step: values or regions, by its effect.
-using Outcome = std::variant<volume::Volume, Regions>;
+using SharedCoverage = std::shared_ptr<const volume::Coverage>;
+// The result of a step: values or regions, by its effect; or a segment on another lattice or with
+// other edges.
+using Outcome = std::variant<volume::Volume, Regions, SharedCoverage>;
 
-std::string identity(const volume::Volume &volume) {
-    const volume::Lattice &l = volume.lattice();
-    const std::string samples =
-        volume.visit([](auto s) { return contentDigest(std::as_bytes(s)); });
-    std::string text = fmt::format("{} {}x{}x{} {}", samples, l.size().i, l.size().j, l.size().k,
-                                   int(volume.unit()));
+std::string geometryText(const volume::Lattice &l) {
+    std::string text = fmt::format("{}x{}x{}", l.size().i, l.size().j, l.size().k);
     for (int d = 0; d < 3; ++d)
         text += fmt::format(" {},{},{}", l.step(d).x, l.step(d).y, l.step(d).z);
     return text;
 }
 
+std::string identity(const volume::Volume &volume) {
+    const std::string samples =
+        volume.visit([](auto s) { return contentDigest(std::as_bytes(s)); });
+    return fmt::format("{} {} {}", samples, geometryText(volume.lattice()), int(volume.unit()));
+}
+
+bool isMostlyIn(const volume::Coverage &coverage, volume::VoxelIndex n) {
+    return 2 * coverage.at(n) >= volume::Coverage::whole;
+}
+
 // The samples whose membership of a class is at least a half after the steps so far.
-Mask belonging(const volume::Volume &values, const TissueClass &tissue, const Regions &regions) {
-    Mask mask(values.lattice().size().count());
-    values.visit([&](auto samples) {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, mask.size(), 1 << 16), [&](const auto &range) {
-                for (std::size_t n = range.begin(); n != range.end(); ++n) {
-                    const Region where = regions ? (*regions)[n] : Region::inside;
+Mask belonging(const TissueClass &tissue, const ClassSamples &now) {
+    const volume::GridSize size = now.values.lattice().size();
+    Mask mask(size.count());
+    now.values.visit([&](auto samples) {
+        tbb::parallel_for(0, size.k, [&](int k) {
+            for (int j = 0; j < size.j; ++j)
+                for (int i = 0; i < size.i; ++i) {
+                    const std::size_t n = size.offsetOf(i, j, k);
+                    const Region where = now.regions ? (*now.regions)[n] : Region::inside;
+                    const bool isCovered = !now.coverage || isMostlyIn(*now.coverage, {i, j, k});
                     mask[n] =
-                        where == Region::filled ||
-                        (where == Region::inside && tissue.membership(double(samples[n])) >= 0.5);
+                        where == Region::filled || (where == Region::inside && isCovered &&
+                                                    tissue.membership(double(samples[n])) >= 0.5);
                 }
-            });
+        });
     });
     return mask;
 }
@@ -130,7 +142,7 @@ Outcome outcomeOf(const Step &step, const TissueClass &tissue, const ClassSample
     const volume::Volume &values = before.values;
     const volume::Lattice &lattice = values.lattice();
     const auto given = [&](const char *parameter) { return step.at(parameter); };
-    const auto now = [&] { return belonging(values, tissue, before.regions); };
+    const auto now = [&] { return belonging(tissue, before); };
     const auto part = [&](const Mask &all, const Mask &kept) {
         return shared(partOf(lattice, all, kept, before.regions));
     };
@@ -256,6 +268,8 @@ struct StepCache::Store {
         std::size_t size = 0;
         if constexpr (std::is_same_v<T, volume::Volume>)
             size = made.bytes();
+        else if constexpr (std::is_same_v<T, SharedCoverage>)
+            size = made->shares.size();
         else
             size = made->size();
         entries.push_front({key, made, size});
@@ -271,8 +285,124 @@ struct StepCache::Store {
     }
 
     mutable std::mutex mutex;
+    std::shared_ptr<const segment::SegmentSet> segments;
     std::size_t budget = 0, bytes = 0, computed = 0;
     std::list<Entry> entries; ///< the most recently used first
+};
+
+// Finds the samples of one class.
+class StepCache::ClassRun {
+public:
+    ClassRun(Store &store, const volume::Volume &volume, const TissueClass &tissue)
+        : m_store(store), m_tissue(tissue), m_now{volume} {}
+
+    ClassSamples result(const task::Progress &progress) {
+        takeSegment();
+        runSteps(progress);
+        soften();
+        return std::move(m_now);
+    }
+
+private:
+    void takeSegment() {
+        if (m_tissue.segment.empty())
+            return;
+        std::shared_ptr<const segment::SegmentSet> segments;
+        {
+            const std::lock_guard lock(m_store.mutex);
+            segments = m_store.segments;
+        }
+        const segment::Segment *const found = segments ? segments->find(m_tissue.segment) : nullptr;
+        if (found == nullptr)
+            throw task::Error(task::ErrorCode::usage,
+                              task::because::segmentIsMissing(m_tissue.name, m_tissue.segment));
+        const volume::Lattice &lattice = m_now.values.lattice();
+        m_segmentKey = fmt::format("segment {}", found->id);
+        m_now.coverage = found->coverage;
+        if (lattice == segments->lattice())
+            return;
+        m_segmentKey += " on " + geometryText(lattice);
+        m_now.coverage = m_store.find<SharedCoverage>(m_segmentKey, [&] {
+            return std::make_shared<const volume::Coverage>(
+                segment::coarsened(*found->coverage, segments->lattice(), lattice));
+        });
+    }
+
+    void runSteps(const task::Progress &progress) {
+        if (m_tissue.steps.empty())
+            return;
+        std::string valuesKey = identity(m_now.values);
+        for (std::size_t n = 0; n < m_tissue.steps.size(); ++n) {
+            const Step &step = m_tissue.steps[n];
+            const double count = double(m_tissue.steps.size());
+            const task::Progress part = progress.part(double(n) / count, double(n + 1) / count);
+            const std::string text = " | " + classify::stepText(step);
+            const auto make = [&] { return outcomeOf(step, m_tissue, m_now, part); };
+            m_now.density = densityAfter(step.kind).value_or(m_now.density);
+            if (classify::describe(step.kind).effect == classify::StepEffect::values) {
+                valuesKey += text;
+                m_now.values = m_store.find<volume::Volume>(valuesKey, make);
+                continue;
+            }
+            std::string key = valuesKey + text;
+            if (dependsOnClass(step.kind))
+                key += fmt::format(" of {} {} {} {} {}", m_tissue.low, m_tissue.high,
+                                   m_tissue.softness, m_segmentKey, m_regionsKey);
+            const auto found = m_store.find<Regions>(key, make);
+            // The result of a step that depends on the class contains the earlier regions already.
+            m_now.regions = dependsOnClass(step.kind) ? found : intersection(m_now.regions, found);
+            m_regionsKey += text;
+        }
+    }
+
+    // The region of the steps becomes a part of the coverage, and the edges of both fade. Filled
+    // samples keep their whole share.
+    void soften() {
+        if (m_tissue.edge == 0.0 || (!m_now.coverage && !m_now.regions))
+            return;
+        const volume::GridSize size = m_now.values.lattice().size();
+        if (!m_now.regions) {
+            m_now.coverage = m_store.find<SharedCoverage>(
+                fmt::format("{} edge {}", m_segmentKey, m_tissue.edge), [&] {
+                    return std::make_shared<const volume::Coverage>(
+                        segment::softened(*m_now.coverage, size, m_tissue.edge));
+                });
+            return;
+        }
+        const std::vector<Region> &regions = *m_now.regions;
+        volume::Coverage region{m_now.values.lattice().bounds(), {}};
+        region.shares.resize(size.count());
+        bool hasFilled = false;
+        for (int k = 0; k < size.k; ++k)
+            for (int j = 0; j < size.j; ++j)
+                for (int i = 0; i < size.i; ++i) {
+                    const std::size_t n = size.offsetOf(i, j, k);
+                    hasFilled = hasFilled || regions[n] == Region::filled;
+                    const std::uint8_t covered =
+                        m_now.coverage ? m_now.coverage->at({i, j, k}) : volume::Coverage::whole;
+                    region.shares[n] = regions[n] == Region::outside ? std::uint8_t(0)
+                                       : regions[n] == Region::filled
+                                           ? std::uint8_t(volume::Coverage::whole)
+                                           : covered;
+                }
+        m_now.coverage = std::make_shared<const volume::Coverage>(
+            segment::softened(region, size, m_tissue.edge));
+        if (!hasFilled) {
+            m_now.regions = nullptr;
+            return;
+        }
+        // The faded rim is inside: there values decide, too.
+        std::vector<Region> kept(regions.size(), Region::inside);
+        std::transform(regions.begin(), regions.end(), kept.begin(), [](Region was) {
+            return was == Region::filled ? Region::filled : Region::inside;
+        });
+        m_now.regions = shared(std::move(kept));
+    }
+
+    Store &m_store;
+    const TissueClass &m_tissue;
+    ClassSamples m_now;
+    std::string m_segmentKey, m_regionsKey;
 };
 
 StepCache::StepCache(std::size_t budgetBytes) : m_store(std::make_unique<Store>()) {
@@ -295,35 +425,15 @@ void StepCache::trim(std::size_t budgetBytes) {
     m_store->drop(budgetBytes);
 }
 
+void StepCache::setSegments(std::shared_ptr<const segment::SegmentSet> segments) {
+    const std::lock_guard lock(m_store->mutex);
+    m_store->segments = std::move(segments);
+}
+
 ClassSamples StepCache::run(const volume::Volume &volume, const TissueClass &tissue,
                             const task::Progress &progress) {
-    ClassSamples result{volume, DensityKind::window, nullptr};
-    task::orOutOfMemory(task::because::noMemoryForTheSteps(tissue.name), [&] {
-        std::string valuesKey = identity(volume), regionsKey;
-        for (std::size_t n = 0; n < tissue.steps.size(); ++n) {
-            const Step &step = tissue.steps[n];
-            const task::Progress part =
-                progress.part(double(n) / tissue.steps.size(), double(n + 1) / tissue.steps.size());
-            const std::string text = " | " + classify::stepText(step);
-            const auto make = [&] { return outcomeOf(step, tissue, result, part); };
-            result.density = densityAfter(step.kind).value_or(result.density);
-            if (classify::describe(step.kind).effect == classify::StepEffect::values) {
-                valuesKey += text;
-                result.values = m_store->find<volume::Volume>(valuesKey, make);
-                continue;
-            }
-            std::string key = valuesKey + text;
-            if (dependsOnClass(step.kind))
-                key += fmt::format(" of {} {} {} {}", tissue.low, tissue.high, tissue.softness,
-                                   regionsKey);
-            const auto found = m_store->find<Regions>(key, make);
-            // The result of a step that depends on the class contains the earlier regions already.
-            result.regions =
-                dependsOnClass(step.kind) ? found : intersection(result.regions, found);
-            regionsKey += text;
-        }
-    });
-    return result;
+    return task::orOutOfMemory(task::because::noMemoryForTheSteps(tissue.name),
+                               [&] { return ClassRun(*m_store, volume, tissue).result(progress); });
 }
 
 } // namespace pellucid::preprocess

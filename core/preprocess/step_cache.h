@@ -5,12 +5,14 @@
 #include <memory>
 
 #include "core/classify/class_samples.h"
+#include "core/segment/segment_set.h"
 
 namespace pellucid::preprocess {
 
-/// Runs the steps of classes and keeps their results by content: the same steps on the same values
-/// and lattice are computed once, even for a different class or a reloaded series. When the budget
-/// is full, the least recently used results are dropped. Safe to call from several threads.
+/// Takes the segments of classes, runs their steps, and keeps the results by content: the same
+/// steps on the same values and lattice are computed once, even for a different class or a reloaded
+/// series. When the budget is full, the least recently used results are dropped. Safe to call from
+/// several threads.
 class StepCache final : public classify::StepRunner {
 public:
     explicit StepCache(std::size_t budgetBytes);
@@ -18,6 +20,10 @@ public:
 
     classify::ClassSamples run(const volume::Volume &volume, const classify::TissueClass &tissue,
                                const task::Progress &progress) override;
+
+    /// The segments that classes may name; null: none. Classes that run meanwhile keep the former
+    /// ones.
+    void setSegments(std::shared_ptr<const segment::SegmentSet> segments);
 
     std::size_t bytes() const;
     /// How many results were computed, not found.
@@ -27,6 +33,7 @@ public:
 
 private:
     struct Store;
+    class ClassRun;
     std::unique_ptr<Store> m_store;
 };
 

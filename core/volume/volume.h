@@ -31,8 +31,10 @@ struct SliceRange {
 
 /// The information from a volume's source that a viewer shows.
 struct VolumeNotes {
-    std::string title;                ///< series description or file name
-    std::string modality;             ///< DICOM modality, empty if unknown
+    std::string title;    ///< series description or file name
+    std::string modality; ///< DICOM modality, empty if unknown
+    /// What other objects of the same study and space refer to; empty if unknown.
+    std::string studyUid, frameOfReferenceUid;
     std::vector<ValueWindow> windows; ///< the file's own windows
     std::vector<task::Reason>
         warnings;                   ///< changes that the reader made to the geometry or the values

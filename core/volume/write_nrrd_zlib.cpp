@@ -20,6 +20,12 @@ std::string vectorText(const glm::dvec3 &v) {
     return fmt::format("({},{},{})", v.x, v.y, v.z);
 }
 
+std::string oneLine(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return text;
+}
+
 void writeGzip(files::AtomicFile &file, std::span<const std::byte> bytes,
                const task::Progress &progress) {
     z_stream stream{};
@@ -63,17 +69,20 @@ void writeRaw(files::AtomicFile &file, std::span<const std::byte> bytes,
 } // namespace
 
 void writeNrrd(const std::filesystem::path &path, const Volume &volume, NrrdEncoding encoding,
-               const task::Progress &progress) {
+               const task::Progress &progress, const NrrdPairs &pairs) {
     const Lattice &lattice = volume.lattice();
     const GridSize size = lattice.size();
-    const std::string header = fmt::format(
+    std::string header = fmt::format(
         "NRRD0004\n"
         "type: {}\ndimension: 3\nspace: left-posterior-superior\nsizes: {} {} {}\n"
         "space directions: {} {} {}\nkinds: domain domain domain\nendian: little\nencoding: {}\n"
-        "space origin: {}\n\n",
+        "space origin: {}\n",
         volume.isFloat() ? "float" : "short", size.i, size.j, size.k, vectorText(lattice.step(0)),
         vectorText(lattice.step(1)), vectorText(lattice.step(2)),
         encoding == NrrdEncoding::gzip ? "gzip" : "raw", vectorText(lattice.origin().mm));
+    for (const auto &[key, value] : pairs)
+        header += oneLine(key) + ":=" + oneLine(value) + "\n";
+    header += "\n";
     files::AtomicFile file(path);
     file.write(header);
     volume.visit([&](auto samples) {

@@ -842,10 +842,6 @@
         <translation>影像沒有位置</translation>
     </message>
     <message>
-        <source>is a segmentation, which cannot be shown</source>
-        <translation>不顯示分割結果</translation>
-    </message>
-    <message>
         <source>its opacity is 0 everywhere</source>
         <translation>其不透明度處處為 0</translation>
     </message>
@@ -2337,6 +2333,150 @@
         <source>gives a &apos;binarise&apos; step in values of another volume: save this preset again</source>
         <translation>其「binarise」步驟以另一體積的數值表示：請重新儲存此預設集</translation>
     </message>
+    <message>
+        <source>is a segmentation, which is shown with the images that it belongs to</source>
+        <translation>是分割檔，會與所屬的影像一起顯示</translation>
+    </message>
+    <message>
+        <source>is not a segmentation</source>
+        <translation>不是分割檔</translation>
+    </message>
+    <message>
+        <source>describes no segments</source>
+        <translation>沒有描述任何分割區</translation>
+    </message>
+    <message>
+        <source>describes more than %1 segments</source>
+        <translation>描述了超過 %1 個分割區</translation>
+    </message>
+    <message>
+        <source>describes segment %1 twice</source>
+        <translation>重複描述分割區 %1</translation>
+    </message>
+    <message>
+        <source>has a segment number outside 1 to 65535</source>
+        <translation>有分割區編號不在 1 至 65535 之間</translation>
+    </message>
+    <message>
+        <source>has a frame of segment %1, which it does not describe</source>
+        <translation>有一格屬於未描述的分割區 %1</translation>
+    </message>
+    <message>
+        <source>has a frame without a position, an orientation or a pixel spacing</source>
+        <translation>有一格沒有位置、方向或像素間距</translation>
+    </message>
+    <message>
+        <source>has an unknown segmentation type: &apos;%1&apos;</source>
+        <translation>分割類型不明：「%1」</translation>
+    </message>
+    <message>
+        <source>has compressed one-bit pixels, which are not supported</source>
+        <translation>有壓縮的單位元像素，不支援</translation>
+    </message>
+    <message>
+        <source>has %1 bits per pixel instead of %2</source>
+        <translation>每像素 %1 位元，應為 %2</translation>
+    </message>
+    <message>
+        <source>has a maximum fractional value outside 1 to 65535</source>
+        <translation>最大分數值不在 1 至 65535 之間</translation>
+    </message>
+    <message>
+        <source>has two structures with the number %1</source>
+        <translation>有兩個結構的編號都是 %1</translation>
+    </message>
+    <message>
+        <source>has contours of structure %1, which it does not describe</source>
+        <translation>有輪廓屬於未描述的結構 %1</translation>
+    </message>
+    <message>
+        <source>has a contour with damaged coordinates: structure &apos;%1&apos;</source>
+        <translation>有輪廓的座標已損壞：結構「%1」</translation>
+    </message>
+    <message>
+        <source>has no closed contours</source>
+        <translation>沒有封閉的輪廓</translation>
+    </message>
+    <message>
+        <source>has more than %1 contour points</source>
+        <translation>輪廓點超過 %1 個</translation>
+    </message>
+    <message>
+        <source>has contours that are not in parallel planes</source>
+        <translation>有輪廓不在平行的平面上</translation>
+    </message>
+    <message>
+        <source>has contours larger than any image</source>
+        <translation>有輪廓大於任何影像</translation>
+    </message>
+    <message>
+        <source>has frames that are not parallel</source>
+        <translation>有互不平行的格</translation>
+    </message>
+    <message>
+        <source>belongs to another study</source>
+        <translation>屬於另一個檢查</translation>
+    </message>
+    <message>
+        <source>has another frame of reference than the volume: its positions do not apply here</source>
+        <translation>參考座標系與此體積不同：其位置在此不適用</translation>
+    </message>
+    <message>
+        <source>has no segment within the volume</source>
+        <translation>沒有任何分割區在此體積之內</translation>
+    </message>
+    <message>
+        <source>is not a volume of labels: its values must be whole numbers from 0 to 65535, at most 2000 of them</source>
+        <translation>不是標籤體積：其值必須是 0 至 65535 的整數，最多 2000 種</translation>
+    </message>
+    <message>
+        <source>the segments are not on the volume&apos;s samples; they were interpolated</source>
+        <translation>分割區不在此體積的取樣點上，已經內插</translation>
+    </message>
+    <message>
+        <source>the segment &apos;%1&apos; has nothing within the volume</source>
+        <translation>分割區「%1」在此體積之內沒有任何部分</translation>
+    </message>
+    <message>
+        <source>segments that have nothing within the volume: %1</source>
+        <translation>在此體積之內沒有任何部分的分割區：%1</translation>
+    </message>
+    <message>
+        <source>open contours and points, which enclose nothing: %1</source>
+        <translation>未圍住任何範圍的開放輪廓與點：%1</translation>
+    </message>
+    <message>
+        <source>the soft edge of %1 samples is outside 0 to %2</source>
+        <translation>柔邊 %1 個取樣不在 0 至 %2 之間</translation>
+    </message>
+    <message>
+        <source>the segmentation cannot be written: %1</source>
+        <translation>無法寫入分割檔：%1</translation>
+    </message>
+    <message>
+        <source>the segments &apos;%1&apos; and &apos;%2&apos; overlap, which labels cannot express; write a DICOM segmentation</source>
+        <translation>分割區「%1」與「%2」重疊，標籤無法表示；請寫成 DICOM 分割檔</translation>
+    </message>
+    <message>
+        <source>no value at the points to grow from is within the range</source>
+        <translation>起始點的值都不在範圍之內</translation>
+    </message>
+    <message>
+        <source>the points to grow from are in places narrower than the leak limit</source>
+        <translation>起始點所在之處比洩漏限制更窄</translation>
+    </message>
+    <message>
+        <source>needs segments that are not loaded: %1</source>
+        <translation>需要尚未載入的分割區：%1</translation>
+    </message>
+    <message>
+        <source>the class &apos;%1&apos; needs the segment &apos;%2&apos;, which is not loaded</source>
+        <translation>類別「%1」需要尚未載入的分割區「%2」</translation>
+    </message>
+    <message>
+        <source>not enough memory for the segments</source>
+        <translation>記憶體不足以容納分割區</translation>
+    </message>
 </context>
 <context>
     <name>StudyDetailsTexts</name>
@@ -2561,6 +2701,25 @@
     </message>
 </context>
 <context>
+    <name>pellucid::ui::ClassGroup</name>
+    <message>
+        <source>Fold %1</source>
+        <translation>收合 %1</translation>
+    </message>
+    <message>
+        <source>Show or hide all classes of this group that the list shows</source>
+        <translation>顯示或隱藏清單所列此群組的所有類別</translation>
+    </message>
+    <message>
+        <source>Show %1</source>
+        <translation>顯示 %1</translation>
+    </message>
+    <message>
+        <source>%1: %2 of %3</source>
+        <translation>%1：%2 / %3</translation>
+    </message>
+</context>
+<context>
     <name>pellucid::ui::ClassRow</name>
     <message>
         <source>Show or hide the class</source>
@@ -2577,6 +2736,10 @@
     <message>
         <source>Weight; double-click sets it to 1</source>
         <translation>權重；按兩下設為 1</translation>
+    </message>
+    <message>
+        <source>%1 ml</source>
+        <translation>%1 毫升</translation>
     </message>
 </context>
 <context>
@@ -2636,6 +2799,18 @@
     <message>
         <source>Color</source>
         <translation>顏色</translation>
+    </message>
+    <message>
+        <source>Search classes</source>
+        <translation>搜尋類別</translation>
+    </message>
+    <message>
+        <source>Segments of %1</source>
+        <translation>%1 的分割區</translation>
+    </message>
+    <message>
+        <source>Open segmentation...</source>
+        <translation>開啟分割檔...</translation>
     </message>
 </context>
 <context>
@@ -2912,6 +3087,14 @@
     <message>
         <source>Saved: %1</source>
         <translation>已儲存：%1</translation>
+    </message>
+    <message>
+        <source>Open se&amp;gmentation...</source>
+        <translation>開啟分割檔(&amp;G)...</translation>
+    </message>
+    <message>
+        <source>Open segmentation</source>
+        <translation>開啟分割檔</translation>
     </message>
 </context>
 <context>
@@ -3725,6 +3908,17 @@
     <message>
         <source>not read: %1</source>
         <translation>不讀取：%1</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::SegmentOpener</name>
+    <message>
+        <source>Reading the segments of %1</source>
+        <translation>正在讀取 %1 的分割區</translation>
+    </message>
+    <message>
+        <source>Open segmentation</source>
+        <translation>開啟分割檔</translation>
     </message>
 </context>
 <context>

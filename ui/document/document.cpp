@@ -17,6 +17,13 @@ namespace {
 
 constexpr int fewSlices = 6;
 
+QStringList filesOf(const StudySource &source) {
+    QStringList files = source.files + source.lasting;
+    for (const auto &segmentation : source.segmentations)
+        files << segmentation.first;
+    return files;
+}
+
 volume::PatientPoint middleSample(const volume::Lattice &lattice) {
     const volume::GridSize n = lattice.size();
     return lattice.patient(volume::VoxelIndex{n.i / 2, n.j / 2, n.k / 2});
@@ -79,11 +86,17 @@ void Document::requireOther(const std::vector<std::filesystem::path> &targets) c
     if (there.isEmpty())
         return;
     for (const StudySource &source : m_sources)
-        for (const QString &file : source.files + source.lasting)
+        for (const QString &file : filesOf(source))
             if (there.find(file.toStdString()))
                 throw task::Error(
                     task::ErrorCode::usage,
                     task::because::isOfAnOpenStudy(QFileInfo(file).fileName().toStdString()));
+    if (m_segments)
+        for (const segment::Segmentation &segmentation : m_segments->segmentations())
+            if (there.find(segmentation.path))
+                throw task::Error(
+                    task::ErrorCode::usage,
+                    task::because::isOfAnOpenStudy(segmentation.path.filename().string()));
 }
 
 void Document::clearProblems() {
@@ -117,6 +130,7 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
         m_scene = fresh;
         m_selectedClass = -1;
         m_pose = {};
+        setSegments(nullptr);
     }
     // A preview's quantiles are those of the slices that came first; a window that the user has set
     // meanwhile stays.
@@ -133,6 +147,7 @@ void Document::closeVolume() {
     m_selectedMeasurement = -1;
     m_preview = false;
     m_undo.clear();
+    setSegments(nullptr);
     updateCamera();
     emit volumeChanged();
 }
@@ -144,6 +159,7 @@ void Document::announce() {
     if (!m_volume)
         return;
     emit volumeChanged();
+    emit segmentsChanged();
     emit sceneChanged();
     emit displayWindowChanged();
     emit crosshairChanged();
@@ -204,6 +220,22 @@ void Document::setTint(const std::optional<classify::TissueClass> &tint) {
         return;
     m_tint = tint;
     emit tintChanged();
+}
+
+void Document::setSegments(std::shared_ptr<const segment::SegmentSet> segments) {
+    if (segments == m_segments)
+        return;
+    m_segments = std::move(segments);
+    emit segmentsChanged();
+}
+
+QStringList Document::missingSegments(const classify::Look &look) const {
+    QStringList missing;
+    for (const classify::TissueClass &tissue : look.classes)
+        if (!tissue.segment.empty() && (!m_segments || m_segments->find(tissue.segment) == nullptr))
+            missing << QString::fromStdString(tissue.segment);
+    missing.removeDuplicates();
+    return missing;
 }
 
 void Document::setDisplayWindow(const volume::ValueWindow &window) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include <QHash>
 #include <QObject>
+#include <QStringList>
 #include <QUndoStack>
 
 #include "core/dicom/catalogue.h"
@@ -15,6 +17,7 @@
 #include "core/picture/compose.h"
 #include "core/picture/tone_subject.h"
 #include "core/scene/scene.h"
+#include "core/segment/segment_set.h"
 #include "core/volume/volume.h"
 #include "ui/document/pose.h"
 #include "ui/studies/study_source.h"
@@ -128,6 +131,13 @@ public:
     const std::optional<classify::TissueClass> &tint() const { return m_tint; }
     void setTint(const std::optional<classify::TissueClass> &tint);
 
+    /// The segments that are loaded for the volume; null if there are none. They stay loaded when
+    /// an undo removes their classes.
+    const std::shared_ptr<const segment::SegmentSet> &segments() const { return m_segments; }
+    void setSegments(std::shared_ptr<const segment::SegmentSet> segments);
+    /// The names of segments that the classes of a look need but that are not loaded.
+    QStringList missingSegments(const classify::Look &look) const;
+
     QUndoStack *undoStack() { return &m_undo; }
 
     /// Emits the signals of everything that is set, for a new window.
@@ -151,6 +161,8 @@ signals:
     void selectedMeasurementChanged();
     void selectedClassChanged();
     void tintChanged();
+    /// Also after a new volume, which has none at first.
+    void segmentsChanged();
 
 private:
     double fittingPixelMm() const;
@@ -165,6 +177,7 @@ private:
     classify::FieldWindow m_fieldWindow;
     int m_selectedClass = -1;
     std::optional<classify::TissueClass> m_tint;
+    std::shared_ptr<const segment::SegmentSet> m_segments;
     scene::Scene m_scene;
     Pose m_pose;
     QSizeF m_projectionSize{2.0, 2.0};

@@ -41,6 +41,8 @@ LookPreparer::LookPreparer(Document &document, JobRunner &jobs, QObject *parent)
     m_rest.setInterval(restMs);
     connect(&m_rest, &QTimer::timeout, this, [this] { act(Occasion::handRested); });
     connect(&document, &Document::sceneChanged, this, [this] { act(Occasion::sceneChanged); });
+    connect(&document, &Document::segmentsChanged, this,
+            [this] { m_steps->setSegments(m_document.segments()); });
 }
 
 LookPreparer::~LookPreparer() = default;

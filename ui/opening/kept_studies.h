@@ -2,12 +2,14 @@
 #pragma once
 
 #include <list>
+#include <memory>
 #include <optional>
 
 #include "core/dicom/load_volume.h"
 #include "core/mpr/plane.h"
 #include "core/picture/compose.h"
 #include "core/prepare/prepared_engine.h"
+#include "core/segment/segment_set.h"
 #include "ui/document/pose.h"
 #include "ui/engine/look_preparer.h"
 
@@ -28,6 +30,7 @@ struct KeptStudy {
     volume::PatientPoint crosshair;
     mpr::PlaneAxes axes;
     std::optional<picture::ToneRange> brightness;
+    std::shared_ptr<const segment::SegmentSet> segments; ///< or null
 
     std::size_t bytes() const;
 };

@@ -5,8 +5,9 @@ namespace pellucid::ui {
 
 OpenStudy::OpenStudy(GraphicsCard &card)
     : preparer(document, jobs), copier(document, jobs, card), opener(document, jobs, preparer),
-      phases(document, opener, jobs) {
+      segments(document, jobs, preparer), phases(document, opener, jobs) {
     QObject::connect(&preparer, &LookPreparer::engineReady, &copier, &CardCopier::show);
+    QObject::connect(&opener, &StudyOpener::segmentationsFound, &segments, &SegmentOpener::open);
 }
 
 OpenStudy::~OpenStudy() {

@@ -6,6 +6,7 @@
 #include "ui/engine/look_preparer.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/opening/phases.h"
+#include "ui/opening/segment_opener.h"
 #include "ui/opening/study_opener.h"
 
 namespace pellucid::ui {
@@ -26,6 +27,7 @@ struct OpenStudy {
     LookPreparer preparer;
     CardCopier copier;
     StudyOpener opener;
+    SegmentOpener segments;
     Phases phases;
 };
 

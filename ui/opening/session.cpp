@@ -42,13 +42,17 @@ std::optional<Session> currentSession(const Document &document) {
     session.key = source.digest();
     session.shown = {document.scene(), document.displayWindow(), document.crosshair(),
                      document.cut(), document.brightness()};
+    if (document.segments())
+        for (const segment::Segmentation &segmentation : document.segments()->segmentations())
+            session.segmentations << QString::fromStdString(segmentation.path.string());
     if (session.files.isEmpty() && session.phantom.isEmpty())
         return std::nullopt;
     return session;
 }
 
 void resume(const Session &session, StudyOpener &opener) {
-    const StudyOpener::Resumption resumption{session.key, session.shown, session.leftOut};
+    const StudyOpener::Resumption resumption{session.key, session.shown, session.leftOut,
+                                             session.segmentations};
     if (!session.phantom.isEmpty())
         opener.openPhantom(session.phantom, resumption);
     else

@@ -105,6 +105,7 @@ QJsonObject objectOf(const Session &s) {
         {"ended", s.hasEnded},
         {"files", QJsonArray::fromStringList(s.files)},
         {"left_out", leftOut},
+        {"segmentations", QJsonArray::fromStringList(s.segmentations)},
         {"phantom", s.phantom},
         {"key", s.key},
         {"scene",
@@ -128,6 +129,8 @@ Session fromJson(const QJsonObject &in) {
     for (const QJsonValue skipped : in["left_out"].toArray())
         s.leftOut.push_back({skipped["path"].toString().toStdString(),
                              reasonFromLine(skipped["reason"].toString())});
+    for (const QJsonValue file : in["segmentations"].toArray())
+        s.segmentations << file.toString();
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
     s.hasEnded = in["ended"].toBool(true); // older versions wrote at the end only

@@ -10,10 +10,23 @@
 #include "ui/engine/look_preparer.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/language/reasons.h"
+#include "ui/opening/segment_opener.h"
 #include "ui/studies/study_source.h"
 #include "ui/studies/window_presets.h"
 
 namespace pellucid::ui {
+
+namespace {
+
+QStringList segmentationsIn(const std::vector<dicom::Skipped> &skipped) {
+    QStringList paths;
+    for (const dicom::Skipped &file : skipped)
+        if (file.reason.is(task::because::isASegmentation))
+            paths << QString::fromStdString(file.path.string());
+    return paths;
+}
+
+} // namespace
 
 StudyOpener::StudyOpener(Document &document, JobRunner &jobs, LookPreparer &preparer,
                          QObject *parent)
@@ -46,14 +59,22 @@ void StudyOpener::keepCurrent() {
     m_kept.keep({m_document.currentSource(), *volume, m_document.initialWindow(),
                  m_document.defaultFieldWindow(), m_document.scene(), m_document.pose(),
                  m_preparer.preparedFor(), m_preparer.fullEngine(), m_document.displayWindow(),
-                 m_document.crosshair(), m_document.cut().axes, m_document.brightness()});
+                 m_document.crosshair(), m_document.cut().axes, m_document.brightness(),
+                 m_document.segments()});
     // The next study may need half of the memory.
     m_kept.trim(system::availableMemoryBytes() / 2 + m_kept.bytes() / 2);
 }
 
 void StudyOpener::resume(const Continuity &continuity) {
+    if (continuity.segments && m_document.volume() &&
+        continuity.segments->lattice() == m_document.volume()->lattice())
+        m_document.setSegments(continuity.segments);
+    scene::Scene scene = continuity.scene;
+    std::erase_if(scene.look.classes, [&](const classify::TissueClass &tissue) {
+        return !m_document.missingSegments({{}, {tissue}}).isEmpty();
+    });
     m_preparer.setHeld(true);
-    m_document.setScene(continuity.scene);
+    m_document.setScene(scene);
     m_preparer.setHeld(false);
     m_document.setPose(m_document.poseOf(continuity.scene.camera));
     m_document.setDisplayWindow(continuity.displayWindow);
@@ -65,6 +86,7 @@ void StudyOpener::resume(const Continuity &continuity) {
 
 void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &continuity) {
     m_document.setVolume(study.volume, study.initialWindow, study.fieldWindow, false);
+    m_document.setSegments(study.segments);
     if (continuity) {
         resume(*continuity);
         if (study.engine)
@@ -107,12 +129,20 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
             auto catalogue = std::make_shared<const dicom::Catalogue>(
                 dicom::scan(files, job.progress(), options));
             job.deliver([this, catalogue, files, paths] {
-                m_document.addProblems(catalogue->skipped);
+                std::vector<dicom::Skipped> problems = catalogue->skipped;
+                if (catalogue->empty() && m_document.volume()) // they are opened for it
+                    std::erase_if(problems, [](const dicom::Skipped &s) {
+                        return s.reason.is(task::because::isASegmentation);
+                    });
+                m_document.addProblems(problems);
                 std::vector<dicom::Skipped> huge = catalogue->skipped;
                 std::erase_if(huge, [](const dicom::Skipped &s) { return !s.isHuge; });
                 if (!huge.empty())
                     emit hugeFound(paths, huge);
                 if (catalogue->empty()) {
+                    const QStringList segmentations = segmentationsIn(catalogue->skipped);
+                    if (!segmentations.isEmpty())
+                        emit segmentationsFound(segmentations);
                     if (catalogue->skipped.empty())
                         m_document.addProblems({{files.front(), task::because::holdsNoImages}});
                     endScan();
@@ -192,7 +222,7 @@ void StudyOpener::closeSource(int index) {
 
 Continuity StudyOpener::leavePhase(int next) {
     Continuity stays{m_document.scene(), m_document.displayWindow(), m_document.crosshair(),
-                     m_document.cut(), m_document.brightness()};
+                     m_document.cut(),   m_document.brightness(),    m_document.segments()};
     // A volume's own window would differ from phase to phase.
     if (m_document.volume()->unit() == volume::ValueUnit::none)
         stays.scene.fieldWindow = m_document.fieldWindow();
@@ -283,8 +313,12 @@ void StudyOpener::openSource(int index, JobRunner::OnEnd onEnd) {
 }
 
 JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFor &wanted) {
-    return [this, source, prepare = m_preparer.preparation(wanted, 0.6, prepare::Detail::coarse)](
-               const Job &job) {
+    QStringList segmentations;
+    if (m_resumption && source.digest() == m_resumption->digest)
+        segmentations = m_resumption->segmentations;
+    return [this, source, segmentations,
+            prepare =
+                m_preparer.preparation(wanted, 0.6, prepare::Detail::coarse)](const Job &job) {
         dicom::LoadObserver observer;
         observer.preview = [&](const volume::Volume &soFar) {
             const volume::ValueWindow window = initialWindow(soFar);
@@ -294,9 +328,13 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
         const volume::Volume volume = loaded.volume;
         const volume::ValueWindow window = initialWindow(volume);
         const classify::FieldWindow field = classify::defaultFieldWindow(volume);
-        job.deliver([this, loaded, window, field] {
+        const LoadedSegments segments =
+            loadSegments(segmentations, volume, nullptr, job.progress());
+        job.deliver([this, loaded, window, field, segments] {
             m_document.addProblems(loaded.skipped);
+            m_document.addProblems(segments.problems);
             m_document.setVolume(loaded.volume, window, field, false);
+            m_document.setSegments(segments.set);
             applyResumption();
             // The quality may have changed during the load.
             m_preparer.prepareAgain();

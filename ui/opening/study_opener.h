@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include <QObject>
@@ -21,6 +22,8 @@ struct Continuity {
     volume::PatientPoint crosshair;
     Cut cut;
     std::optional<picture::ToneRange> brightness; ///< see Document
+    /// Kept if the other volume has the same lattice; may be null.
+    std::shared_ptr<const segment::SegmentSet> segments = nullptr;
 };
 
 /// Opens studies, as jobs: scans paths, chooses a volume, loads it with previews, and has its
@@ -37,6 +40,8 @@ public:
         Continuity shown;
         /// Other files of its folders that could not be used then.
         std::vector<dicom::Skipped> leftOut;
+        /// Files of segments to load for it.
+        QStringList segmentations;
     };
     void openPaths(const QStringList &paths, const std::optional<Resumption> &resumption = {},
                    const dicom::ScanOptions &options = {});
@@ -54,6 +59,8 @@ public:
     void closeSource(int index);
 
 signals:
+    /// The paths contain no images, but segmentations, which may belong to the open volume.
+    void segmentationsFound(const QStringList &paths);
     /// The paths contain a study that can be opened.
     void pathsOpened(const QStringList &paths);
     /// They contain images so large that they are opened only if the user asks for it.
@@ -77,6 +84,7 @@ private:
     /// Reopens the previous study after a load that failed or was cancelled.
     void goBack();
     Continuity leavePhase(int next);
+    /// Without classes whose segments are not loaded.
     void resume(const Continuity &continuity);
     void show(const KeptStudy &study, const std::optional<Continuity> &continuity);
 

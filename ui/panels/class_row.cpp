@@ -33,8 +33,14 @@ QIcon dotIcon(const QColor &color, bool isShown) {
     return QIcon(pixmap);
 }
 
-QString rangeText(const classify::TissueClass &tissue) {
-    QString text = QString("%1 .. %2").arg(tissue.low, 0, 'g', 4).arg(tissue.high, 0, 'g', 5);
+// The size of the segment, and the range unless it contains every value.
+QString rangeText(const classify::TissueClass &tissue, const segment::Segment *segment) {
+    QStringList parts;
+    if (segment != nullptr)
+        parts << ClassRow::tr("%1 ml").arg(segment->volumeMm3 / 1000.0, 0, 'f', 1);
+    if (tissue.low > classify::lowestValue || tissue.high < classify::highestValue)
+        parts << QString("%1 .. %2").arg(tissue.low, 0, 'g', 4).arg(tissue.high, 0, 'g', 5);
+    QString text = parts.join(", ");
     for (const classify::Step &step : tissue.steps)
         text += ", " + QString::fromStdString(classify::stepText(step));
     return text;
@@ -75,14 +81,16 @@ ClassRow::ClassRow(int index, QWidget *parent)
             [this](double weight, DragId drag) { emit weightChanged(m_index, weight, drag); });
 }
 
-void ClassRow::show(const classify::TissueClass &tissue, bool isSelected) {
+void ClassRow::show(const classify::TissueClass &tissue, const segment::Segment *segment,
+                    bool isSelected) {
     const QString name = translatedName(tissue.name);
     m_dot->setIcon(dotIcon(colorOf(tissue.color), tissue.weight > 0.0));
     m_dot->setAccessibleName(tr("Show %1").arg(name));
     m_weight->setNames(tr("Weight of %1").arg(name), tr("Weight; double-click sets it to 1"));
     m_name->setText(name);
-    m_range->setText(m_range->fontMetrics().elidedText(rangeText(tissue), Qt::ElideRight, 118));
-    m_range->setToolTip(rangeText(tissue));
+    const QString range = rangeText(tissue, segment);
+    m_range->setText(m_range->fontMetrics().elidedText(range, Qt::ElideRight, 118));
+    m_range->setToolTip(range);
     m_weight->setValue(tissue.weight);
     setProperty("selected", isSelected);
     style()->polish(this);

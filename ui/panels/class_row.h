@@ -4,6 +4,7 @@
 #include <QWidget>
 
 #include "core/classify/tissue_class.h"
+#include "core/segment/segmentation.h"
 #include "ui/document/commands.h"
 
 class QLabel;
@@ -19,7 +20,9 @@ class ClassRow : public QWidget {
     Q_OBJECT
 public:
     explicit ClassRow(int index, QWidget *parent = nullptr);
-    void show(const classify::TissueClass &tissue, bool isSelected);
+    /// `segment`: of the class, or null.
+    void show(const classify::TissueClass &tissue, const segment::Segment *segment,
+              bool isSelected);
 
 signals:
     void chosen(int index);

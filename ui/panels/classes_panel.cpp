@@ -6,14 +6,17 @@
 #include <QColorDialog>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QVBoxLayout>
 
+#include "core/preprocess/segment_class.h"
 #include "ui/document/document.h"
 #include "ui/language/names.h"
 #include "ui/panels/class_dialog.h"
+#include "ui/panels/class_group.h"
 #include "ui/panels/class_row.h"
 
 namespace pellucid::ui {
@@ -25,6 +28,9 @@ classify::TissueClass ownClass(const classify::FieldWindow &window) {
     const double width = window.high - window.low;
     return {"Custom", window.low + 0.4 * width, window.low + 0.6 * width, 0.05 * width, 1.0, {}};
 }
+
+// More classes than a panel shows at once.
+constexpr std::size_t manyClasses = 12;
 
 QString capitalised(const std::string &name) {
     QString text = QString::fromStdString(name);
@@ -38,7 +44,7 @@ ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
       m_list(new QWidget), m_rows(new QVBoxLayout(m_list)),
       m_empty(new QLabel(tr("The transfer function applies to the whole volume. Add a class to "
                             "show tissues separately."))),
-      m_area(new QScrollArea) {
+      m_search(new QLineEdit), m_area(new QScrollArea) {
     setObjectName("classesPanel");
     setAttribute(Qt::WA_StyledBackground);
     m_add->setObjectName("addClassButton");
@@ -46,6 +52,9 @@ ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
     m_add->setProperty("role", "link");
     m_empty->setProperty("role", "muted");
     m_empty->setWordWrap(true);
+    m_search->setObjectName("classSearch");
+    m_search->setPlaceholderText(tr("Search classes"));
+    m_search->setClearButtonEnabled(true);
     m_rows->setContentsMargins(0, 0, 4, 0);
     m_rows->setSpacing(1);
     m_rows->addWidget(m_empty);
@@ -59,10 +68,13 @@ ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(12, 0, 8, 6);
     column->setSpacing(2);
+    column->addWidget(m_search);
     column->addWidget(m_area, 1);
     connect(m_add, &QPushButton::clicked, this, &ClassesPanel::showAddMenu);
     connect(&document, &Document::sceneChanged, this, &ClassesPanel::showScene);
     connect(&document, &Document::selectedClassChanged, this, &ClassesPanel::showScene);
+    connect(&document, &Document::segmentsChanged, this, &ClassesPanel::showScene);
+    connect(m_search, &QLineEdit::textChanged, this, &ClassesPanel::arrange);
     connect(&document, &Document::volumeChanged, this, [this] {
         setEnabled(m_document.volume() && !m_document.isPreview());
         m_add->setEnabled(isEnabled());
@@ -85,13 +97,25 @@ void ClassesPanel::showScene() {
     // The dialog refers to its class by index, which may have changed.
     if (m_dialog && m_shown.size() != classes.size())
         m_dialog->close();
-    while (m_shown.size() > classes.size()) {
+    makeRows(classes.size());
+    for (std::size_t n = 0; n < classes.size(); ++n) {
+        const segment::Segment *const segment =
+            m_document.segments() ? m_document.segments()->find(classes[n].segment) : nullptr;
+        m_shown[n]->show(classes[n], segment, int(n) == m_document.selectedClass());
+    }
+    m_search->setVisible(classes.size() > manyClasses);
+    if (m_search->isHidden())
+        m_search->clear();
+    arrange();
+}
+
+void ClassesPanel::makeRows(std::size_t count) {
+    while (m_shown.size() > count) {
         m_shown.back()->deleteLater();
         m_shown.pop_back();
     }
-    while (m_shown.size() < classes.size()) {
+    while (m_shown.size() < count) {
         auto *row = new ClassRow(int(m_shown.size()));
-        m_rows->insertWidget(m_rows->count() - 1, row);
         m_shown.push_back(row);
         connect(row, &ClassRow::chosen, &m_document, &Document::selectClass);
         connect(row, &ClassRow::toggled, this, &ClassesPanel::toggle);
@@ -99,8 +123,109 @@ void ClassesPanel::showScene() {
         connect(row, &ClassRow::editRequested, this, &ClassesPanel::edit);
         connect(row, &ClassRow::menuRequested, this, &ClassesPanel::showMenu);
     }
-    for (std::size_t n = 0; n < classes.size(); ++n)
-        m_shown[n]->show(classes[n], int(n) == m_document.selectedClass());
+}
+
+QString ClassesPanel::groupOf(const classify::TissueClass &tissue) const {
+    const auto &segments = m_document.segments();
+    return segments && !tissue.segment.empty()
+               ? QString::fromStdString(segments->titleOf(tissue.segment))
+               : QString();
+}
+
+// The search also finds the terms of a segment's codes, such as "bone".
+bool ClassesPanel::isFound(const classify::TissueClass &tissue) const {
+    const QString wanted = m_search->text().trimmed();
+    const auto contains = [&](const std::string &text) {
+        return QString::fromStdString(text).contains(wanted, Qt::CaseInsensitive);
+    };
+    const auto &segments = m_document.segments();
+    const segment::Segment *const segment = segments ? segments->find(tissue.segment) : nullptr;
+    return wanted.isEmpty() || contains(tissue.name) ||
+           translatedName(tissue.name).contains(wanted, Qt::CaseInsensitive) ||
+           (segment != nullptr &&
+            (contains(segment->category.meaning) || contains(segment->type.meaning)));
+}
+
+void ClassesPanel::arrange() {
+    const auto &classes = m_document.scene().look.classes;
+    if (m_shown.size() != classes.size()) // a signal within a change; showScene follows
+        return;
+    QStringList titles;
+    for (const classify::TissueClass &tissue : classes)
+        if (const QString title = groupOf(tissue); !title.isEmpty() && !titles.contains(title))
+            titles << title;
+    std::erase_if(m_groups, [&](ClassGroup *group) {
+        const bool isGone = !titles.contains(group->title());
+        if (isGone)
+            group->deleteLater();
+        return isGone;
+    });
+    std::vector<QWidget *> order{m_empty};
+    const auto addRows = [&](const QString &title, bool isFolded) {
+        for (std::size_t n = 0; n < classes.size(); ++n) {
+            if (groupOf(classes[n]) != title)
+                continue;
+            order.push_back(m_shown[n]);
+            m_shown[n]->setVisible(!isFolded && isFound(classes[n]));
+        }
+    };
+    addRows({}, false);
+    for (const QString &title : titles) {
+        auto found = std::find_if(m_groups.begin(), m_groups.end(),
+                                  [&](ClassGroup *group) { return group->title() == title; });
+        if (found == m_groups.end()) {
+            m_groups.push_back(new ClassGroup(title));
+            found = std::prev(m_groups.end());
+            connect(*found, &ClassGroup::folded, this, &ClassesPanel::arrange);
+            connect(*found, &ClassGroup::toggled, this, &ClassesPanel::toggleGroup);
+        }
+        int shown = 0, listed = 0;
+        for (const classify::TissueClass &tissue : classes)
+            if (groupOf(tissue) == title && isFound(tissue)) {
+                ++listed;
+                shown += tissue.weight > 0.0 ? 1 : 0;
+            }
+        (*found)->show(shown, listed);
+        order.push_back(*found);
+        (*found)->setVisible(listed > 0);
+        addRows(title, (*found)->isFolded());
+    }
+    place(order);
+}
+
+// During a drag nothing moves: laying out a hundred rows takes longer than a frame.
+void ClassesPanel::place(const std::vector<QWidget *> &order) {
+    bool isSame = m_rows->count() == int(order.size()) + 1; // the stretch
+    for (std::size_t n = 0; isSame && n < order.size(); ++n)
+        isSame = m_rows->itemAt(int(n))->widget() == order[n];
+    if (isSame)
+        return;
+    while (m_rows->count() > 0)
+        delete m_rows->takeAt(0); // the item; its widget stays
+    for (QWidget *const widget : order)
+        m_rows->addWidget(widget);
+    m_rows->addStretch();
+}
+
+// Hides all that the list shows of a group, or shows them if all of them are hidden.
+void ClassesPanel::toggleGroup(const QString &title) {
+    const auto &classes = m_document.scene().look.classes;
+    const auto belongs = [&](const classify::TissueClass &tissue) {
+        return groupOf(tissue) == title && isFound(tissue);
+    };
+    const bool hides = std::any_of(classes.begin(), classes.end(), [&](const auto &tissue) {
+        return belongs(tissue) && tissue.weight > 0.0;
+    });
+    change(hides ? tr("Hide %1").arg(title) : tr("Show %1").arg(title), [&](classify::Look &look) {
+        for (classify::TissueClass &tissue : look.classes) {
+            if (!belongs(tissue))
+                continue;
+            const QString name = QString::fromStdString(tissue.name);
+            if (hides && tissue.weight > 0.0)
+                m_hiddenWeight[name] = tissue.weight;
+            tissue.weight = hides ? 0.0 : m_hiddenWeight.value(name, 1.0);
+        }
+    });
 }
 
 void ClassesPanel::change(const QString &what, const std::function<void(classify::Look &)> &edit,
@@ -156,8 +281,41 @@ void ClassesPanel::showAddMenu() {
         add(ownClass(m_document.fieldWindow()));
         edit(int(m_document.scene().look.classes.size()) - 1);
     });
+    addSegments(menu);
     menu.setObjectName("addClassMenu");
     menu.exec(m_add->mapToGlobal(QPoint(0, m_add->height())));
+}
+
+// Segments that are loaded but not among the classes, the segmentations of the study, and others.
+void ClassesPanel::addSegments(QMenu &menu) {
+    menu.addSeparator();
+    const auto &segments = m_document.segments();
+    std::size_t index = m_document.scene().look.classes.size();
+    const auto isShown = [&](const segment::Segment &segment) {
+        const auto &classes = m_document.scene().look.classes;
+        return std::any_of(classes.begin(), classes.end(),
+                           [&](const auto &tissue) { return tissue.segment == segment.name; });
+    };
+    QStringList loaded;
+    if (segments)
+        for (const segment::Segmentation &segmentation : segments->segmentations()) {
+            loaded << QString::fromStdString(segmentation.path.string());
+            QMenu *of = nullptr;
+            for (const segment::Segment &segment : segmentation.segments)
+                if (!isShown(segment)) {
+                    if (of == nullptr)
+                        of = menu.addMenu(QString::fromStdString(segmentation.title));
+                    const auto tissue = preprocess::classOf(segment, index++);
+                    of->addAction(QString::fromStdString(segment.name), this,
+                                  [this, tissue] { add(tissue); });
+                }
+        }
+    if (const int source = m_document.currentSource(); source >= 0)
+        for (const auto &[path, title] : m_document.sources()[std::size_t(source)].segmentations)
+            if (!loaded.contains(path))
+                menu.addAction(tr("Segments of %1").arg(title), this,
+                               [this, path = path] { emit segmentationRequested({path}); });
+    menu.addAction(tr("Open segmentation..."), this, [this] { emit segmentationRequested({}); });
 }
 
 void ClassesPanel::showMenu(int index, const QPoint &globalAt) {

@@ -3,6 +3,8 @@
 
 #include <functional>
 
+#include <vector>
+
 #include <QHash>
 #include <QPointer>
 #include <QWidget>
@@ -11,6 +13,8 @@
 #include "ui/document/commands.h"
 
 class QLabel;
+class QLineEdit;
+class QMenu;
 class QPushButton;
 class QScrollArea;
 class QVBoxLayout;
@@ -18,10 +22,12 @@ class QVBoxLayout;
 namespace pellucid::ui {
 
 class ClassDialog;
+class ClassGroup;
 class ClassRow;
 class Document;
 
-/// The tissue classes of the look, with visibility, weight, range and color.
+/// The tissue classes of the look, with visibility, weight, range and color. Classes of segments
+/// are grouped by their file. A long list can be searched.
 class ClassesPanel : public QWidget {
     Q_OBJECT
 public:
@@ -30,8 +36,22 @@ public:
     /// The button beside the panel's heading.
     QWidget *corner();
 
+signals:
+    /// The user asks for the segments of these files, or to choose one if there are none.
+    void segmentationRequested(const QStringList &paths);
+
 private:
     void showScene();
+    /// Puts the rows below the headings of their groups, and hides those that are folded or do not
+    /// match the search.
+    void arrange();
+    void place(const std::vector<QWidget *> &order);
+    /// Makes as many rows as there are classes.
+    void makeRows(std::size_t count);
+    /// The file that a class's segment comes from; empty if it has none.
+    QString groupOf(const classify::TissueClass &tissue) const;
+    bool isFound(const classify::TissueClass &tissue) const;
+    void toggleGroup(const QString &title);
     void change(const QString &what, const std::function<void(classify::Look &)> &edit,
                 DragId drag = noDrag);
     void changeClass(int index, const QString &what,
@@ -39,6 +59,7 @@ private:
                      DragId drag = noDrag);
     void add(const classify::TissueClass &tissue);
     void showAddMenu();
+    void addSegments(QMenu &menu);
     void setWeight(int index, double weight, DragId drag);
     void toggle(int index);
     void showMenu(int index, const QPoint &globalAt);
@@ -50,8 +71,10 @@ private:
     QWidget *m_list;
     QVBoxLayout *m_rows;
     QLabel *m_empty;
+    QLineEdit *m_search;
     QScrollArea *m_area;
     std::vector<ClassRow *> m_shown;
+    std::vector<ClassGroup *> m_groups;
     QPointer<ClassDialog> m_dialog;
     /// The former weights of hidden classes, by name.
     QHash<QString, double> m_hiddenWeight;

@@ -91,6 +91,12 @@ std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogu
                 source.lasting << lasting;
         }
         source.lasting.removeDuplicates();
+        for (const dicom::SegmentationFile &file : s.study->segmentations)
+            source.segmentations.emplace_back(
+                QString::fromStdString(file.path.string()),
+                QString::fromStdString(file.description.empty()
+                                           ? catalogue->named(file.path).filename().string()
+                                           : file.description));
         source.volume.file =
             QString::fromStdString(catalogue->named(s.volume->volumeFile).string());
         // Each function that may load from the catalogue keeps it alive.

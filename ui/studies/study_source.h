@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <QString>
@@ -22,6 +23,8 @@ struct StudySource {
     QString phantom;
     /// The paths that still exist after the program ends: for files in an archive, the archive.
     QStringList lasting;
+    /// Segmentations of its study: paths and titles.
+    std::vector<std::pair<QString, QString>> segmentations;
     /// Thread-safe; see dicom::loadVolume.
     std::function<dicom::LoadedVolume(const task::Progress &, const dicom::LoadObserver &)> load;
     /// Thread-safe; for volumes whose facts have no thumbnail.

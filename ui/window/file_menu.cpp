@@ -31,6 +31,14 @@ FileMenu::FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &
     add(menu, tr("&Import into the library..."), "importAction", QKeySequence("Ctrl+I"), [this] {
         importPaths({});
     })->setIconText(tr("Import"));
+    QAction *const segmentation = add(menu, tr("Open se&gmentation..."), "openSegmentationAction",
+                                      {}, [this] { chooseSegmentations(); });
+    const auto enable = [this, segmentation] {
+        const Document &document = m_bench.study.document;
+        segmentation->setEnabled(document.volume() && !document.isPreview());
+    };
+    connect(&bench.study.document, &Document::volumeChanged, this, enable);
+    enable();
     QMenu *phantoms = menu.addMenu(tr("Open &phantom"));
     add(*phantoms, tr("&Head"), "headPhantomAction", {}, [this] { emit phantomChosen("head"); });
     add(*phantoms, tr("&Chest"), "chestPhantomAction", {}, [this] { emit phantomChosen("chest"); });
@@ -63,6 +71,10 @@ void FileMenu::attempt(const std::function<void()> &what) {
 
 void FileMenu::chooseFiles() {
     emit pathsChosen(askForFiles(&m_window, tr("Open files")));
+}
+
+void FileMenu::chooseSegmentations() {
+    m_bench.study.segments.open(askForFiles(&m_window, tr("Open segmentation")));
 }
 
 void FileMenu::chooseFolder() {
@@ -153,6 +165,11 @@ void FileMenu::openScene() {
         return;
     attempt([&] {
         scene::Scene scene = readSceneFile(path);
+        if (const QStringList missing = m_bench.study.document.missingSegments(scene.look);
+            !missing.isEmpty())
+            throw task::Error(task::ErrorCode::usage,
+                              task::because::sceneNeedsSegments(missing.join(", ").toStdString()),
+                              path.toStdString());
         scene.plannedFor = {}; // the window always plans for the whole volume
         editScene(m_bench.study.document, tr("Open scene"), noDrag,
                   [&](scene::Scene &shown) { shown = scene; });

@@ -24,6 +24,7 @@ public:
 
     void chooseFiles();
     void chooseFolder();
+    void chooseSegmentations();
     /// Asks how to import and, if there are no paths, what.
     void importPaths(const QStringList &paths);
     void exportMeasurements();

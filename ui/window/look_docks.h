@@ -30,6 +30,7 @@ public:
 
     const std::vector<QDockWidget *> &docks() const { return m_docks; }
     PresetsPanel &presets() { return *m_presets; }
+    ClassesPanel &classes() { return *m_classes; }
     ShadingPanel &shading() { return *m_shading; }
     /// Shows a panel whose dock may be closed or collapsed.
     void unfold(QWidget &panel);

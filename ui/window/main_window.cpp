@@ -21,6 +21,7 @@
 #include "ui/document/add_command.h"
 #include "ui/jobs/job_strip.h"
 #include "ui/language/reasons.h"
+#include "ui/panels/classes_panel.h"
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/phase_bar.h"
 #include "ui/panels/presets_panel.h"
@@ -188,6 +189,13 @@ void MainWindow::createFileMenu() {
     connect(&m_docks->measurements(), &MeasurementsPanel::exportRequested, m_file,
             &FileMenu::exportMeasurements);
     connect(&m_docks->studies(), &StudyPanel::importRequested, m_file, &FileMenu::importPaths);
+    connect(&m_look->classes(), &ClassesPanel::segmentationRequested, this,
+            [this](const QStringList &paths) {
+                if (paths.isEmpty())
+                    m_file->chooseSegmentations();
+                else
+                    m_bench.study.segments.open(paths);
+            });
     connect(m_start, &StartPage::openFilesRequested, m_file, &FileMenu::chooseFiles);
     connect(m_start, &StartPage::openFolderRequested, m_file, &FileMenu::chooseFolder);
 }

@@ -30,6 +30,8 @@ bool mayStay(const Session &session, const Document &document) {
     };
     for (const QString &file : session.files)
         look(file);
+    for (const QString &file : session.segmentations)
+        look(file);
     for (const dicom::Skipped &skipped : session.leftOut)
         look(QString::fromStdString(skipped.path.string()));
     QString all;
@@ -52,7 +54,8 @@ Workstation::Workstation(std::optional<EngineChoice> engine)
     for (const auto changed :
          {&Document::volumeChanged, &Document::sceneChanged, &Document::poseChanged,
           &Document::projectionResized, &Document::displayWindowChanged,
-          &Document::brightnessChanged, &Document::crosshairChanged, &Document::cutChanged})
+          &Document::brightnessChanged, &Document::crosshairChanged, &Document::cutChanged,
+          &Document::segmentsChanged})
         connect(&m_bench.study.document, changed, this, [this] {
             if (!m_keeping.isActive()) // a long drag does not postpone it
                 m_keeping.start();

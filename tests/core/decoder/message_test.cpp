@@ -47,9 +47,9 @@ auto fieldsOf(IsA<Rescale> auto &r) {
 }
 auto fieldsOf(IsA<FrameHeader> auto &f) {
     auto &[positionMm, rowAxis, columnAxis, spacingMm, sliceThicknessMm, rescale, imageType,
-           dimensions] = f;
+           segment, dimensions] = f;
     return std::tie(positionMm, rowAxis, columnAxis, spacingMm, sliceThicknessMm, rescale,
-                    imageType, dimensions);
+                    imageType, segment, dimensions);
 }
 auto fieldsOf(IsA<InstanceHeader> auto &h) {
     auto &[sopClassUid, sopClassName, sopInstanceUid, transferSyntax, unsupportedSyntax, patientId,
@@ -70,9 +70,21 @@ auto fieldsOf(IsA<InstanceHeader> auto &h) {
 }
 auto fieldsOf(IsA<VolumeLayout> auto &l) {
     auto &[size, volumes, originMm, stepsMm, scalar, slope, intercept, isDeflated, isSwapped,
-           isOfPatient, dataFile, at, skip] = l;
+           isOfPatient, segments, dataFile, at, skip] = l;
     return std::tie(size, volumes, originMm, stepsMm, scalar, slope, intercept, isDeflated,
-                    isSwapped, isOfPatient, dataFile, at, skip);
+                    isSwapped, isOfPatient, segments, dataFile, at, skip);
+}
+auto fieldsOf(IsA<CodedConcept> auto &c) {
+    auto &[value, scheme, meaning] = c;
+    return std::tie(value, scheme, meaning);
+}
+auto fieldsOf(IsA<SegmentDescription> auto &s) {
+    auto &[number, label, description, color, category, type] = s;
+    return std::tie(number, label, description, color, category, type);
+}
+auto fieldsOf(IsA<Structure> auto &s) {
+    auto &[number, name, color, type, contourSizes, ignoredContours] = s;
+    return std::tie(number, name, color, type, contourSizes, ignoredContours);
 }
 auto fieldsOf(IsA<ArchiveFile> auto &f) {
     auto &[name, bytes, isEncrypted, isLink] = f;
@@ -129,8 +141,12 @@ public:
         frames.front().rowAxis = glm::dvec3(0.6, 0.8, 0.0); // unit vectors at right angles
         frames.front().columnAxis = glm::dvec3(0.0, 0.0, -1.0);
     }
+    void operator()(SegmentDescription &segment) {
+        fillFields(segment);
+        segment.color = glm::dvec3(0.25, 0.5, 1.0); // components are 0 to 1
+    }
     template <class T>
-    requires IsA<T, Rescale> || IsA<T, ArchiveFile>
+    requires IsA<T, Rescale> || IsA<T, ArchiveFile> || IsA<T, CodedConcept>
     void operator()(T &message) { fillFields(message); }
     template <class T> void fillFields(T &message) {
         std::apply([this](auto &...field) { ((*this)(field), ...); }, fieldsOf(message));
@@ -241,6 +257,68 @@ TEST(Message, everyFieldOfALayoutComesThroughOrIsRefused) {
     refused([](VolumeLayout &l) { l.scalar = StoredScalar(10); });
     refused([](VolumeLayout &l) { l.scalar = StoredScalar(-1); });
     refused([](VolumeLayout &l) { l.stepsMm[1].y = std::numeric_limits<double>::quiet_NaN(); });
+}
+
+SegmentationHeader someSegmentation() {
+    SegmentationHeader header{filled<InstanceHeader>(), SegmentationKind::fractional, 200, {}};
+    Fill fill;
+    fill(header.segments);
+    for (FrameHeader &frame : header.instance.frames) {
+        frame = filled<InstanceHeader>().frames.front();
+        frame.segment = header.segments.back().number;
+    }
+    return header;
+}
+
+TEST(Message, everyFieldOfASegmentationComesThroughOrIsRefused) {
+    const SegmentationHeader sent = someSegmentation();
+    const SegmentationHeader got = unpackSegmentation(bytesOf(pack(sent)));
+    expectSameFields(got.instance, sent.instance);
+    EXPECT_EQ(got.kind, sent.kind);
+    EXPECT_EQ(got.largestFraction, sent.largestFraction);
+    ASSERT_EQ(got.segments.size(), sent.segments.size());
+    for (std::size_t n = 0; n < sent.segments.size(); ++n)
+        expectSameFields(got.segments[n], sent.segments[n]);
+    const auto refused = [&](auto change) {
+        SegmentationHeader bad = sent;
+        change(bad);
+        EXPECT_THROW(unpackSegmentation(bytesOf(pack(bad))), task::Error);
+    };
+    refused([](SegmentationHeader &h) { h.kind = SegmentationKind(3); });
+    refused([](SegmentationHeader &h) { h.kind = SegmentationKind(-1); });
+    refused([](SegmentationHeader &h) { h.largestFraction = 0; });
+    refused([](SegmentationHeader &h) { h.segments.clear(); });
+    refused([](SegmentationHeader &h) { h.segments[0].number = 0; });
+    refused([](SegmentationHeader &h) { h.segments[1].number = h.segments[0].number; });
+    refused([](SegmentationHeader &h) { h.segments[0].color = glm::dvec3(0.0, 0.0, 1.5); });
+    refused([](SegmentationHeader &h) { h.instance.frames[0].segment = 77; });
+    refused([](SegmentationHeader &h) { h.instance.frames[1].positionMm.reset(); });
+    refused([](SegmentationHeader &h) { h.instance.frames[1].spacingMm.reset(); });
+}
+
+TEST(Message, everyFieldOfAStructureSetComesThroughOrIsRefused) {
+    Structure structure;
+    Fill().fillFields(structure);
+    structure.color = glm::dvec3(1.0, 0.5, 0.0);
+    structure.contourSizes = {3, 4000};
+    const StructureSetHeader sent{filled<InstanceHeader>(), {structure}};
+    const StructureSetHeader got = unpackStructureSet(bytesOf(pack(sent)));
+    expectSameFields(got.instance, sent.instance);
+    ASSERT_EQ(got.structures.size(), 1U);
+    expectSameFields(got.structures[0], structure);
+    EXPECT_EQ(pointCount(got), 4003U);
+    const auto refused = [&](auto change) {
+        StructureSetHeader bad = sent;
+        change(bad);
+        EXPECT_THROW(unpackStructureSet(bytesOf(pack(bad))), task::Error);
+    };
+    refused([](StructureSetHeader &h) { h.structures.clear(); });
+    refused([](StructureSetHeader &h) { h.structures[0].contourSizes[0] = 2; });
+    refused([](StructureSetHeader &h) { h.structures[0].contourSizes[0] = 0xFFFFFFFF; });
+    refused([](StructureSetHeader &h) {
+        h.structures[0].contourSizes.assign(3, std::uint32_t(maxContourPoints / 2));
+    });
+    refused([](StructureSetHeader &h) { h.structures[0].ignoredContours = -1; });
 }
 
 TEST(Message, reasonsComeThroughOnOneLine) {

@@ -291,7 +291,7 @@ TEST(Nasty, UnusableFilesAreRefusedWithAReason) {
     const auto catalogue =
         dicom::scan({test::testData() / "nasty_pydicom", test::testData() / "nasty_misc_cs3d"});
     const std::pair<const char *, const char *> expected[] = {
-        {"rtstruct.dcm", "no pixel data"},
+        {"rtstruct.dcm", "segmentation"},
         {"test-SR.dcm", "no pixel data"},
         {"no-pixel-data.dcm", "no pixel data"},
         {"liver_1frame.dcm", "segmentation"},

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Segmentations on the command line: shown, listed, written.
+#include "tests/cli/cli.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/classify/shown_fields.h"
+#include "core/decoder/read_volume_file.h"
+#include "core/dicom/load_volume.h"
+#include "core/dicom/scan.h"
+#include "core/preprocess/segment_class.h"
+#include "core/preprocess/step_cache.h"
+#include "core/reference/wide_kernel.h"
+#include "core/scene/scene.h"
+#include "core/segment/segment_set.h"
+
+namespace pellucid {
+
+namespace {
+
+using namespace test;
+using nlohmann::json;
+
+volume::Volume volumeIn(const fs::path &series) {
+    const auto catalogue = dicom::scan({series});
+    return dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
+}
+
+TEST_F(Cli, SegmentsAreProjectedAsTheExactReferenceDoes) {
+    const fs::path series = phantomFolder("--kind chest --size 48x44x36"),
+                   organs = folder / "organs.dcm", out = folder / "image.npy";
+    auto r = cli("segment " + quoted(series) + " --class bone:#ff8000 --class lung:#0040ff -o " +
+                 quoted(organs) + " --json");
+    ASSERT_EQ(r.exitCode, 0) << r.error;
+    EXPECT_EQ(json::parse(r.out)["segments"].size(), 2U);
+    const volume::Volume volume = volumeIn(series);
+    auto camera = scene::defaultCamera(volume.lattice());
+    camera.orientation = scene::viewOrientation(scene::StandardView::front, {20, 0, 0});
+    const auto set =
+        segment::SegmentSet(volume.lattice()).with(segment::loadSegmentation(organs, volume));
+    preprocess::StepCache steps(0);
+    steps.setSegments(set);
+    const auto classes = [&](std::vector<std::pair<const char *, double>> names) {
+        classify::Look look;
+        for (const auto &[name, weight] : names) {
+            look.classes.push_back(preprocess::classOf(*set->find(name), 0));
+            look.classes.back().weight = weight;
+        }
+        return look;
+    };
+    const struct {
+        std::string options;
+        classify::Look look;
+    } cases[] = {{"", classes({{"bone", 1.0}, {"lung", 1.0}})},
+                 {" --segment 'b*=0.5' --segment lung=2", classes({{"bone", 0.5}, {"lung", 2.0}})},
+                 {" --segment lung=1", classes({{"lung", 1.0}})}};
+    for (const auto &c : cases) {
+        r = cli("render " + quoted(series) + " -o " + quoted(out) + " --azimuth 20 --json" +
+                " --segmentation " + quoted(organs) + c.options);
+        ASSERT_EQ(r.exitCode, 0) << r.error;
+        const json report = json::parse(r.out);
+        EXPECT_EQ(report["segmentations"][0]["segments"].size(), 2U);
+        const auto fields =
+            classify::shownFields(volume, classify::defaultFieldWindow(volume), c.look, &steps);
+        int height = 0, width = 0;
+        const auto got = readNpy(out, height, width, 3);
+        ASSERT_EQ(got.size(), std::size_t(3 * camera.width * camera.height));
+        std::vector<double> expected(got.size());
+        for (std::size_t n = 0; n < fields.channels.size(); ++n) {
+            const classify::DensityField &field = fields.channels[n];
+            const auto image = reference::WideKernel(field.values, field.support).image(camera, {});
+            const double color[] = {fields.colors[n].red, fields.colors[n].green,
+                                    fields.colors[n].blue};
+            for (std::size_t p = 0; p < image.size(); ++p)
+                for (std::size_t d = 0; d < 3; ++d)
+                    expected[3 * p + d] += color[d] * image[p];
+        }
+        double error = 0.0, sum = 0.0;
+        for (std::size_t n = 0; n < got.size(); ++n) {
+            error += (got[n] - expected[n]) * (got[n] - expected[n]);
+            sum += expected[n] * expected[n];
+        }
+        EXPECT_LE(std::sqrt(error / sum), report["predicted_error"]["relative_l2"].get<double>());
+        EXPECT_LE(std::sqrt(error / sum), 1.1e-3);
+    }
+}
+
+TEST_F(Cli, ScenesKeepClassesOfSegments) {
+    const fs::path series = phantomFolder("--kind chest --size 32x32x24"),
+                   organs = folder / "organs.dcm", out = folder / "image.png",
+                   scene = folder / "scene.json";
+    ASSERT_EQ(cli("segment " + quoted(series) + " --class bone -o " + quoted(organs)).exitCode, 0);
+    classify::TissueClass tissue{"spine", classify::lowestValue, classify::highestValue};
+    tissue.segment = "bone";
+    tissue.edge = 0.7;
+    scene::Scene made;
+    made.camera.width = made.camera.height = 32;
+    made.camera.pixelMm = 10.0;
+    made.look.classes = {tissue};
+    EXPECT_EQ(scene::sceneFromJson(scene::toJson(made)).look, made.look);
+    std::ofstream(scene) << scene::toJson(made);
+    const std::string command =
+        "render " + quoted(series) + " --scene " + quoted(scene) + " -o " + quoted(out);
+    expectOneLine(cli(command), 2, "the class 'spine' needs the segment 'bone'");
+    EXPECT_FALSE(fs::exists(out));
+    EXPECT_EQ(cli(command + " --segmentation " + quoted(organs)).exitCode, 0);
+    EXPECT_TRUE(fs::exists(out));
+}
+
+TEST_F(Cli, InfoListsSegmentationsOfTheStudy) {
+    const fs::path series = phantomFolder("--kind chest --size 32x32x24");
+    ASSERT_EQ(cli("segment " + quoted(series) + " --class bone --class fat -o " +
+                  quoted(series / "organs.dcm"))
+                  .exitCode,
+              0);
+    const auto r = cli("info --json " + quoted(series));
+    ASSERT_EQ(r.exitCode, 0) << r.error;
+    const json study = json::parse(r.out)["patients"][0]["studies"][0];
+    ASSERT_EQ(study["segmentations"].size(), 1U);
+    EXPECT_EQ(study["segmentations"][0]["segments"], json({"bone", "fat"}));
+    EXPECT_EQ(json::parse(r.out)["skipped"].size(), 0U);
+    EXPECT_NE(cli("info " + quoted(series)).out.find("2 segments: bone, fat"), std::string::npos);
+    // It is a file that is read.
+    expectOneLine(cli("render " + quoted(series) + " -o " + quoted(series / "organs.dcm")), 2,
+                  "is one of the files that are read");
+}
+
+TEST_F(Cli, GrowsARegionAndWritesIt) {
+    const fs::path series = phantomFolder("--kind sphere --size 40x40x40"),
+                   out = folder / "ball.nrrd", field = folder / "field.nrrd";
+    const volume::Volume volume = volumeIn(series);
+    const double inside = volume.value({20, 20, 20});
+    const auto r =
+        cli("segment " + quoted(series) + " --grow 0,0,0 --between " + std::to_string(inside - 1) +
+            "," + std::to_string(inside + 1) + " --name ball -o " + quoted(out) + " --json");
+    ASSERT_EQ(r.exitCode, 0) << r.error;
+    const auto segments = json::parse(r.out)["segments"];
+    EXPECT_EQ(segments[0]["name"], "ball");
+    const volume::Volume labels = decoder::readVolumeFile(out);
+    double samples = 0.0;
+    for (int k = 0; k < 40; ++k)
+        for (int j = 0; j < 40; ++j)
+            for (int i = 0; i < 40; ++i) {
+                EXPECT_EQ(labels.value({i, j, k}) == 1.0,
+                          std::abs(volume.value({i, j, k}) - inside) <= 1.0);
+                samples += labels.value({i, j, k});
+            }
+    EXPECT_NEAR(segments[0]["volume_ml"].get<double>(),
+                samples * volume.lattice().cellVolumeMm3() / 1000.0, 1e-6);
+    // Its field, by the name that the label volume keeps.
+    ASSERT_EQ(cli("volume " + quoted(series) + " --segmentation " + quoted(out) +
+                  " --segment ball --window 0,100 -o " + quoted(field))
+                  .exitCode,
+              0);
+    EXPECT_GT(decoder::readVolumeFile(field).value({20, 20, 20}), 0.0);
+}
+
+TEST_F(Cli, SegmentOptionsAreRefusedWithAReason) {
+    const fs::path series = phantomFolder("--kind sphere --size 24x24x24"),
+                   other = phantomFolder("--kind sphere --size 24x24x24"), out = folder / "o.dcm",
+                   organs = folder / "organs.dcm";
+    ASSERT_EQ(
+        cli("segment " + quoted(other) + " --grow 0,0,0 --between -2000,3000 -o " + quoted(organs))
+            .exitCode,
+        0);
+    const std::string start = "segment " + quoted(series) + " ";
+    const std::string to = " -o " + quoted(out);
+    expectOneLine(cli(start + "--class bone -o " + quoted(folder / "o.png")), 2,
+                  "must end in .dcm or .nrrd");
+    expectOneLine(cli(start + to), 2, "name what to write");
+    expectOneLine(cli(start + "--class nose" + to), 2, "unknown class 'nose'");
+    expectOneLine(cli(start + "--grow 0,0,0" + to), 2, "--between");
+    expectOneLine(cli(start + "--grow 0,0 --between 1,2" + to), 2, "--grow");
+    expectOneLine(cli(start + "--grow 0,0,9000 --between 1,2" + to), 2, "outside the volume");
+    expectOneLine(cli(start + "--grow 0,0,0 --between 30000,30001" + to), 2,
+                  "no value at the points to grow from");
+    expectOneLine(cli(start + "--segment a" + to), 2, "--segmentation");
+    expectOneLine(cli(start + "--segmentation " + quoted(organs) + to), 3,
+                  "belongs to another study");
+    expectOneLine(cli(start + "--segmentation " + quoted(folder / "none.dcm") + to), 3, "none.dcm");
+    expectOneLine(cli("segment " + quoted(other) + " --segmentation " + quoted(organs) +
+                      " --segment nose" + to),
+                  2, "no segment 'nose'; there are: region");
+    EXPECT_FALSE(fs::exists(out));
+}
+
+} // namespace
+
+} // namespace pellucid

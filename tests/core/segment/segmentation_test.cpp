@@ -1,0 +1,549 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/segment/segmentation.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <set>
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmseg/segdoc.h>
+#include <dcmtk/dcmseg/segment.h>
+
+#include <gtest/gtest.h>
+
+#include "core/decoder/read_volume_file.h"
+#include "core/dicom/load_volume.h"
+#include "core/dicom/scan.h"
+#include "core/segment/segment_set.h"
+#include "core/segment/write_segmentation.h"
+#include "core/task/error.h"
+#include "core/volume/nrrd.h"
+#include "tests/support/segmentation_writer.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+
+namespace pellucid {
+namespace {
+
+namespace because = task::because;
+namespace fs = std::filesystem;
+using segment::Segmentation;
+using test::DicomWriter;
+using volume::Coverage;
+using volume::GridSize;
+using volume::Lattice;
+using volume::Volume;
+using volume::VoxelIndex;
+
+Volume volumeOn(const Lattice &lattice) {
+    volume::VolumeNotes notes;
+    notes.studyUid = test::knobsRoot + "2";
+    notes.frameOfReferenceUid = test::knobsRoot + "4";
+    return Volume(lattice, std::vector<std::int16_t>(lattice.size().count(), 100),
+                  volume::ValueUnit::none, notes);
+}
+
+Lattice tilted(const GridSize &size) {
+    return Lattice::make(
+        size, {glm::dvec3(-10.0, 20.0, 30.0)},
+        {glm::dvec3(0.75, 0.0, 0.0), glm::dvec3(0.0, 0.6, -0.45), glm::dvec3(0.0, 0.0, 2.5)});
+}
+
+task::Reason reasonOf(const fs::path &file, const Volume &volume) {
+    try {
+        segment::loadSegmentation(file, volume);
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.path(), file);
+        return error.reason();
+    }
+    ADD_FAILURE() << "was loaded: " << file;
+    return because::isEmpty;
+}
+
+// Twice the samples in common over the sum of samples.
+double dice(const Coverage &a, const Volume &labels, double label) {
+    const GridSize n = labels.lattice().size();
+    double both = 0.0, sum = 0.0;
+    for (int k = 0; k < n.k; ++k)
+        for (int j = 0; j < n.j; ++j)
+            for (int i = 0; i < n.i; ++i) {
+                const bool isIn = a.at({i, j, k}) != 0, isTrue = labels.value({i, j, k}) == label;
+                both += isIn && isTrue;
+                sum += int(isIn) + int(isTrue);
+            }
+    return 2.0 * both / sum;
+}
+
+class SegmentationFiles : public testing::Test {
+protected:
+    // A file as the knobs say.
+    fs::path write(const test::SegmentationKnobs &knobs) {
+        test::segmentationFile(knobs).write(m_folder / "seg.dcm");
+        return m_folder / "seg.dcm";
+    }
+    test::TemporaryFolder m_folder;
+};
+
+TEST_F(SegmentationFiles, EveryKindLandsOnItsSamplesOfATiltedVolume) {
+    const Lattice lattice = tilted({11, 9, 5});
+    std::mt19937 random(4);
+    std::vector<int> values(2 * lattice.size().count());
+    for (int &value : values)
+        value = int(random() % 201);
+    const auto valueOf = [&](int segment, int i, int j, int k) {
+        return values[std::size_t(std::max(segment, 1) - 1) * lattice.size().count() +
+                      lattice.size().offsetOf(i, j, k)];
+    };
+    const auto expect = [&](const test::SegmentationKnobs &knobs, auto shareOf) {
+        const Segmentation loaded = segment::loadSegmentation(write(knobs), volumeOn(lattice));
+        EXPECT_TRUE(loaded.warnings.empty());
+        EXPECT_EQ(loaded.title, "Organs");
+        ASSERT_EQ(loaded.segments.size(), 2U);
+        EXPECT_EQ(loaded.segments[0].name, "liver");
+        EXPECT_EQ(loaded.segments[1].type.meaning, "spleen");
+        for (int s = 0; s < 2; ++s)
+            for (int k = 0; k < 5; ++k)
+                for (int j = 0; j < 9; ++j)
+                    for (int i = 0; i < 11; ++i)
+                        ASSERT_EQ(loaded.segments[std::size_t(s)].coverage->at({i, j, k}),
+                                  shareOf(s + 1, i, j, k));
+    };
+    const std::vector<std::string> labels{"liver", "spleen"};
+    expect({"BINARY",
+            labels,
+            lattice,
+            [&](int s, int i, int j, int k) { return valueOf(s, i, j, k) > 120; },
+            {}},
+           [&](int s, int i, int j, int k) { return valueOf(s, i, j, k) > 120 ? 255 : 0; });
+    expect({"FRACTIONAL", labels, lattice, valueOf, {}}, [&](int s, int i, int j, int k) {
+        return int(std::lround(255.0 * valueOf(s, i, j, k) / 200.0));
+    });
+    expect({"LABELMAP",
+            labels,
+            lattice,
+            [&](int, int i, int j, int k) { return valueOf(1, i, j, k) % 3; },
+            {}},
+           [&](int s, int i, int j, int k) { return valueOf(1, i, j, k) % 3 == s ? 255 : 0; });
+}
+
+TEST_F(SegmentationFiles, OtherLatticesAreSaid) {
+    const Lattice lattice = tilted({11, 9, 5});
+    const test::SegmentationKnobs knobs{
+        "BINARY", {"liver"}, lattice, [](int, int, int, int) { return 1; }, {}};
+    const Volume finer = volumeOn(
+        Lattice::make({40, 40, 40}, {glm::dvec3(-12.0, 18.0, 26.0)},
+                      {glm::dvec3(0.3, 0, 0), glm::dvec3(0, 0.3, 0), glm::dvec3(0, 0, 0.5)}));
+    const Segmentation loaded = segment::loadSegmentation(write(knobs), finer);
+    ASSERT_EQ(loaded.warnings.size(), 1U);
+    EXPECT_EQ(loaded.warnings[0], because::segmentsResampled);
+}
+
+TEST_F(SegmentationFiles, WhatDoesNotBelongIsRefusedWithItsReason) {
+    const Lattice lattice = tilted({8, 8, 4});
+    test::SegmentationKnobs knobs{
+        "BINARY", {"liver"}, lattice, [](int, int, int, int) { return 1; }, {}};
+    const fs::path file = m_folder / "seg.dcm";
+    const auto reasonAfter = [&](const std::function<void(DicomWriter &)> &change) {
+        DicomWriter w = test::segmentationFile(knobs);
+        change(w);
+        w.write(file);
+        return reasonOf(file, volumeOn(lattice));
+    };
+    EXPECT_EQ(reasonAfter([](DicomWriter &w) {
+                  w.put({0x0020, 0x000D}, "UI", "1.2.3");
+              }),
+              because::belongsToAnotherStudy);
+    EXPECT_EQ(reasonAfter([](DicomWriter &w) {
+                  w.put({0x0020, 0x0052}, "UI", "1.2.3");
+              }),
+              because::hasAnotherFrameOfReference);
+    EXPECT_EQ(reasonAfter([](DicomWriter &w) {
+                  w.put({0x0062, 0x0001}, "CS", "SURFACE");
+              }),
+              because::unknownSegmentationType("SURFACE"));
+    EXPECT_EQ(reasonAfter([](DicomWriter &w) {
+                  w.remove({0x0062, 0x0002});
+              }),
+              because::hasNoSegments);
+    EXPECT_EQ(
+        reasonAfter([](DicomWriter &w) {
+            w.putSequence({0x0062, 0x0002}, {test::segmentItem(1, "a"), test::segmentItem(1, "b")});
+        }),
+        because::describesSegmentTwice(1));
+    EXPECT_EQ(reasonAfter([](DicomWriter &w) {
+                  w.putSequence({0x0062, 0x0002}, {test::segmentItem(2, "a")});
+              }),
+              because::frameHasUnknownSegment(1));
+    EXPECT_EQ(reasonAfter([](DicomWriter &w) {
+                  w.putSequence({0x5200, 0x9229}, {DicomWriter()});
+              }),
+              because::frameHasNoPlace);
+    EXPECT_EQ(reasonAfter([](DicomWriter &w) {
+                  w.putShort({0x0028, 0x0100}, 4);
+              }),
+              because::maskHasOtherBits(4, 1));
+    EXPECT_EQ(reasonAfter([](DicomWriter &w) {
+                  w.put(DicomWriter::pixelData, "OB", std::string(16, '\1'));
+              }),
+              because::pixelsTruncatedTo(128, 256));
+    EXPECT_EQ(reasonAfter([](DicomWriter &w) {
+                  w.put({0x0028, 0x0008}, "IS", "99999999");
+              }),
+              because::announcesTooManyFrames(99999999));
+    EXPECT_EQ(reasonAfter([](DicomWriter &w) {
+                  w.put({0x0008, 0x0016}, "UI", "1.2.840.10008.5.1.4.1.1.2");
+              }),
+              because::isNoSegmentation);
+    // Elsewhere: in the same space, but beside the volume.
+    knobs.lattice = Lattice::make({8, 8, 4}, {glm::dvec3(500.0, 0, 0)},
+                                  {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)});
+    EXPECT_EQ(reasonAfter([](DicomWriter &) {}), because::noSegmentInTheVolume);
+}
+
+TEST_F(SegmentationFiles, StructureSetsAreFilledOnTheVolumesSamples) {
+    const Lattice lattice = Lattice::centred({20, 20, 6}, {1.0, 1.0, 2.0});
+    std::vector<std::vector<glm::dvec3>> square, hole;
+    for (int k = 1; k < 4; ++k) {
+        const double at = lattice.patient(VoxelIndex{0, 0, k}).mm.z;
+        square.push_back({{-5, -5, at}, {5, -5, at}, {5, 5, at}, {-5, 5, at}});
+        hole.push_back({{-5, -5, at}, {5, -5, at}, {5, 5, at}, {-5, 5, at}});
+        hole.push_back({{-2, -2, at}, {2, -2, at}, {2, 2, at}, {-2, 2, at}});
+    }
+    const fs::path file = m_folder / "rt.dcm";
+    test::structureSetFile({{"square", square}, {"frame", hole}, {"empty", {}}}).write(file);
+    const Segmentation loaded = segment::loadSegmentation(file, volumeOn(lattice));
+    ASSERT_EQ(loaded.segments.size(), 2U);
+    EXPECT_NEAR(loaded.segments[0].volumeMm3, 600.0, 1e-9);
+    EXPECT_NEAR(loaded.segments[1].volumeMm3, 600.0 - 96.0, 1e-9);
+    ASSERT_TRUE(loaded.segments[0].color);
+    EXPECT_NEAR(loaded.segments[0].color->y, 128.0 / 255.0, 1e-12);
+    EXPECT_TRUE(loaded.warnings.empty());
+    // Its frame of reference stands only with its structures.
+    DicomWriter other = test::structureSetFile({{"square", square}});
+    DicomWriter region;
+    region.put({0x3006, 0x0022}, "IS", "1");
+    region.put({0x3006, 0x0024}, "UI", "1.2.3");
+    other.putSequence({0x3006, 0x0020}, {region});
+    other.write(file);
+    EXPECT_EQ(reasonOf(file, volumeOn(lattice)), because::hasAnotherFrameOfReference);
+    // A long contour: its text has more than 128 KiB.
+    std::vector<glm::dvec3> many;
+    for (int n = 0; n < 9000; ++n) {
+        const double angle = 2.0 * 3.14159265358979 * n / 9000.0;
+        many.emplace_back(6.0 * std::cos(angle), 6.0 * std::sin(angle), square[0][0].z);
+    }
+    test::structureSetFile({{"circle", {many}}}).write(file, {.isImplicit = true});
+    DicomWriter::Form implicit;
+    implicit.syntax = "1.2.840.10008.1.2";
+    implicit.isImplicit = true;
+    test::structureSetFile({{"circle", {many}}}).write(file, implicit);
+    EXPECT_NEAR(segment::loadSegmentation(file, volumeOn(lattice)).segments.at(0).volumeMm3,
+                3.14159265 * 36.0 * 2.0, 0.3);
+}
+
+TEST_F(SegmentationFiles, LabelVolumesHaveNamesAndColorsOfSlicer) {
+    const Lattice lattice = tilted({6, 5, 4});
+    std::vector<std::int16_t> labels(lattice.size().count());
+    for (std::size_t n = 0; n < labels.size(); ++n)
+        labels[n] = std::int16_t(n % 4 == 3 ? 300 : n % 4);
+    const Volume stored(lattice, labels, volume::ValueUnit::none);
+    volume::writeNrrd(m_folder / "atlas.nrrd", stored, volume::NrrdEncoding::gzip, {},
+                      {{"Segment0_Name", "left\nkidney"},
+                       {"Segment0_LabelValue", "300"},
+                       {"Segment0_Color", "0.25 0.5 1"},
+                       {"Segment1_Name", "duplicate"},
+                       {"Segment1_LabelValue", "300"}});
+    const Segmentation loaded =
+        segment::loadSegmentation(m_folder / "atlas.nrrd", volumeOn(lattice));
+    ASSERT_EQ(loaded.segments.size(), 3U);
+    EXPECT_EQ(loaded.segments[0].name, "Segment 1");
+    EXPECT_EQ(loaded.segments[2].name, "left kidney");
+    EXPECT_EQ(loaded.segments[2].color, glm::dvec3(0.25, 0.5, 1.0));
+    EXPECT_EQ(dice(*loaded.segments[2].coverage, stored, 300.0), 1.0);
+    // A volume of one label is named after its file.
+    for (std::int16_t &label : labels)
+        label = label == 300 ? 1 : 0;
+    volume::writeNrrd(m_folder / "spleen.nrrd", Volume(lattice, labels, volume::ValueUnit::none));
+    EXPECT_EQ(
+        segment::loadSegmentation(m_folder / "spleen.nrrd", volumeOn(lattice)).segments.at(0).name,
+        "spleen");
+    // An image is no volume of labels.
+    volume::writeNrrd(
+        m_folder / "image.nrrd",
+        Volume(lattice, std::vector<float>(labels.size(), 0.5F), volume::ValueUnit::none));
+    EXPECT_EQ(reasonOf(m_folder / "image.nrrd", volumeOn(lattice)), because::isNoLabelVolume);
+}
+
+TEST(SegmentSet, GivesEverySegmentAnotherName) {
+    const Lattice lattice = tilted({2, 2, 2});
+    const auto one = [](const char *name) {
+        Segmentation made;
+        made.title = std::string("file of ") + name;
+        segment::Segment segment;
+        segment.name = name;
+        segment.coverage = std::make_shared<const Coverage>();
+        made.segments.push_back(segment);
+        return made;
+    };
+    const auto first = segment::SegmentSet(lattice).with(one("liver"));
+    const auto all = first->with(one("liver"))->with(one("spleen"))->with(one("liver"));
+    EXPECT_NE(all->find("liver"), nullptr);
+    EXPECT_NE(all->find("liver (2)"), nullptr);
+    EXPECT_NE(all->find("liver (3)"), nullptr);
+    EXPECT_EQ(all->titleOf("spleen"), "file of spleen");
+    EXPECT_EQ(first->find("spleen"), nullptr); // a set does not change
+}
+
+// Writes segments, checks the file with DCMTK's own reader, and reads it again.
+TEST_F(SegmentationFiles, RoundTripBitForBit) {
+    const Lattice lattice = tilted({13, 10, 6});
+    std::mt19937 random(9);
+    for (const bool isBinary : {true, false}) {
+        std::vector<segment::Segment> segments;
+        for (int n = 0; n < 3; ++n) {
+            segment::Segment segment;
+            segment.name = n == 0 ? "left atrium \xE5\xB7\xA6" : "part " + std::to_string(n);
+            segment.color = glm::dvec3(0.9, 0.2 * n, 0.3);
+            if (n == 1)
+                segment.type = {"39607008", "SCT", "Lung"};
+            Coverage coverage{{{n, 1, 1}, {12, 9, 5 - n}}, {}};
+            coverage.shares.resize(coverage.box.size().count());
+            for (std::uint8_t &share : coverage.shares)
+                share = isBinary ? random() % 2 * 255 : random();
+            coverage.shares.front() = coverage.shares.back() = 255; // the box is the smallest
+            segment.coverage = std::make_shared<const Coverage>(coverage);
+            segments.push_back(segment);
+        }
+        const fs::path file = m_folder / "written.dcm";
+        segment::SegmentationLabels labels;
+        labels.study.studyUid = test::knobsRoot + "2";
+        labels.study.patientName = "Roundtrip^Jane";
+        labels.frameOfReferenceUid = test::knobsRoot + "4";
+        segment::writeSegmentation(file, segments, lattice, labels);
+
+        DcmSegmentation *opened = nullptr;
+        ASSERT_TRUE(DcmSegmentation::loadFile(file.c_str(), opened).good());
+        const std::unique_ptr<DcmSegmentation> byDcmtk(opened);
+        EXPECT_EQ(byDcmtk->getNumberOfSegments(), 3U);
+        OFString name;
+        EXPECT_TRUE(byDcmtk->getPatient().getPatientName(name).good());
+        EXPECT_EQ(name, "Roundtrip^Jane");
+        OFVector<size_t> frames;
+        byDcmtk->getFramesForSegment(2, frames);
+        EXPECT_EQ(frames.size(), 3U); // slices 1 to 3
+
+        const Segmentation read = segment::loadSegmentation(file, volumeOn(lattice));
+        ASSERT_EQ(read.segments.size(), 3U);
+        for (std::size_t n = 0; n < 3; ++n) {
+            EXPECT_EQ(read.segments[n].name, segments[n].name);
+            EXPECT_LT(glm::length(*read.segments[n].color - *segments[n].color), 2e-3);
+            for (int k = 0; k < 6; ++k)
+                for (int j = 0; j < 10; ++j)
+                    for (int i = 0; i < 13; ++i)
+                        ASSERT_EQ(read.segments[n].coverage->at({i, j, k}),
+                                  segments[n].coverage->at({i, j, k}));
+        }
+        EXPECT_EQ(read.segments[1].type.meaning, "Lung");
+    }
+}
+
+TEST_F(SegmentationFiles, LabelsRoundTripAndRefuseOverlaps) {
+    const Lattice lattice = tilted({8, 7, 5});
+    const auto boxed = [](const char *name, volume::VoxelBox box) {
+        segment::Segment segment;
+        segment.name = name;
+        segment.coverage = std::make_shared<const Coverage>(
+            Coverage{box, std::vector<std::uint8_t>(box.size().count(), 255)});
+        return segment;
+    };
+    const std::vector<segment::Segment> apart{boxed("a", {{0, 0, 0}, {3, 7, 5}}),
+                                              boxed("b", {{3, 0, 0}, {8, 7, 2}})};
+    segment::writeLabels(m_folder / "labels.nrrd", apart, lattice);
+    const Segmentation read =
+        segment::loadSegmentation(m_folder / "labels.nrrd", volumeOn(lattice));
+    ASSERT_EQ(read.segments.size(), 2U);
+    EXPECT_EQ(read.segments[1].name, "b");
+    for (std::size_t n = 0; n < 2; ++n)
+        EXPECT_EQ(*read.segments[n].coverage, *apart[n].coverage);
+    try {
+        segment::writeLabels(m_folder / "overlap.nrrd",
+                             {apart[0], boxed("c", {{2, 2, 2}, {4, 4, 4}})}, lattice);
+        ADD_FAILURE() << "overlapping labels were written";
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.reason(), because::segmentsOverlap("a", "c"));
+    }
+    EXPECT_FALSE(fs::exists(m_folder / "overlap.nrrd"));
+}
+
+// A hundred bad files of each kind: each is read, or refused with a reason, and crashes no decoder.
+TEST_F(SegmentationFiles, AHundredBadFilesAreReadOrRefused) {
+    const Lattice lattice = Lattice::centred({8, 8, 4}, {1.0, 1.0, 1.0});
+    const DicomWriter segmentation = test::segmentationFile(
+        {"BINARY", {"a", "b"}, lattice, [](int, int i, int, int) { return i & 1; }, {}});
+    const DicomWriter structures =
+        test::structureSetFile({{"a", {{{0, 0, 0.5}, {3, 0, 0.5}, {3, 3, 0.5}}}},
+                                {"b", {{{0, 0, 1.5}, {2, 0, 1.5}, {2, 2, 1.5}}}}});
+    int refused = 0, count = 0;
+    std::set<std::string> reasons;
+    const auto tryFile = [&](const DicomWriter &w, std::size_t cut) {
+        const fs::path file = m_folder / ("bad" + std::to_string(++count) + ".dcm");
+        std::string bytes = w.file({});
+        bytes.resize(std::min(bytes.size(), cut));
+        test::writeText(file, bytes);
+        try {
+            segment::loadSegmentation(file, volumeOn(lattice));
+        } catch (const task::Error &error) {
+            ++refused;
+            EXPECT_FALSE(error.reason().english().empty());
+            EXPECT_NE(error.reason(), because::decoderCrashed) << count;
+            EXPECT_NE(error.reason(), because::decoderBrokeItsConfinement) << count;
+            EXPECT_NE(error.reason(), because::decodedToNonsense) << count;
+            reasons.insert(error.reason().english());
+        }
+    };
+    const std::array<std::string, 4> values{"", "x", "-1", "99999999999999999999"};
+    const std::size_t whole = std::size_t(1) << 30;
+    for (const DicomWriter &base : {segmentation, structures})
+        for (const DicomWriter::Tag &tag : {DicomWriter::Tag{0x0008, 0x0016},
+                                            {0x0020, 0x000D},
+                                            {0x0028, 0x0002},
+                                            {0x0028, 0x0008},
+                                            {0x0028, 0x0010},
+                                            {0x0028, 0x0011},
+                                            {0x0028, 0x0100},
+                                            {0x0028, 0x0101},
+                                            {0x0028, 0x0102},
+                                            {0x0028, 0x0103},
+                                            {0x0062, 0x0001},
+                                            {0x0062, 0x0002},
+                                            {0x5200, 0x9229},
+                                            {0x5200, 0x9230},
+                                            {0x7FE0, 0x0010},
+                                            {0x3006, 0x0020},
+                                            {0x3006, 0x0039},
+                                            {0x3006, 0x0080}}) {
+            if (!base.has(tag))
+                continue;
+            DicomWriter removed = base;
+            removed.remove(tag);
+            tryFile(removed, whole);
+            for (const std::string &value : values) {
+                DicomWriter changed = base;
+                changed.put(tag, "LO", value);
+                tryFile(changed, whole);
+            }
+            DicomWriter empty = base;
+            empty.putSequence(tag, {});
+            tryFile(empty, whole);
+            DicomWriter nested = base;
+            nested.putSequence(tag, {DicomWriter(), base});
+            tryFile(nested, whole);
+        }
+    for (const DicomWriter &base : {segmentation, structures}) {
+        const std::size_t size = base.file({}).size();
+        for (int part = 1; part < 30; ++part)
+            tryFile(base, size * std::size_t(part) / 30);
+    }
+    for (const char *const numbers :
+         {"", "1\\2", "1\\2\\3", "1\\2\\x", "1e400\\2\\3\\4\\5\\6\\7\\8\\9",
+          "nan\\nan\\nan\\1\\2\\3\\4\\5\\6", "1\\2\\3\\\\\\\\4\\5\\6"}) {
+        DicomWriter contour = test::contourItem({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+        contour.put({0x3006, 0x0050}, "DS", numbers);
+        DicomWriter of;
+        of.put({0x3006, 0x0084}, "IS", "1");
+        of.putSequence({0x3006, 0x0040}, {contour});
+        DicomWriter changed = structures;
+        changed.putSequence({0x3006, 0x0039}, {of});
+        tryFile(changed, whole);
+    }
+    EXPECT_GE(count, 200);
+    EXPECT_GE(refused, 120);
+    EXPECT_GE(reasons.size(), 12U);
+    std::printf("%d bad files, %d refused for %zu reasons\n", count, refused, reasons.size());
+}
+
+// Segmentations by other programs, against the same masks written as volumes by yet another.
+TEST(RealSegmentations, LandOnTheirVoxels) {
+    PELLUCID_NEEDS_TEST_DATA();
+    const fs::path folder = test::testData() / "seg_dcmqi";
+    const auto catalogue = dicom::scan({folder / "ct-3slice"});
+    const Volume ct = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
+    const Segmentation liver = segment::loadSegmentation(folder / "liver.dcm", ct);
+    ASSERT_EQ(liver.segments.size(), 1U);
+    EXPECT_EQ(liver.segments[0].name, "Liver");
+    EXPECT_TRUE(liver.warnings.empty());
+    EXPECT_EQ(
+        dice(*liver.segments[0].coverage, decoder::readVolumeFile(folder / "liver_seg.nrrd"), 1.0),
+        1.0);
+    // Five segments in three volumes, because they overlap.
+    const Segmentation parts = segment::loadSegmentation(folder / "partial_overlaps.dcm", ct);
+    ASSERT_EQ(parts.segments.size(), 5U);
+    std::vector<bool> isFound(5);
+    for (const char *const file :
+         {"partial_overlaps-1.nrrd", "partial_overlaps-2.nrrd", "partial_overlaps-3.nrrd"}) {
+        const Volume labels = decoder::readVolumeFile(folder / file);
+        for (int s = 0; s < 5; ++s)
+            if (dice(*parts.segments[std::size_t(s)].coverage, labels, s + 1.0) == 1.0)
+                isFound[std::size_t(s)] = true;
+    }
+    EXPECT_EQ(isFound, std::vector<bool>(5, true));
+    // The same mask as a volume: interpolation is not needed.
+    const Segmentation asLabels = segment::loadSegmentation(folder / "liver_seg.nrrd", ct);
+    EXPECT_TRUE(asLabels.warnings.empty());
+    EXPECT_EQ(*asLabels.segments.at(0).coverage, *liver.segments[0].coverage);
+}
+
+TEST(RealSegmentations, ALabelMapIsThatOfItsVolume) {
+    PELLUCID_NEEDS_TEST_DATA();
+    const fs::path folder = test::testData() / "seg_dcmqi";
+    for (const auto &[file, truth] :
+         {std::pair("sparse-labelmap-noppv.dcm", "sparse_labelmap_noppv_seg.nrrd"),
+          std::pair("sparse-labelmap-ppv5.dcm", "sparse_labelmap_ppv5_seg.nrrd")}) {
+        const Volume labels = decoder::readVolumeFile(folder / truth);
+        const Segmentation loaded = segment::loadSegmentation(folder / file, labels);
+        ASSERT_EQ(loaded.segments.size(), 1U) << file;
+        EXPECT_TRUE(loaded.warnings.empty()) << file;
+        EXPECT_EQ(dice(*loaded.segments[0].coverage, labels, 1.0), 1.0) << file;
+    }
+}
+
+// By highdicom, on the CT of another folder.
+TEST(RealSegmentations, FractionalAndOverlappingOnesFit) {
+    PELLUCID_NEEDS_TEST_DATA();
+    const fs::path folder = test::testData() / "seg_highdicom_ct";
+    const auto catalogue = dicom::scan({folder});
+    const Volume ct = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
+    const Segmentation single =
+        segment::loadSegmentation(folder / "seg_image_ct_binary_single_frame.dcm", ct);
+    ASSERT_EQ(single.segments.size(), 1U);
+    EXPECT_TRUE(single.warnings.empty());
+    // The other four belong to a CT of 16 x 16 pixels with slices of 1.25 mm.
+    const Volume small =
+        Volume(Lattice::make({16, 16, 3}, {glm::dvec3(-125.0, -128.100006, 103.019997)},
+                             {glm::dvec3(0.488281, 0, 0), glm::dvec3(0, 0.488281, 0),
+                              glm::dvec3(0, 0, 1.25)}),
+               std::vector<std::int16_t>(768, 0), volume::ValueUnit::none);
+    const Segmentation binary =
+        segment::loadSegmentation(folder / "seg_image_ct_binary.dcm", small);
+    const Segmentation asFractions =
+        segment::loadSegmentation(folder / "seg_image_ct_binary_fractional.dcm", small);
+    EXPECT_TRUE(binary.warnings.empty());
+    EXPECT_EQ(*binary.segments.at(0).coverage, *asFractions.segments.at(0).coverage);
+    const Segmentation overlap =
+        segment::loadSegmentation(folder / "seg_image_ct_binary_overlap.dcm", small);
+    EXPECT_EQ(overlap.segments.size(), 2U);
+    const Segmentation fractional =
+        segment::loadSegmentation(folder / "seg_image_ct_true_fractional.dcm", small);
+    std::set<int> shares(fractional.segments.at(0).coverage->shares.begin(),
+                         fractional.segments.at(0).coverage->shares.end());
+    shares.erase(0);
+    shares.erase(255);
+    EXPECT_FALSE(shares.empty());
+}
+
+} // namespace
+} // namespace pellucid

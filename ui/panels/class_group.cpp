@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/class_group.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QToolButton>
+
+namespace pellucid::ui {
+
+namespace {
+
+// A dot: filled if all classes of the group are shown, half if some are.
+QIcon groupIcon(const QColor &color, int shownCount, int count) {
+    constexpr int side = 32; // shown at half the size, so that it is sharp at 200 %
+    QPixmap pixmap(side, side);
+    pixmap.fill(Qt::transparent);
+    QPainter painter(&pixmap);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(color, 3.0));
+    const QRectF circle(5, 5, side - 10, side - 10);
+    painter.drawEllipse(circle);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(color);
+    constexpr int half = 180 * 16; // QPainter's unit is a sixteenth of a degree
+    if (shownCount == count)
+        painter.drawEllipse(circle);
+    else if (shownCount > 0)
+        painter.drawPie(circle, half / 2, half);
+    return QIcon(pixmap);
+}
+
+} // namespace
+
+ClassGroup::ClassGroup(const QString &title, QWidget *parent)
+    : QWidget(parent), m_title(title), m_fold(new QToolButton), m_eye(new QToolButton),
+      m_name(new QLabel) {
+    setObjectName("classGroup");
+    m_fold->setObjectName("classGroupFold");
+    m_fold->setProperty("role", "bare");
+    m_fold->setAccessibleName(tr("Fold %1").arg(title));
+    m_eye->setObjectName("classGroupEye");
+    m_eye->setProperty("role", "bare");
+    m_eye->setIconSize({16, 16});
+    m_eye->setToolTip(tr("Show or hide all classes of this group that the list shows"));
+    m_eye->setAccessibleName(tr("Show %1").arg(title));
+    m_name->setObjectName("classGroupName");
+    m_name->setProperty("role", "muted");
+    m_name->setMinimumWidth(20);
+    auto *row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 6, 2, 0);
+    row->setSpacing(4);
+    row->addWidget(m_fold);
+    row->addWidget(m_eye);
+    row->addWidget(m_name, 1);
+    connect(m_fold, &QToolButton::clicked, this, [this] {
+        m_isFolded = !m_isFolded;
+        showFold();
+        emit folded();
+    });
+    connect(m_eye, &QToolButton::clicked, this, [this] { emit toggled(m_title); });
+    showFold();
+}
+
+void ClassGroup::showFold() {
+    m_fold->setArrowType(m_isFolded ? Qt::RightArrow : Qt::DownArrow);
+}
+
+void ClassGroup::show(int shownCount, int count) {
+    m_eye->setIcon(groupIcon(palette().color(QPalette::WindowText), shownCount, count));
+    m_name->setText(tr("%1: %2 of %3").arg(m_title).arg(shownCount).arg(count));
+    m_name->setToolTip(m_name->text());
+}
+
+void ClassGroup::mousePressEvent(QMouseEvent *event) {
+    m_fold->click();
+    event->accept();
+}
+
+} // namespace pellucid::ui
