@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/classify/class_samples.h"
@@ -11,11 +12,15 @@
 namespace pellucid::classify {
 
 /// A field that is projected once and shown with any weight and color: a term f b_i(f) of a Bézier
-/// transfer function, or a class. *Source*: Cheng 2007, eq. 32 and 36.
+/// transfer function, a class, or, of many classes, a channel of all but one. *Source*: Cheng 2007,
+/// eq. 32 and 36.
 struct Layer {
     /// The class without its own weight and color; unnamed: the whole volume.
     TissueClass tissue;
     int index = -1, degree = 0; ///< b_index of the degree; -1: none
+    /// The classes whose sum it is, as channel `channel` of their look; none: it is `tissue`.
+    std::vector<TissueClass> sum;
+    int channel = 0;
     bool operator==(const Layer &) const = default;
 };
 
@@ -26,12 +31,41 @@ struct Mixture {
         channelWeights; ///< of red, green and blue, one entry per layer
 };
 
-/// A look as a mixture. Looks that differ only in weights, colors and control points have the same
-/// layers. Classes with zero weight are layers too, so that they can be shown at once.
-Mixture mixtureOf(const Look &look);
+/// Up to this many classes are a layer each.
+inline constexpr std::size_t maxLayers = 8;
 
-/// The field of a layer. *Throws* Error{outOfMemory}, Cancelled.
+/// A look as a mixture. Looks that differ only in weights, colors and control points have the same
+/// layers. Classes with zero weight are layers too, so that they can be shown at once. Of more than
+/// `maxLayers` classes, one is a layer of its own, and the others are summed: looks that differ only
+/// in that one's weight and color have the same layers. `held`: the index of that class; not set: of
+/// none.
+Mixture mixtureOf(const Look &look, std::optional<std::size_t> held = std::nullopt);
+
+/// The index of the only class in which two looks differ, if they have the same number of classes
+/// and differ in nothing else.
+std::optional<std::size_t> onlyDifference(const Look &a, const Look &b);
+
+/// The field of a layer. `runner`: as for `shownFields`. *Throws* Error{outOfMemory}, Cancelled.
 DensityField layerField(const volume::Volume &volume, const FieldWindow &window, const Layer &layer,
                         StepRunner *runner, const task::Progress &progress = {});
+
+/// Makes the fields of the layers of a mixture, one after the other, the channels of a sum at once.
+class LayerFields {
+public:
+    /// *Requires*: the runner outlives this object.
+    LayerFields(volume::Volume volume, const FieldWindow &window, Mixture mixture,
+                StepRunner *runner);
+    std::size_t count() const { return m_mixture.layers.size(); }
+    /// *Throws* Error{outOfMemory}, Cancelled.
+    DensityField field(std::size_t layer, const task::Progress &progress = {});
+
+private:
+    volume::Volume m_volume;
+    FieldWindow m_window;
+    Mixture m_mixture;
+    StepRunner *m_runner;
+    /// Of a sum, until the last is taken.
+    std::vector<DensityField> m_channels;
+};
 
 } // namespace pellucid::classify

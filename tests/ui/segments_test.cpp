@@ -68,6 +68,39 @@ private slots:
         QCOMPARE(shownCount(), 20);
     }
 
+    // The picture follows the slider of one of many segments, without a spectrum for each of them.
+    void theWeightOfOneOfManyFollowsTheHand() {
+        open(headPath());
+        open(writeBlocks("many.dcm", 48));
+        QCOMPARE(document().scene().look.classes.size(), std::size_t(48));
+        const std::size_t full = bench().study.preparer.fullEngine()->bytes;
+        const QImage before = projection()->picture();
+        std::size_t layers = 0;
+        QObject listener; // ends the connection
+        connect(&bench().study.preparer, &ui::LookPreparer::engineReady, &listener,
+                [&](const prepare::PreparedEngine &engine, ui::EngineStage stage) {
+                    if (stage == ui::EngineStage::live)
+                        layers = std::max(layers, engine.bytes);
+                });
+        const ui::DragId drag = ui::nextDragId();
+        const auto setWeight = [&](double weight) {
+            ui::editScene(document(), "Weight", drag, [&](scene::Scene &scene) {
+                scene.look.classes[24].weight = weight;
+            });
+        };
+        setWeight(1.4);
+        QTRY_VERIFY_WITH_TIMEOUT(layers > 0, patienceMs);
+        // The held class and the three channels of the rest, of one plan for all.
+        QVERIFY2(layers <= 3 * full, qPrintable(QString("%1, %2").arg(layers).arg(full)));
+        setWeight(0.0);
+        settle();
+        QVERIFY(changed(before, projection()->picture()) > 0.005);
+        QCOMPARE(document().undoStack()->undoText(), QString("Weight"));
+        document().undoStack()->undo();
+        settle();
+        QVERIFY(changed(before, projection()->picture()) < 0.01);
+    }
+
     void aSegmentationOfAnotherStudyIsAProblemWithItsReason() {
         open(headPath());
         const QString other = writeBlocks("other.dcm", 2, "1.2.3.4");

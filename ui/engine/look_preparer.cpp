@@ -151,7 +151,8 @@ void LookPreparer::showFull() {
 void LookPreparer::showLayers() {
     // Layers of the coarse volume, or of fewer samples, lack detail.
     emit engineReady({std::make_shared<prepare::MixtureEngine>(
-                          m_layers, classify::mixtureOf(m_document.scene().look).channelWeights),
+                          m_layers, classify::mixtureOf(m_document.scene().look, m_have.layers->heldClass)
+                              .channelWeights),
                       m_layers->plan(), m_layers->bytes(), false, m_layers->viewError(),
                       m_layersAreCoarse || m_layers->reduction() > 1,
                       m_layersAreCoarse ? nullptr : m_layers->detailLoss(),
@@ -161,7 +162,9 @@ void LookPreparer::showLayers() {
 
 void LookPreparer::start(Step step, const PreparedFor &wanted) {
     if (step == Step::startLayers) {
-        start(step, wanted, tr("Preparing the parts of the look"), layersWork(wanted));
+        PreparedFor layers = wanted;
+        layers.heldClass = classify::onlyDifference(m_have.full->look, wanted.look);
+        start(step, layers, tr("Preparing the parts of the look"), layersWork(layers));
         return;
     }
     m_rest.stop();

@@ -138,15 +138,14 @@ void makeEngine(const EngineSource &source, Detail first, const TakeEngine &take
 
 void makeLayers(const EngineSource &source, const TakeLayers &take,
                 const task::Progress &progress) {
-    const auto mixture = classify::mixtureOf(source.wanted.look);
+    const auto mixture = classify::mixtureOf(source.wanted.look, source.wanted.heldClass);
     const classify::FieldWindow window = windowOf(source);
     const auto make = [&](const volume::Volume &of, Detail detail, const task::Progress &part) {
+        classify::LayerFields fields(of, window, mixture, source.steps.get());
         take(prepare::LayerSet::prepare(
-                 planningScene(of, source.wanted), mixture.layers.size(),
+                 planningScene(of, source.wanted), fields.count(),
                  [&](std::size_t n, const task::Progress &p) {
-                     return classify::cropped(
-                         classify::layerField(of, window, mixture.layers[n], source.steps.get(), p),
-                         source.wanted.crop);
+                     return classify::cropped(fields.field(n, p), source.wanted.crop);
                  },
                  // The engines of the sum need the other half.
                  {system::availableMemoryBytes() / 2}, part,

@@ -115,6 +115,44 @@ TEST_P(Layers, SixteenAlternatingPointsAreWithinTheTolerance) {
               scene.tolerance);
 }
 
+// A hundred classes: the held one is a layer, the rest are as many as their colors need.
+TEST_P(Layers, OfManyClassesTheHeldOneMoves) {
+    Look look;
+    for (int n = 0; n < 100; ++n)
+        look.classes.push_back({"part " + std::to_string(n), 20.0 * n - 900.0, 20.0 * n - 850.0,
+                                30.0, 0.5 + 0.01 * n,
+                                {0.01 * n, 1.0 - 0.005 * n, n % 7 / 7.0}});
+    const std::size_t held = 46; // fluid
+    const auto mixture = classify::mixtureOf(look, held);
+    ASSERT_EQ(mixture.layers.size(), 4U);
+    classify::LayerFields fields(head(), window, mixture, nullptr);
+    const auto layers = prepare::LayerSet::prepare(
+        scene, fields.count(),
+        [&](std::size_t n, const task::Progress &progress) { return fields.field(n, progress); },
+        {});
+    for (const double weight : {look.classes[held].weight, 0.0, 2.0}) {
+        look.classes[held].weight = weight;
+        const auto shown = classify::shownFields(head(), window, look, nullptr);
+        std::vector<float> exact;
+        for (std::size_t c = 0; c < shown.channels.size(); ++c) {
+            const auto plane = exactOf(shown.channels[c], scene);
+            const classify::Color &color = shown.colors[c];
+            exact.resize(3 * plane.size());
+            for (std::size_t p = 0; p < plane.size(); ++p) {
+                exact[3 * p] += float(color.red) * plane[p];
+                exact[3 * p + 1] += float(color.green) * plane[p];
+                exact[3 * p + 2] += float(color.blue) * plane[p];
+            }
+        }
+        const auto weights = classify::mixtureOf(look, held).channelWeights;
+        for (const char *how : {"summed", "kept"})
+            EXPECT_LE(test::relativeL2(
+                          layers->render(scene.camera, scene.image, {}, weights).samples, exact),
+                      scene.tolerance)
+                << how << " " << weight;
+    }
+}
+
 TEST_P(Layers, RecombinedImagesAreFreshlyRenderedOnes) {
     Look look;
     look.classes = {{"bone", 250, 2500, 150, 1.2, {1.0, 0.9, 0.7}},

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/classify/layers.h"
 #include "tests/core/prepare/looks.h"
 
 namespace pellucid::prepare {
@@ -33,6 +34,33 @@ TEST(NextStep, LooksAreRelatedAsTheTableTakesThemToBe) {
         EXPECT_FALSE(madeFor(plain).hasSameLayersAs(madeFor(look)));
     }
     EXPECT_TRUE(madeFor(lit).hasSameLayersAs(madeFor(litWeighted)));
+}
+
+TEST(NextStep, OfManyClassesOneIsHeld) {
+    PreparedFor full;
+    for (int n = 0; n < 104; ++n)
+        full.look.classes.push_back({"part " + std::to_string(n), 10.0 * n, 10.0 * n + 50.0});
+    PreparedFor dragged = full;
+    dragged.look.classes[40].weight = 0.3;
+    EXPECT_TRUE(dragged.hasSameLayersAs(full));
+    EXPECT_EQ(classify::onlyDifference(full.look, dragged.look), std::size_t(40));
+    PreparedFor layers = dragged;
+    layers.heldClass = 40;
+    dragged.look.classes[40].weight = 0.1;
+    dragged.look.classes[40].color = {0.2, 0.3, 0.4};
+    EXPECT_TRUE(layers.hasSameLayersAs(dragged));
+    EXPECT_TRUE(dragged.hasSameLayersAs(layers));
+    // Another class, a second one, or its range: others are needed.
+    PreparedFor other = full;
+    other.look.classes[41].weight = 0.3;
+    EXPECT_FALSE(layers.hasSameLayersAs(other));
+    dragged.look.classes[2].weight = 0.5;
+    EXPECT_FALSE(dragged.hasSameLayersAs(full));
+    EXPECT_FALSE(layers.hasSameLayersAs(dragged));
+    PreparedFor ranged = full;
+    ranged.look.classes[40].high += 1.0;
+    EXPECT_FALSE(layers.hasSameLayersAs(ranged));
+    EXPECT_FALSE(full.hasSameLayersAs(ranged));
 }
 
 struct Row {
