@@ -56,16 +56,17 @@ struct SegmentNames {
     std::optional<task::Reason> reason;
 };
 
-SegmentNames segmentNames(const dicom::SegmentationFile &file) {
+SegmentNames segmentNames(const dicom::SegmentationFile &file, const Context &context) {
     try {
-        return {segment::segmentNames(file.path), std::nullopt};
+        return {segment::segmentNames(file.path, task::Progress(context.stop)), std::nullopt};
     } catch (const task::Error &error) {
         return {{}, error.reason()};
     }
 }
 
-json segmentationJson(const dicom::Catalogue &catalogue, const dicom::SegmentationFile &file) {
-    const SegmentNames segments = segmentNames(file);
+json segmentationJson(const dicom::Catalogue &catalogue, const dicom::SegmentationFile &file,
+                      const Context &context) {
+    const SegmentNames segments = segmentNames(file, context);
     json out = {{"path", catalogue.named(file.path).string()},
                 {"modality", file.modality},
                 {"description", file.description},
@@ -75,19 +76,22 @@ json segmentationJson(const dicom::Catalogue &catalogue, const dicom::Segmentati
     return out;
 }
 
-void printSegmentation(const dicom::Catalogue &catalogue, const dicom::SegmentationFile &file) {
-    const SegmentNames segments = segmentNames(file);
+void printSegmentation(const dicom::Catalogue &catalogue, const dicom::SegmentationFile &file,
+                       const Context &context) {
+    const SegmentNames segments = segmentNames(file, context);
     fmt::print("    {} {}: {}\n", printable(file.modality), printable(file.description),
                printable(catalogue.named(file.path).string()));
     std::string names;
     for (const std::string &name : segments.names)
         names += (names.empty() ? "" : ", ") + name;
-    fmt::print("      {}\n", segments.reason ? printable(segments.reason->english())
-                                             : fmt::format("{} segments: {}", segments.names.size(),
-                                                           printable(names)));
+    fmt::print("      {}\n",
+               segments.reason
+                   ? printable(segments.reason->english())
+                   : fmt::format("{} segment{}: {}", segments.names.size(),
+                                 segments.names.size() == 1 ? "" : "s", printable(names)));
 }
 
-json catalogueJson(const dicom::Catalogue &catalogue) {
+json catalogueJson(const dicom::Catalogue &catalogue, const Context &context) {
     json patients = json::array();
     for (const auto &p : catalogue.patients) {
         json studies = json::array();
@@ -108,7 +112,7 @@ json catalogueJson(const dicom::Catalogue &catalogue) {
             }
             json segmentations = json::array();
             for (const auto &file : s.segmentations)
-                segmentations.push_back(segmentationJson(catalogue, file));
+                segmentations.push_back(segmentationJson(catalogue, file, context));
             studies.push_back({{"uid", s.uid},
                                {"date", s.date},
                                {"description", s.description},
@@ -127,7 +131,7 @@ json catalogueJson(const dicom::Catalogue &catalogue) {
     return {{"patients", patients}, {"skipped", skipped}};
 }
 
-void printCatalogue(const dicom::Catalogue &catalogue) {
+void printCatalogue(const dicom::Catalogue &catalogue, const Context &context) {
     for (const auto &p : catalogue.patients) {
         fmt::print("Patient {} ({})\n", p.name.empty() ? "without name" : printable(p.name),
                    printable(p.id));
@@ -151,7 +155,7 @@ void printCatalogue(const dicom::Catalogue &catalogue) {
                 }
             }
             for (const auto &file : s.segmentations)
-                printSegmentation(catalogue, file);
+                printSegmentation(catalogue, file, context);
         }
     }
     if (!catalogue.skipped.empty())
@@ -184,9 +188,9 @@ void addInfoCommand(CLI::App &app, const Context &context) {
             const dicom::Catalogue catalogue =
                 dicom::scan(paths, task::Progress(context.stop), {options->large});
             if (options->json)
-                std::puts(jsonText(catalogueJson(catalogue)).c_str());
+                std::puts(jsonText(catalogueJson(catalogue, context)).c_str());
             else
-                printCatalogue(catalogue);
+                printCatalogue(catalogue, context);
             if (catalogue.empty())
                 failWithoutImages(catalogue, paths.front());
         });

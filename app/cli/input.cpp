@@ -14,6 +14,7 @@
 #include "core/decoder/read_volume_file.h"
 #include "core/dicom/scan.h"
 #include "core/files/file_ids.h"
+#include "core/subtraction/difference.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
 
@@ -191,8 +192,10 @@ void addInputOptions(CLI::App &command, InputOptions &options) {
     addLargeOption(command, options.large);
 }
 
-Input openInput(const InputOptions &options, const std::vector<std::filesystem::path> &outs,
-                const Context &context) {
+namespace {
+
+Input openOne(const InputOptions &options, const std::vector<std::filesystem::path> &outs,
+              const Context &context) {
     const std::filesystem::path path = options.path;
     Stopwatch watch;
     const task::Progress progress(context.stop);
@@ -246,6 +249,66 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
         warn(warning.english());
     input.loadMs = watch.lapMs();
     return input;
+}
+
+// Replaces the volume by its difference from another one.
+void subtractFrom(Input &input, const InputOptions &options,
+                  const std::vector<std::filesystem::path> &outs, const Context &context) {
+    InputOptions other;
+    other.path = options.subtract;
+    other.series = options.subtractSeries;
+    other.fillGaps = options.fillGaps;
+    other.large = options.large;
+    const task::Progress progress(context.stop);
+    try {
+        const Input subtrahend = openOne(other, outs, context);
+        const volume::Volume &a = input.loaded.volume, &b = subtrahend.loaded.volume;
+        if (input.labels.patientId != subtrahend.labels.patientId)
+            warn("--subtract: the two volumes have different patient IDs");
+        subtraction::RigidTransform transform;
+        if (options.alignment == "rigid") {
+            input.registration = subtraction::registerRigidly(a, b, progress);
+            transform = input.registration->toMoving;
+        } else if (a.notes().frameOfReferenceUid != b.notes().frameOfReferenceUid) {
+            warn("--subtract: the two volumes have different frames of reference; --register rigid "
+                 "aligns them");
+        }
+        input.loaded.volume = subtraction::difference(a, b, transform, progress);
+        input.scanMs += subtrahend.scanMs;
+        input.loadMs += subtrahend.loadMs;
+    } catch (const Error &error) {
+        throw Error(error.code(), error.reason(),
+                    error.path().empty() ? std::filesystem::path(options.subtract) : error.path());
+    }
+}
+
+} // namespace
+
+Input openInput(const InputOptions &options, const std::vector<std::filesystem::path> &outs,
+                const Context &context) {
+    Input input = openOne(options, outs, context);
+    if (!options.subtract.empty())
+        subtractFrom(input, options, outs, context);
+    return input;
+}
+
+void addSubtractionOptions(CLI::App &command, InputOptions &options) {
+    CLI::Option *subtract =
+        command
+            .add_option("--subtract", options.subtract,
+                        "A study whose volume is subtracted, such as the phase before the contrast")
+            ->check(notEmpty());
+    command
+        .add_option("--subtract-series", options.subtractSeries,
+                    "Series number or UID in that study; default: the one whose volume has the "
+                    "most voxels")
+        ->check(notEmpty())
+        ->needs(subtract);
+    command
+        .add_option("--register", options.alignment,
+                    "Align that volume first: rigid (rotation and shift, by mutual information)")
+        ->check(CLI::IsMember({"rigid"}))
+        ->needs(subtract);
 }
 
 std::vector<double> parseNumbers(const std::string &option, const std::string &text, char separator,

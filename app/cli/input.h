@@ -11,6 +11,7 @@
 #include "core/dicom/catalogue.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/write_capture.h"
+#include "core/subtraction/rigid_registration.h"
 
 namespace pellucid::cli {
 
@@ -21,6 +22,8 @@ struct Input {
     dicom::CaptureLabels labels; ///< for pictures of the volume
     std::vector<dicom::Skipped> skipped;
     double scanMs = 0.0, loadMs = 0.0;
+    /// How the subtracted volume was aligned, if it was.
+    std::optional<subtraction::Registration> registration;
 };
 
 /// Rejects an empty text.
@@ -31,6 +34,7 @@ struct InputOptions {
     std::string path, series;
     int volume = 0; ///< number within the series, from 1; 0 selects the default
     bool fillGaps = false, large = false;
+    std::string subtract, subtractSeries, alignment; ///< of a volume that is subtracted
 };
 
 /// Adds --large.
@@ -38,11 +42,13 @@ void addLargeOption(CLI::App &command, bool &large);
 
 /// Adds PATH, --series, --volume, --fill-gaps and --large.
 void addInputOptions(CLI::App &command, InputOptions &options);
+/// Adds --subtract, --subtract-series and --register.
+void addSubtractionOptions(CLI::App &command, InputOptions &options);
 
-/// Scans a path and loads one volume: that of the given series, or the one with the most voxels.
-/// Warns on stderr about unused files and other series and volumes. *Throws* Error{unusable} naming
-/// the path; Error{outOfMemory} if files were skipped for lack of memory; Error{usage} if one of
-/// `outs` is an input file.
+/// Scans a path and loads one volume: that of the given series, or the one with the most voxels;
+/// and subtracts another one, if the options name it. Warns on stderr about unused files and other
+/// series and volumes. *Throws* Error{unusable} naming the path; Error{outOfMemory} if files were
+/// skipped for lack of memory; Error{usage} if one of `outs` is an input file.
 Input openInput(const InputOptions &options, const std::vector<std::filesystem::path> &outs,
                 const Context &context);
 

@@ -27,8 +27,9 @@ std::vector<double> weightsFromText(const std::string &text) {
     return parseNumbers("--bezier", text, ',', count);
 }
 
-classify::TissueClass classFromText(const std::string &text) {
-    const WeightedName named = parseWeightedName("--class", text);
+classify::TissueClass classFromText(const std::string &text, const SceneOptions &options) {
+    const WeightedName named = parseWeightedName(
+        "--class", text, options.weightsAreOptional ? Weight::optional : Weight::required);
     classify::TissueClass tissue = classNamed(named.name);
     // Grey unless a color is named: so is the picture then.
     tissue.color = named.color.value_or(classify::Color{});
@@ -40,11 +41,12 @@ classify::TissueClass classFromText(const std::string &text) {
 
 const classify::TissueClass &classNamed(const std::string &name) {
     std::string names;
-    for (const classify::TissueClass &tissue : classify::standardClasses()) {
-        if (tissue.name == name)
-            return tissue;
-        names += (names.empty() ? "" : ", ") + tissue.name;
-    }
+    for (const auto *const classes : {&classify::standardClasses(), &classify::differenceClasses()})
+        for (const classify::TissueClass &tissue : *classes) {
+            if (tissue.name == name)
+                return tissue;
+            names += (names.empty() ? "" : ", ") + tissue.name;
+        }
     throw Error(ErrorCode::usage,
                 because::inWords("--class: unknown class '" + name + "': use one of " + names));
 }
@@ -66,7 +68,7 @@ void changeLook(classify::Look &look, const SceneOptions &options) {
     if (!options.classes.empty())
         look.classes.clear();
     for (const std::string &text : options.classes)
-        look.classes.push_back(classFromText(text));
+        look.classes.push_back(classFromText(text, options));
     classify::validate(look);
 }
 

@@ -238,6 +238,7 @@ private:
                             {"frames", frames()},
                             {"volume", volumeJson()},
                             {"segmentations", segmentationsJson()},
+                            {"registration", registrationJson()},
                             {"window", {m_window.low, m_window.high}},
                             {"shading", json::parse(shading::toJson(m_scene.shading))},
                             {"milliseconds", timesJson()},
@@ -273,6 +274,17 @@ private:
                            {"warnings", englishTexts(segmentation.warnings)}});
         }
         return all;
+    }
+
+    json registrationJson() const {
+        if (!m_input.registration)
+            return nullptr;
+        const subtraction::Registration &r = *m_input.registration;
+        const glm::dvec3 &shift = r.toMoving.shiftMm;
+        return {{"shift_mm", {shift.x, shift.y, shift.z}},
+                {"angle_deg", glm::degrees(r.toMoving.angleRad())},
+                {"residual_before", r.residualBefore},
+                {"residual_after", r.residualAfter}};
     }
 
     json timesJson() const {
@@ -324,6 +336,7 @@ void addRenderCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand("render", "Project a volume into an image");
     addInputOptions(*c, o->input);
+    addSubtractionOptions(*c, o->input);
     c->add_option("-o,--output", o->out,
                   "Image file: .png, .npy, .nrrd or .dcm (Secondary Capture)")
         ->required();

@@ -29,9 +29,9 @@ classify::ShownFields fieldsFor(const scene::Scene &scene, const volume::Volume 
                                 const std::shared_ptr<const segment::SegmentSet> &segments,
                                 const Context &context) {
     preprocess::StepCache steps(budgetOfSteps);
-    steps.setSegments(segments);
+    preprocess::ClassRunner runner(steps, segments);
     return classify::cropped(classify::shownFields(volume, windowFor(scene, volume), scene.look,
-                                                   &steps, task::Progress(context.stop)),
+                                                   &runner, task::Progress(context.stop)),
                              scene.crop);
 }
 

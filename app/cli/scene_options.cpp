@@ -131,8 +131,8 @@ void addLookOptions(CLI::App &command, SceneOptions &options) {
             ->allow_extra_args(false);
     command
         .add_option("--segment", options.segments,
-                    "NAME=WEIGHT[:#rrggbb]: show only the named segments, each with a weight from "
-                    "0 to 2; '*' in NAME stands for any characters; may be repeated")
+                    "NAME[=WEIGHT][:#rrggbb]: show only the named segments, each with a weight "
+                    "from 0 to 2; '*' in NAME stands for any characters; may be repeated")
         ->allow_extra_args(false)
         ->needs(segmentation);
 }

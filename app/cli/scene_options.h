@@ -19,7 +19,7 @@ namespace pellucid::cli {
 struct SceneOptions {
     std::string scene, preset, view, orientation, size, window, bezier, reconstruction, quality,
         kernel, storage, depthCue, lightFrame, crop;
-    bool isUniform = false;
+    bool isUniform = false, weightsAreOptional = false; ///< the latter: of --class
     std::vector<std::string> classes, lights, segmentations, segments;
     double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0, pixelMm = 0.0, rollOff = -1.0,
            tolerance = 0.0, padding = 0.0, ambient = 1.0;

@@ -64,13 +64,17 @@ public:
         const auto preset = presetFor(m_options.scene);
         m_input = openInput(m_options.input, {out}, m_context);
         const auto loaded = loadSegments(m_options.scene.segmentations, {out}, volume(), m_context);
-        classify::Look look = lookFor(m_options.scene, preset);
+        classify::Look look;
+        if (preset)
+            look = presets::lookFor(
+                *preset, preset->window.value_or(classify::defaultFieldWindow(volume())));
+        changeLook(look, m_options.scene);
         if (loaded)
             showSegments(look, m_options.scene, *loaded);
         preprocess::StepCache steps(budgetOfSteps);
-        steps.setSegments(loaded);
+        preprocess::ClassRunner runner(steps, loaded);
         for (const classify::TissueClass &tissue : look.classes)
-            addClass(tissue, loaded.get(), steps);
+            addClass(tissue, loaded.get(), runner);
         if (!m_options.seeds.empty())
             addGrown();
         if (m_segments.empty())
@@ -84,7 +88,7 @@ private:
     const volume::Volume &volume() const { return m_input.loaded.volume; }
 
     void addClass(const classify::TissueClass &tissue, const segment::SegmentSet *loaded,
-                  preprocess::StepCache &steps) {
+                  classify::StepRunner &runner) {
         segment::Segment segment;
         if (const segment::Segment *const own =
                 loaded != nullptr ? loaded->find(tissue.segment) : nullptr) {
@@ -93,7 +97,7 @@ private:
         }
         segment.name = tissue.name;
         segment.color = glm::dvec3(tissue.color.red, tissue.color.green, tissue.color.blue);
-        add(std::move(segment), preprocess::regionOf(volume(), tissue, steps, m_progress));
+        add(std::move(segment), preprocess::regionOf(volume(), tissue, runner, m_progress));
     }
 
     void addGrown() {
@@ -123,17 +127,21 @@ private:
             warn("no sample belongs to '" + segment.name + "'");
             return;
         }
-        double sum = 0.0;
-        for (const std::uint8_t share : region.shares)
-            sum += share;
-        segment.volumeMm3 = sum / volume::Coverage::whole * volume().lattice().cellVolumeMm3();
+        segment.volumeMm3 = region.total() * volume().lattice().cellVolumeMm3();
         segment.coverage = std::make_shared<const volume::Coverage>(std::move(region));
         m_segments.push_back(std::move(segment));
     }
 
-    void write(const fs::path &out) const {
+    void write(const fs::path &out) {
         if (out.extension() == ".nrrd") {
-            segment::writeLabels(out, m_segments, volume().lattice(), m_progress);
+            const auto counts =
+                segment::writeLabels(out, m_segments, volume().lattice(), m_progress);
+            for (std::size_t n = 0; n < counts.size(); ++n) {
+                m_segments[n].volumeMm3 = double(counts[n]) * volume().lattice().cellVolumeMm3();
+                if (counts[n] == 0)
+                    warn("no sample belongs at least half to '" + m_segments[n].name +
+                         "': it has no label");
+            }
             return;
         }
         segment::writeSegmentation(out, m_segments, volume().lattice(),
@@ -196,16 +204,8 @@ void addSegmentCommand(CLI::App &app, const Context &context) {
         ->check(notEmpty())
         ->needs(grow);
     c->add_flag("--json", o->json, "Print a report as one JSON object");
-    c->callback([o, context] {
-        // Names may come without a weight, which segments do not have.
-        for (auto *const names : {&o->scene.classes, &o->scene.segments})
-            for (std::string &text : *names)
-                if (text.find('=') == std::string::npos) {
-                    const auto colon = text.rfind(":#");
-                    text.insert(colon == std::string::npos ? text.size() : colon, "=1");
-                }
-        naming(o->input.path, [&] { SegmentRun(*o, context).run(); });
-    });
+    o->scene.weightsAreOptional = true;
+    c->callback([o, context] { naming(o->input.path, [&] { SegmentRun(*o, context).run(); }); });
 }
 
 } // namespace pellucid::cli

@@ -2,15 +2,18 @@
 #include "app/cli/segment_options.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "app/cli/input.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/terminal.h"
+#include "core/decoder/read_volume_file.h"
 #include "core/files/file_ids.h"
 #include "core/preprocess/segment_class.h"
 #include "core/task/error.h"
+#include "core/volume/volume_file.h"
 
 namespace pellucid::cli {
 
@@ -51,19 +54,21 @@ bool matches(std::string_view pattern, std::string_view name) {
 
 } // namespace
 
-WeightedName parseWeightedName(const std::string &option, const std::string &text) {
-    // The last '=', because a name may have one.
-    const auto equals = text.rfind('=');
-    if (equals == std::string::npos || equals == 0)
+WeightedName parseWeightedName(const std::string &option, const std::string &text, Weight weight) {
+    WeightedName parsed{text, 1.0, std::nullopt};
+    // From the end, because a name may contain the same characters.
+    if (const auto colon = text.rfind(":#"); colon != std::string::npos) {
+        parsed.color = classify::colorFromText(text.substr(colon + 1));
+        parsed.name.resize(colon);
+    }
+    const auto equals = parsed.name.rfind('=');
+    if (equals == 0 || (equals == std::string::npos && weight == Weight::required))
         throw Error(ErrorCode::usage,
                     because::inWords(option + ": '" + text + "' is not NAME=WEIGHT[:#rrggbb]"));
-    WeightedName parsed{text.substr(0, equals), 1.0, std::nullopt};
-    std::string weight = text.substr(equals + 1);
-    if (const auto colon = weight.find(':'); colon != std::string::npos) {
-        parsed.color = classify::colorFromText(weight.substr(colon + 1));
-        weight.resize(colon);
+    if (equals != std::string::npos) {
+        parsed.weight = parseNumbers(option, parsed.name.substr(equals + 1), ',', 1).front();
+        parsed.name.resize(equals);
     }
-    parsed.weight = parseNumbers(option, weight, ',', 1).front();
     return parsed;
 }
 
@@ -76,10 +81,18 @@ std::shared_ptr<const segment::SegmentSet> loadSegments(const std::vector<std::s
     auto segments =
         std::shared_ptr<const segment::SegmentSet>(new segment::SegmentSet(volume.lattice()));
     const files::FileIds outputs(outs);
+    std::set<fs::path> read;
     for (const std::string &file : files) {
-        if (const auto out = outputs.find(file))
-            throw Error(ErrorCode::usage, because::inWords("-o: is one of the files that are read"),
-                        *out);
+        std::error_code unknown;
+        if (!read.insert(fs::weakly_canonical(file, unknown)).second)
+            throw Error(ErrorCode::usage, because::inWords("--segmentation: is given twice"), file);
+        const fs::path samples = volume::isVolumeFile(file)
+                                     ? decoder::readVolumeFileHeader(file).samplesFile
+                                     : fs::path(file);
+        for (const fs::path &input : {fs::path(file), samples})
+            if (const auto out = outputs.find(input))
+                throw Error(ErrorCode::usage,
+                            because::inWords("-o: is one of the files that are read"), *out);
         segment::Segmentation loaded =
             segment::loadSegmentation(file, volume, task::Progress(context.stop));
         for (const task::Reason &warning : loaded.warnings)
@@ -96,18 +109,28 @@ void showSegments(classify::Look &look, const SceneOptions &options,
                     [](const classify::TissueClass &tissue) { return !tissue.segment.empty(); });
     if (options.segments.empty() && hasSegments)
         return;
+    const auto add = [&](classify::TissueClass tissue) {
+        const auto present =
+            std::find_if(look.classes.begin(), look.classes.end(), [&](const auto &other) {
+                return !tissue.segment.empty() && other.segment == tissue.segment;
+            });
+        if (present == look.classes.end())
+            look.classes.push_back(std::move(tissue));
+        else
+            *present = std::move(tissue);
+    };
     const auto showMatching = [&](const WeightedName &wanted) {
         bool isFound = false;
         std::size_t index = 0;
         for (const segment::Segmentation &segmentation : segments.segmentations())
             for (const segment::Segment &segment : segmentation.segments) {
                 classify::TissueClass tissue = preprocess::classOf(segment, index++);
-                if (!matches(wanted.name, segment.name))
+                if (segment.name != wanted.name && !matches(wanted.name, segment.name))
                     continue;
                 isFound = true;
                 tissue.weight = wanted.weight;
                 tissue.color = wanted.color.value_or(tissue.color);
-                look.classes.push_back(std::move(tissue));
+                add(std::move(tissue));
             }
         if (!isFound)
             failUnknown(wanted.name, segments);
@@ -115,7 +138,9 @@ void showSegments(classify::Look &look, const SceneOptions &options,
     if (options.segments.empty())
         showMatching({"*", 1.0, std::nullopt});
     for (const std::string &text : options.segments)
-        showMatching(parseWeightedName("--segment", text));
+        showMatching(segments.find(text) != nullptr
+                         ? WeightedName{text, 1.0, std::nullopt}
+                         : parseWeightedName("--segment", text, Weight::optional));
     classify::validate(look);
 }
 

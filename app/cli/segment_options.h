@@ -22,17 +22,20 @@ loadSegments(const std::vector<std::string> &files, const std::vector<std::files
 struct SceneOptions;
 
 /// Adds classes for segments to a look: those that --segment names, or else all of them, unless the
-/// look has classes of segments already. *Throws* Error{usage} for a name that no segment has.
+/// look has classes of segments already. Of several options for one segment, the last counts.
+/// *Throws* Error{usage} for a name that no segment has.
 void showSegments(classify::Look &look, const SceneOptions &options,
                   const segment::SegmentSet &segments);
 
-/// NAME=WEIGHT[:#rrggbb] of an option.
+/// NAME[=WEIGHT][:#rrggbb] of an option.
 struct WeightedName {
     std::string name;
     double weight = 1.0;
     std::optional<classify::Color> color;
 };
+/// Whether a name without a weight has the weight 1, or is refused.
+enum class Weight { optional, required };
 /// *Throws* Error{usage}.
-WeightedName parseWeightedName(const std::string &option, const std::string &text);
+WeightedName parseWeightedName(const std::string &option, const std::string &text, Weight weight);
 
 } // namespace pellucid::cli

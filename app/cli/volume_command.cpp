@@ -28,14 +28,11 @@ struct Options {
     bool field = false, edges = false, spectrum = false, gzip = false, json = false;
 };
 
-// Completes the classes and segments for a look: a name alone has the weight 1.
+// A name alone has the weight 1.
 SceneOptions withWeights(SceneOptions scene, bool edges) {
     if (edges)
         scene.classes = {"edges"};
-    for (auto *const names : {&scene.classes, &scene.segments})
-        for (std::string &text : *names)
-            if (text.find('=') == std::string::npos)
-                text += "=1";
+    scene.weightsAreOptional = true;
     return scene;
 }
 
@@ -84,8 +81,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const task::Progress progress(context.stop);
     const auto wanted = window.value_or(classify::defaultFieldWindow(volume));
     preprocess::StepCache steps(0); // no step runs twice
-    steps.setSegments(segments);
-    const auto field = tissue ? classify::classField(volume, wanted, *tissue, &steps, progress)
+    preprocess::ClassRunner runner(steps, segments);
+    const auto field = tissue ? classify::classField(volume, wanted, *tissue, &runner, progress)
                               : classify::densityField(volume, wanted, progress);
     volume::writeNrrd(o.out, field.values.asVolume(), encoding, task::Progress(context.stop));
 }
@@ -97,6 +94,7 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
     CLI::App *c = app.add_subcommand("volume", "Write a volume, the field that is projected, or a "
                                                "slice of its spectrum");
     addInputOptions(*c, o->input);
+    addSubtractionOptions(*c, o->input);
     c->add_option("-o,--output", o->out, "File to write: .nrrd; with --spectrum .png or .npy")
         ->required();
     CLI::Option *field =

@@ -17,8 +17,8 @@ namespace pellucid::classify {
 enum class Region : std::uint8_t { outside, inside, filled };
 
 /// The density that a class is shown with: that of the window; the value divided by the upper end
-/// of the class's range, for values such as gradients that are no longer the volume's; or 1, for
-/// edges.
+/// of the class's range, if it has one, for values such as gradients that are no longer the
+/// volume's; or 1, for edges.
 enum class DensityKind { window, range, one };
 
 /// The samples of a class after its steps.

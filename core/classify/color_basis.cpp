@@ -36,11 +36,30 @@ ColorBasis ofOneHue(std::span<const ColorBasis::Rgb> colors) {
     return result;
 }
 
+// Whether three of many colors are clearly in no plane, so that the search for the two that are
+// farthest apart, whose time grows with the square of their number, is not needed.
+bool spanSpace(std::span<const ColorBasis::Rgb> colors) {
+    constexpr double clearly = 0.01;
+    const glm::dvec3 first = directionOf(colors.front());
+    glm::dvec3 normal(0.0);
+    for (const ColorBasis::Rgb &color : colors)
+        if (const glm::dvec3 across = glm::cross(first, directionOf(color));
+            glm::length(across) > glm::length(normal))
+            normal = across;
+    return glm::length(normal) > clearly &&
+           std::any_of(colors.begin(), colors.end(), [&](const ColorBasis::Rgb &color) {
+               return std::abs(glm::dot(directionOf(color), glm::normalize(normal))) > clearly;
+           });
+}
+
 } // namespace
 
 ColorBasis colorBasis(std::span<const ColorBasis::Rgb> colors) {
     const ColorBasis::Rgb *first = nullptr, *second = nullptr;
     double farthest = tolerance;
+    if (spanSpace(colors))
+        return {{ColorBasis::primaries.begin(), ColorBasis::primaries.end()},
+                {colors.begin(), colors.end()}};
     for (std::size_t a = 0; a < colors.size(); ++a)
         for (std::size_t b = a + 1; b < colors.size(); ++b) {
             const double sine =

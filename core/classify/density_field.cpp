@@ -2,6 +2,7 @@
 #include "core/classify/density_field.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <tbb/blocked_range.h>
@@ -57,6 +58,10 @@ VoxelBox supportOf(const volume::Field &field, const task::Progress &progress) {
 FieldWindow defaultFieldWindow(const volume::Volume &volume) {
     if (volume.unit() == volume::ValueUnit::hounsfield)
         return {-900.0, 2000.0};
+    if (volume.notes().isDifference) {
+        const auto ends = volume::quantiles(volume, {0.0025, 0.9975});
+        return {0.0, std::max({std::abs(ends[0]), std::abs(ends[1]), 1e-6})};
+    }
     const auto q = volume::quantiles(volume, {0.005, 0.995});
     return {q[0], q[1]};
 }

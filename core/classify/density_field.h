@@ -13,8 +13,8 @@ struct FieldWindow {
     bool operator==(const FieldWindow &) const = default;
 };
 
-/// -900..2000 HU for CT, which hides air and its noise; for other volumes the 0.5 and 99.5 %
-/// quantiles of the finite samples.
+/// -900..2000 HU for CT, which hides air and its noise; for differences from 0 to the largest
+/// 0.5 % of their magnitudes; for other volumes the 0.5 and 99.5 % quantiles of the finite samples.
 FieldWindow defaultFieldWindow(const volume::Volume &volume);
 
 /// The projected quantity on the volume's lattice: a density f in 0..1, or a weighted one.

@@ -37,7 +37,7 @@ Mixture termsOf(const TransferFunction &function) {
 
 } // namespace
 
-Mixture mixtureOf(const Look &look, std::optional<std::size_t> held) {
+Mixture mixtureOf(const Look &look, std::optional<std::size_t> adjusted) {
     if (look.classes.empty())
         return termsOf(look.transferFunction);
     Mixture mixture;
@@ -51,9 +51,9 @@ Mixture mixtureOf(const Look &look, std::optional<std::size_t> held) {
         return mixture;
     }
     Look others = look;
-    if (held && *held < look.classes.size()) {
-        add(look.classes[*held]);
-        others.classes.erase(others.classes.begin() + std::ptrdiff_t(*held));
+    if (adjusted && *adjusted < look.classes.size()) {
+        add(look.classes[*adjusted]);
+        others.classes.erase(others.classes.begin() + std::ptrdiff_t(*adjusted));
     }
     others.classes = visibleClasses(others);
     for (TissueClass &tissue : others.classes)
@@ -111,7 +111,7 @@ DensityField LayerFields::field(std::size_t n, const task::Progress &progress) {
         return layerField(m_volume, m_window, layer, m_runner, progress);
     if (m_channels.empty())
         m_channels = shownFields(m_volume, m_window, {{}, layer.sum}, m_runner, progress).channels;
-    DensityField made = m_channels[std::size_t(layer.channel)];
+    DensityField made = std::exchange(m_channels[std::size_t(layer.channel)], {});
     if (n + 1 == m_mixture.layers.size())
         m_channels.clear();
     return made;

@@ -35,11 +35,11 @@ struct Mixture {
 inline constexpr std::size_t maxLayers = 8;
 
 /// A look as a mixture. Looks that differ only in weights, colors and control points have the same
-/// layers. Classes with zero weight are layers too, so that they can be shown at once. Of more than
-/// `maxLayers` classes, one is a layer of its own, and the others are summed: looks that differ only
-/// in that one's weight and color have the same layers. `held`: the index of that class; not set: of
-/// none.
-Mixture mixtureOf(const Look &look, std::optional<std::size_t> held = std::nullopt);
+/// layers. Classes with zero weight are layers too, so that they can be shown at once. With more
+/// than `maxLayers` classes, only the adjusted one is a layer of its own, and the others are
+/// summed: then looks that differ only in that one's weight and color have the same layers.
+/// `adjusted`: its index; not set: no class is adjusted.
+Mixture mixtureOf(const Look &look, std::optional<std::size_t> adjusted = std::nullopt);
 
 /// The index of the only class in which two looks differ, if they have the same number of classes
 /// and differ in nothing else.
@@ -56,7 +56,7 @@ public:
     LayerFields(volume::Volume volume, const FieldWindow &window, Mixture mixture,
                 StepRunner *runner);
     std::size_t count() const { return m_mixture.layers.size(); }
-    /// *Throws* Error{outOfMemory}, Cancelled.
+    /// *Requires*: each once, in order. *Throws* Error{outOfMemory}, Cancelled.
     DensityField field(std::size_t layer, const task::Progress &progress = {});
 
 private:
@@ -64,7 +64,7 @@ private:
     FieldWindow m_window;
     Mixture m_mixture;
     StepRunner *m_runner;
-    /// Of a sum, until the last is taken.
+    /// Of a sum, until they are taken.
     std::vector<DensityField> m_channels;
 };
 

@@ -13,6 +13,7 @@ enum class StepKind {
     median,
     diffusion,
     gradient,
+    negate,
     threshold,
     edges,
     binarise,

@@ -44,6 +44,10 @@ double TissueClass::membership(double value) const {
     return raisedCosine((value - low) / softness) * raisedCosine((high - value) / softness);
 }
 
+bool TissueClass::hasRange() const {
+    return low > lowestValue || high < highestValue;
+}
+
 void validate(const TissueClass &tissue) {
     const auto refuse = [&](const task::Reason &what) {
         throw task::Error(task::ErrorCode::usage, because::ofClass(tissue.name, what));
@@ -98,6 +102,22 @@ const std::vector<TissueClass> &standardClasses() {
         {"metal", 2500, 32767, 300, 1.0, {0.7, 0.9, 1.0}},
         {"body", -900, 32767, 50, 1.0, {0.85, 0.85, 0.85}, {}, {{StepKind::body, {}}}, {}, 0.0},
         {"edges", -600, 32767, 100, 1.0, {0.9, 0.95, 1.0}, {}, {{StepKind::edges, {}}}, {}, 0.0}};
+    return classes;
+}
+
+const std::vector<TissueClass> &differenceClasses() {
+    static const std::vector<TissueClass> classes{
+        {"gain", 0.0, highestValue, 0.0, 1.0, {1.0, 0.55, 0.25}, {}, {}, {}, 0.0},
+        {"loss",
+         0.0,
+         highestValue,
+         0.0,
+         1.0,
+         {0.3, 0.6, 1.0},
+         {},
+         {{StepKind::negate, {}}},
+         {},
+         0.0}};
     return classes;
 }
 

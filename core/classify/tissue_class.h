@@ -41,6 +41,8 @@ struct TissueClass {
 
     /// 0 to 1: a raised cosine around each end of the range.
     double membership(double value) const;
+    /// Whether some values are outside the range.
+    bool hasRange() const;
     /// Whether values alone decide which samples belong to the class.
     bool isRange() const { return steps.empty() && segment.empty(); }
 };
@@ -59,5 +61,7 @@ void validate(const TissueClass &tissue);
 /// The named classes for CT: air, lung, fat, fluid, muscle, organ, contrast, bone, metal, body,
 /// edges.
 const std::vector<TissueClass> &standardClasses();
+/// Those for differences of volumes: gain and loss.
+const std::vector<TissueClass> &differenceClasses();
 
 } // namespace pellucid::classify

@@ -45,7 +45,7 @@ ValueCurve::ValueCurve(const FieldWindow &window, DensityKind density,
                        const std::function<double(double)> &shape)
     : m_low(float(window.low)), m_scale(0.0F), m_density(density), m_tissue(std::move(tissue)) {
     double width = window.high - window.low;
-    if (density == DensityKind::range && m_tissue) {
+    if (density == DensityKind::range && m_tissue && m_tissue->hasRange()) {
         m_low = 0.0F;
         width = m_tissue->high;
     }

@@ -202,7 +202,6 @@ template <class A> void pass(A &archive, CodedConcept &code) {
 template <class A> void pass(A &archive, SegmentDescription &segment) {
     pass(archive, segment.number);
     pass(archive, segment.label);
-    pass(archive, segment.description);
     pass(archive, segment.color);
     pass(archive, segment.category);
     pass(archive, segment.type);
@@ -418,7 +417,7 @@ VolumeLayout unpackLayout(std::span<const std::byte> body) {
             fail();
     if (!(glm::length(layout.originMm) <= farthestMm))
         fail();
-    numbersOf(layout.segments);
+    (void)numbersOf(layout.segments); // checks them
     // Divided, not multiplied: the product of three sizes may wrap.
     if (std::uint64_t(n.i) >
         std::uint64_t(volume::maxSamples) / std::uint64_t(n.j) / std::uint64_t(n.k))

@@ -21,7 +21,7 @@ struct CodedConcept {
 /// A segment as a segmentation describes it. *Source*: PS3.3, section C.8.20.4.
 struct SegmentDescription {
     int number = 0;
-    std::string label, description;
+    std::string label;
     std::optional<glm::dvec3> color; ///< sRGB, each 0..1
     CodedConcept category, type;
     bool operator==(const SegmentDescription &) const = default;

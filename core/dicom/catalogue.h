@@ -75,7 +75,7 @@ struct Series {
 /// A segmentation or an RT structure set, which belongs to the volumes of its study.
 struct SegmentationFile {
     std::filesystem::path path;
-    std::string sopInstanceUid, description, modality;
+    std::string description, modality;
 };
 
 struct Study {

@@ -264,7 +264,7 @@ private:
         if (contents.reason && contents.reason != task::Reason(because::isASegmentation))
             return;
         if (contents.reason)
-            header.frames.resize(1); // only its identity is used
+            header.frames = std::vector<decoder::FrameHeader>(1); // only its identity is used
         contents.header = std::move(header);
     }
 
@@ -374,8 +374,7 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
     for (const SeriesFile &file : segmentations) {
         const InstanceHeader &h = file.header;
         if (Study *const study = studies.find(h))
-            study->segmentations.push_back(
-                {file.path, h.sopInstanceUid, h.seriesDescription, h.modality});
+            study->segmentations.push_back({file.path, h.seriesDescription, h.modality});
         else
             catalogue.skipped.push_back({file.path, because::isASegmentation});
     }

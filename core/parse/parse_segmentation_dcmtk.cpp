@@ -72,7 +72,6 @@ std::vector<SegmentDescription> readSegments(DcmDataset &dataset, const Characte
         if (segments.size() == decoder::maxSegments)
             fail(because::hasTooManySegments(decoder::maxSegments));
         segment.label = readText(item, DCM_SegmentLabel, &sets);
-        segment.description = readText(item, DCM_SegmentDescription, &sets);
         segment.color = readColor(item);
         segment.category = readCode(item, DCM_SegmentedPropertyCategoryCodeSequence, sets);
         segment.type = readCode(item, DCM_SegmentedPropertyTypeCodeSequence, sets);

@@ -12,13 +12,17 @@ PreparedFor::PreparedFor(const scene::Scene &scene)
       cue(scene::plannedCue(scene.shading.cue)), isLit(scene.shading.isLit()) {}
 
 bool PreparedFor::hasSameLayersAs(const PreparedFor &other) const {
-    std::optional<std::size_t> held = heldClass ? heldClass : other.heldClass;
-    if (!held)
-        held = classify::onlyDifference(look, other.look);
-    return window == other.window && crop == other.crop && tolerance == other.tolerance &&
-           interpolation == other.interpolation && image == other.image && cue == other.cue &&
-           isLit == other.isLit &&
-           classify::mixtureOf(look, held).layers == classify::mixtureOf(other.look, held).layers;
+    if (!(window == other.window && crop == other.crop && tolerance == other.tolerance &&
+          interpolation == other.interpolation && image == other.image && cue == other.cue &&
+          isLit == other.isLit))
+        return false;
+    if (look == other.look)
+        return true;
+    std::optional<std::size_t> adjusted = adjustedClass ? adjustedClass : other.adjustedClass;
+    if (!adjusted)
+        adjusted = classify::onlyDifference(look, other.look);
+    return classify::mixtureOf(look, adjusted).layers ==
+           classify::mixtureOf(other.look, adjusted).layers;
 }
 
 bool PreparedFor::showsSameAs(const PreparedFor &other) const {

@@ -22,12 +22,13 @@ struct PreparedFor {
     /// needs a new plan.
     shading::DepthCue cue;
     bool isLit = false;
-    /// Of layers: the class that is one, if the look has many, see `classify::mixtureOf`.
-    std::optional<std::size_t> heldClass;
+    /// Set for layers of many classes: the class that is a layer of its own, see
+    /// `classify::mixtureOf`.
+    std::optional<std::size_t> adjustedClass;
     bool operator==(const PreparedFor &) const = default;
 
     /// Whether only weights, colors and control points differ: the layers are the same. If the look
-    /// has many classes, only one of them may differ: the held one.
+    /// has many classes, only one of them may differ: the adjusted one.
     bool hasSameLayersAs(const PreparedFor &other) const;
     /// Whether only cue, light and interpolation between samples differ, which any engine can show.
     bool showsSameAs(const PreparedFor &other) const;

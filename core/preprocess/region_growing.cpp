@@ -2,6 +2,7 @@
 #include "core/preprocess/region_growing.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <tbb/parallel_for.h>
 
@@ -82,6 +83,29 @@ private:
     std::size_t m_count = 0;
 };
 
+// The centres of balls that contain a seed.
+std::vector<VoxelIndex> centresNear(const volume::Lattice &lattice, const Mask &centres,
+                                    const std::vector<VoxelIndex> &seeds, double radiusMm) {
+    const GridSize size = lattice.size();
+    std::vector<VoxelIndex> near;
+    const auto reach = [&](int axis) {
+        return int(std::min(radiusMm / lattice.spacingMm(axis), double(size[axis])));
+    };
+    for (const VoxelIndex &seed : seeds)
+        for (int k = seed.k - reach(2); k <= seed.k + reach(2); ++k)
+            for (int j = seed.j - reach(1); j <= seed.j + reach(1); ++j)
+                for (int i = seed.i - reach(0); i <= seed.i + reach(0); ++i) {
+                    const VoxelIndex n{i, j, k};
+                    const double mm = std::hypot((i - seed.i) * lattice.spacingMm(0),
+                                                 (j - seed.j) * lattice.spacingMm(1),
+                                                 (k - seed.k) * lattice.spacingMm(2));
+                    if (mm <= radiusMm && lattice.contains(n) &&
+                        centres[size.offsetOf(i, j, k)] != 0)
+                        near.push_back(n);
+                }
+    return near;
+}
+
 } // namespace
 
 Mask connected(const GridSize &size, const Mask &mask, const std::vector<VoxelIndex> &seeds,
@@ -124,11 +148,11 @@ Mask grownRegion(const volume::Volume &volume, const Growth &growth,
         // A ball as wide as the leak rolls through the range.
         const double radius = 0.5 * growth.leakMm;
         const Mask centres = eroded(lattice, inRange, radius, progress.part(0.0, 0.3));
-        if (!isAnySeedIn(centres))
+        const auto near = centresNear(lattice, centres, growth.seeds, radius);
+        if (near.empty())
             throw task::Error(task::ErrorCode::usage, task::because::seedInANarrowPlace);
-        Mask region =
-            dilated(lattice, connected(size, centres, growth.seeds, progress.part(0.3, 0.7)),
-                    radius, progress.part(0.7, 1.0));
+        Mask region = dilated(lattice, connected(size, centres, near, progress.part(0.3, 0.7)),
+                              radius, progress.part(0.7, 1.0));
         for (std::size_t n = 0; n < region.size(); ++n)
             region[n] = std::uint8_t(region[n] & inRange[n]);
         return region;

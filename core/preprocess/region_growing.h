@@ -24,8 +24,8 @@ struct Growth {
     double leakMm = 0.0;
 };
 
-/// *Throws* Error{usage} if no seed has a value in the range, or lies where a ball of the leak's
-/// width fits; Error{outOfMemory}; Cancelled.
+/// *Throws* Error{usage} if no seed has a value in the range, or none is within a ball of the
+/// leak's width that fits there; Error{outOfMemory}; Cancelled.
 Mask grownRegion(const volume::Volume &volume, const Growth &growth,
                  const task::Progress &progress = {});
 

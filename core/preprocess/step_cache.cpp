@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <limits>
 #include <list>
 #include <mutex>
 #include <optional>
@@ -119,6 +120,21 @@ template <class F> Regions insideWhere(const volume::Volume &values, const F &ho
     return insideOf(mask);
 }
 
+// The lowest 16-bit value has no opposite.
+volume::Volume negated(const volume::Volume &values) {
+    return values.visit([&](auto samples) {
+        using T = std::remove_cv_t<typename decltype(samples)::element_type>;
+        std::vector<T> opposite(samples.size());
+        std::transform(samples.begin(), samples.end(), opposite.begin(), [](T value) {
+            if constexpr (std::is_same_v<T, std::int16_t>)
+                return T(std::min(-int(value), int(std::numeric_limits<T>::max())));
+            else
+                return -value;
+        });
+        return volume::Volume(values.lattice(), std::move(opposite), values.unit(), values.notes());
+    });
+}
+
 volume::Volume smoothGradient(const volume::Volume &values, double sigmaMm,
                               const task::Progress &progress) {
     return gradientMagnitude(sigmaMm > 0.0 ? gaussian(values, sigmaMm, progress.part(0.0, 0.8))
@@ -155,6 +171,8 @@ Outcome outcomeOf(const Step &step, const TissueClass &tissue, const ClassSample
         return diffusion(values, int(given("iterations")), given("conductance"), progress);
     case StepKind::gradient:
         return smoothGradient(values, given("sigma_mm"), progress);
+    case StepKind::negate:
+        return negated(values);
     case StepKind::threshold:
         return insideWhere(values, [low = given("low"), high = given("high")](double value) {
             return value >= low && value <= high;
@@ -199,6 +217,7 @@ bool dependsOnClass(StepKind kind) {
     case StepKind::median:
     case StepKind::diffusion:
     case StepKind::gradient:
+    case StepKind::negate:
     case StepKind::threshold:
     case StepKind::edges:
     case StepKind::binarise:
@@ -220,6 +239,7 @@ std::optional<DensityKind> densityAfter(StepKind kind) {
     case StepKind::gaussian:
     case StepKind::median:
     case StepKind::diffusion:
+    case StepKind::negate:
     case StepKind::threshold:
     case StepKind::opening:
     case StepKind::closing:
@@ -285,7 +305,6 @@ struct StepCache::Store {
     }
 
     mutable std::mutex mutex;
-    std::shared_ptr<const segment::SegmentSet> segments;
     std::size_t budget = 0, bytes = 0, computed = 0;
     std::list<Entry> entries; ///< the most recently used first
 };
@@ -293,38 +312,39 @@ struct StepCache::Store {
 // Finds the samples of one class.
 class StepCache::ClassRun {
 public:
-    ClassRun(Store &store, const volume::Volume &volume, const TissueClass &tissue)
-        : m_store(store), m_tissue(tissue), m_now{volume} {}
+    ClassRun(Store &store, const segment::SegmentSet *segments, const volume::Volume &volume,
+             const TissueClass &tissue)
+        : m_store(store), m_segments(segments), m_tissue(tissue), m_now{volume} {}
 
     ClassSamples result(const task::Progress &progress) {
-        takeSegment();
-        runSteps(progress);
-        soften();
+        takeSegment(progress);
+        runSteps(progress.part(0.0, 0.8));
+        joinRegions();
+        soften(progress);
+        progress.report(1.0);
         return std::move(m_now);
     }
 
 private:
-    void takeSegment() {
+    void takeSegment(const task::Progress &progress) {
         if (m_tissue.segment.empty())
             return;
-        std::shared_ptr<const segment::SegmentSet> segments;
-        {
-            const std::lock_guard lock(m_store.mutex);
-            segments = m_store.segments;
-        }
-        const segment::Segment *const found = segments ? segments->find(m_tissue.segment) : nullptr;
+        const segment::Segment *const found =
+            m_segments != nullptr ? m_segments->find(m_tissue.segment) : nullptr;
         if (found == nullptr)
             throw task::Error(task::ErrorCode::usage,
                               task::because::segmentIsMissing(m_tissue.name, m_tissue.segment));
         const volume::Lattice &lattice = m_now.values.lattice();
-        m_segmentKey = fmt::format("segment {}", found->id);
+        m_coverageKey = fmt::format("segment {}", found->id);
         m_now.coverage = found->coverage;
-        if (lattice == segments->lattice())
+        if (lattice == m_segments->lattice())
             return;
-        m_segmentKey += " on " + geometryText(lattice);
-        m_now.coverage = m_store.find<SharedCoverage>(m_segmentKey, [&] {
+        const glm::dvec3 origin = lattice.origin().mm;
+        m_coverageKey +=
+            fmt::format(" on {} at {},{},{}", geometryText(lattice), origin.x, origin.y, origin.z);
+        m_now.coverage = m_store.find<SharedCoverage>(m_coverageKey, [&] {
             return std::make_shared<const volume::Coverage>(
-                segment::coarsened(*found->coverage, segments->lattice(), lattice));
+                segment::coarsened(*found->coverage, m_segments->lattice(), lattice, progress));
         });
     }
 
@@ -347,7 +367,7 @@ private:
             std::string key = valuesKey + text;
             if (dependsOnClass(step.kind))
                 key += fmt::format(" of {} {} {} {} {}", m_tissue.low, m_tissue.high,
-                                   m_tissue.softness, m_segmentKey, m_regionsKey);
+                                   m_tissue.softness, m_coverageKey, m_regionsKey);
             const auto found = m_store.find<Regions>(key, make);
             // The result of a step that depends on the class contains the earlier regions already.
             m_now.regions = dependsOnClass(step.kind) ? found : intersection(m_now.regions, found);
@@ -355,38 +375,37 @@ private:
         }
     }
 
-    // The region of the steps becomes a part of the coverage, and the edges of both fade. Filled
-    // samples keep their whole share.
-    void soften() {
-        if (m_tissue.edge == 0.0 || (!m_now.coverage && !m_now.regions))
+    // Where the edges fade, and within a segment, the region of the steps becomes part of the
+    // coverage. Filled samples belong to it with their whole share.
+    void joinRegions() {
+        if (!m_now.regions || (m_tissue.edge == 0.0 && !m_now.coverage))
             return;
-        const volume::GridSize size = m_now.values.lattice().size();
-        if (!m_now.regions) {
-            m_now.coverage = m_store.find<SharedCoverage>(
-                fmt::format("{} edge {}", m_segmentKey, m_tissue.edge), [&] {
-                    return std::make_shared<const volume::Coverage>(
-                        segment::softened(*m_now.coverage, size, m_tissue.edge));
-                });
-            return;
-        }
         const std::vector<Region> &regions = *m_now.regions;
-        volume::Coverage region{m_now.values.lattice().bounds(), {}};
-        region.shares.resize(size.count());
+        const volume::GridSize size = m_now.values.lattice().size();
+        volume::VoxelBox box;
         bool hasFilled = false;
         for (int k = 0; k < size.k; ++k)
-            for (int j = 0; j < size.j; ++j)
+            for (int j = 0; j < size.j; ++j) {
+                int first = size.i, last = -1;
                 for (int i = 0; i < size.i; ++i) {
-                    const std::size_t n = size.offsetOf(i, j, k);
-                    hasFilled = hasFilled || regions[n] == Region::filled;
-                    const std::uint8_t covered =
-                        m_now.coverage ? m_now.coverage->at({i, j, k}) : volume::Coverage::whole;
-                    region.shares[n] = regions[n] == Region::outside ? std::uint8_t(0)
-                                       : regions[n] == Region::filled
-                                           ? std::uint8_t(volume::Coverage::whole)
-                                           : covered;
+                    const Region where = regions[size.offsetOf(i, j, k)];
+                    if (shareOf(where, {i, j, k}) == 0)
+                        continue;
+                    hasFilled = hasFilled || where == Region::filled;
+                    first = std::min(first, i);
+                    last = i;
                 }
-        m_now.coverage = std::make_shared<const volume::Coverage>(
-            segment::softened(region, size, m_tissue.edge));
+                if (last >= 0)
+                    box = united(box, {{first, j, k}, {last + 1, j + 1, k + 1}});
+            }
+        volume::Coverage joined{box, {}};
+        joined.shares.reserve(box.size().count());
+        for (int k = box.lo.k; k < box.hi.k; ++k)
+            for (int j = box.lo.j; j < box.hi.j; ++j)
+                for (int i = box.lo.i; i < box.hi.i; ++i)
+                    joined.shares.push_back(shareOf(regions[size.offsetOf(i, j, k)], {i, j, k}));
+        m_now.coverage = std::make_shared<const volume::Coverage>(std::move(joined));
+        m_coverageKey.clear(); // is not kept
         if (!hasFilled) {
             m_now.regions = nullptr;
             return;
@@ -399,10 +418,32 @@ private:
         m_now.regions = shared(std::move(kept));
     }
 
+    std::uint8_t shareOf(Region where, volume::VoxelIndex n) const {
+        if (where == Region::outside)
+            return 0;
+        if (where == Region::filled || !m_now.coverage)
+            return volume::Coverage::whole;
+        return m_now.coverage->at(n);
+    }
+
+    void soften(const task::Progress &progress) {
+        if (m_tissue.edge == 0.0 || !m_now.coverage)
+            return;
+        const auto make = [&] {
+            return std::make_shared<const volume::Coverage>(segment::softened(
+                *m_now.coverage, m_now.values.lattice().size(), m_tissue.edge, progress));
+        };
+        m_now.coverage = m_coverageKey.empty()
+                             ? make()
+                             : m_store.find<SharedCoverage>(
+                                   fmt::format("{} edge {}", m_coverageKey, m_tissue.edge), make);
+    }
+
     Store &m_store;
+    const segment::SegmentSet *m_segments;
     const TissueClass &m_tissue;
     ClassSamples m_now;
-    std::string m_segmentKey, m_regionsKey;
+    std::string m_coverageKey, m_regionsKey;
 };
 
 StepCache::StepCache(std::size_t budgetBytes) : m_store(std::make_unique<Store>()) {
@@ -425,15 +466,16 @@ void StepCache::trim(std::size_t budgetBytes) {
     m_store->drop(budgetBytes);
 }
 
-void StepCache::setSegments(std::shared_ptr<const segment::SegmentSet> segments) {
-    const std::lock_guard lock(m_store->mutex);
-    m_store->segments = std::move(segments);
+ClassSamples StepCache::run(const volume::Volume &volume, const TissueClass &tissue,
+                            const task::Progress &progress) {
+    return run(volume, tissue, nullptr, progress);
 }
 
 ClassSamples StepCache::run(const volume::Volume &volume, const TissueClass &tissue,
-                            const task::Progress &progress) {
-    return task::orOutOfMemory(task::because::noMemoryForTheSteps(tissue.name),
-                               [&] { return ClassRun(*m_store, volume, tissue).result(progress); });
+                            const segment::SegmentSet *segments, const task::Progress &progress) {
+    return task::orOutOfMemory(task::because::noMemoryForTheSteps(tissue.name), [&] {
+        return ClassRun(*m_store, segments, volume, tissue).result(progress);
+    });
 }
 
 } // namespace pellucid::preprocess

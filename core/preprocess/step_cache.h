@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 
 #include "core/classify/class_samples.h"
 #include "core/segment/segment_set.h"
@@ -20,10 +21,9 @@ public:
 
     classify::ClassSamples run(const volume::Volume &volume, const classify::TissueClass &tissue,
                                const task::Progress &progress) override;
-
-    /// The segments that classes may name; null: none. Classes that run meanwhile keep the former
-    /// ones.
-    void setSegments(std::shared_ptr<const segment::SegmentSet> segments);
+    /// The same for classes that may be parts of these segments; null: of none.
+    classify::ClassSamples run(const volume::Volume &volume, const classify::TissueClass &tissue,
+                               const segment::SegmentSet *segments, const task::Progress &progress);
 
     std::size_t bytes() const;
     /// How many results were computed, not found.
@@ -35,6 +35,23 @@ private:
     struct Store;
     class ClassRun;
     std::unique_ptr<Store> m_store;
+};
+
+/// A cache together with the segments of a volume. *Requires*: the cache outlives this object.
+class ClassRunner final : public classify::StepRunner {
+public:
+    /// `segments`: null if none are loaded.
+    ClassRunner(StepCache &steps, std::shared_ptr<const segment::SegmentSet> segments)
+        : m_steps(steps), m_segments(std::move(segments)) {}
+
+    classify::ClassSamples run(const volume::Volume &volume, const classify::TissueClass &tissue,
+                               const task::Progress &progress) override {
+        return m_steps.run(volume, tissue, m_segments.get(), progress);
+    }
+
+private:
+    StepCache &m_steps;
+    std::shared_ptr<const segment::SegmentSet> m_segments;
 };
 
 } // namespace pellucid::preprocess

@@ -40,8 +40,10 @@ Look mapped(Look look, double offset, double scale, Thresholds thresholds) {
                 step.parameters["from"] = value(step.at("from"));
             isSlope = isSlope || step.kind == StepKind::gradient;
         }
-        tissue.low = value(tissue.low);
-        tissue.high = value(tissue.high);
+        if (tissue.hasRange()) {
+            tissue.low = value(tissue.low);
+            tissue.high = value(tissue.high);
+        }
         tissue.softness *= scale;
     }
     return look;

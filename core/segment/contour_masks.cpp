@@ -128,21 +128,42 @@ void addSpan(double from, double to, std::span<double> row) {
         row[c] += std::min(high, double(c) + 1.0) - std::max(low, double(c));
 }
 
+struct Edge {
+    glm::dvec2 from, to;
+};
+
+// The edges of polygons by the rows that they cross, so that a line looks at few of them.
+std::vector<std::vector<Edge>> edgesByRow(const std::vector<Polygon> &polygons, int firstRow,
+                                          int rows) {
+    std::vector<std::vector<Edge>> edges(std::size_t(rows), std::vector<Edge>{});
+    for (const Polygon &polygon : polygons)
+        for (std::size_t n = 0; n < polygon.size(); ++n) {
+            const glm::dvec2 a = polygon[n], b = polygon[(n + 1) % polygon.size()];
+            const double low = std::floor(std::min(a.y, b.y) + 0.5) - firstRow,
+                         high = std::floor(std::max(a.y, b.y) + 0.5) - firstRow;
+            for (int row = int(std::max(low, 0.0)); row <= int(std::min(high, rows - 1.0)); ++row)
+                edges[std::size_t(row)].push_back({a, b});
+        }
+    return edges;
+}
+
 // Fills the area that an odd number of polygons encloses.
 void fill(const std::vector<Polygon> &polygons, glm::ivec2 origin, int columns, int rows,
-          std::uint16_t *to) {
+          std::uint16_t *to, const task::Progress &progress) {
     std::vector<double> row(std::size_t(columns), 0.0), crossings;
+    const auto edges = edgesByRow(polygons, origin.y, rows);
     for (int r = 0; r < rows; ++r) {
+        progress.check();
         std::fill(row.begin(), row.end(), 0.0);
         for (int line = 0; line < linesPerPixel; ++line) {
             const double y = origin.y + r - 0.5 + (line + 0.5) / linesPerPixel;
             crossings.clear();
-            for (const Polygon &polygon : polygons)
-                for (std::size_t n = 0; n < polygon.size(); ++n) {
-                    const glm::dvec2 a = polygon[n], b = polygon[(n + 1) % polygon.size()];
-                    if ((a.y <= y) != (b.y <= y))
-                        crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x) - origin.x);
-                }
+            for (const Edge &edge : edges[std::size_t(r)])
+                if ((edge.from.y <= y) != (edge.to.y <= y))
+                    crossings.push_back(edge.from.x +
+                                        (y - edge.from.y) / (edge.to.y - edge.from.y) *
+                                            (edge.to.x - edge.from.x) -
+                                        origin.x);
             std::sort(crossings.begin(), crossings.end());
             for (std::size_t n = 0; n + 1 < crossings.size(); n += 2)
                 addSpan(crossings[n], crossings[n + 1], row);
@@ -185,6 +206,9 @@ FilledContours filled(const std::vector<std::span<const glm::dvec3>> &contours,
     FilledContours result;
     StoredMasks &masks = result.masks;
     masks.kind = StoredMasks::Pixels::fractions;
+    masks.longestGap = 2.5; // some programs leave out a slice between drawn ones
+    if (planes.size() == 1) // nothing else says how thick it is
+        masks.thicknessMm = lattice.sliceDistanceMm();
     masks.columns = extent.high.x - extent.low.x + 1;
     masks.rows = extent.high.y - extent.low.y + 1;
     const std::size_t pixels = std::size_t(masks.columns) * std::size_t(masks.rows);
@@ -199,7 +223,7 @@ FilledContours filled(const std::vector<std::span<const glm::dvec3>> &contours,
         tbb::parallel_for(std::size_t(0), planes.size(), [&](std::size_t n) {
             progress.check();
             fill(planes[n].polygons, extent.low, masks.columns, masks.rows,
-                 result.fractions.data() + n * pixels);
+                 result.fractions.data() + n * pixels, progress);
         });
         masks.pixels = std::as_bytes(std::span(result.fractions));
         return std::move(result);

@@ -2,10 +2,9 @@
 #include "core/segment/coverages.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
-
-#include <glm/common.hpp>
 
 #include <tbb/parallel_for.h>
 
@@ -33,13 +32,14 @@ public:
 
     // Convolves with (a, 1 - 2a, a) along an axis: its variance is 2a. Beyond the ends the
     // outermost sample is repeated.
-    void blur(int axis, float a) {
+    void blur(int axis, float a, const task::Progress &progress) {
         const int length = m_size[axis];
         const std::size_t step = axis == 0   ? 1
                                  : axis == 1 ? m_size.offsetOf(0, 1, 0)
                                              : m_size.offsetOf(0, 0, 1);
         const int along = axis == 0 ? m_size.j : m_size.i, across = axis == 2 ? m_size.j : m_size.k;
         tbb::parallel_for(0, across, [&](int v) {
+            progress.check();
             for (int u = 0; u < along; ++u) {
                 float *const line = m_values.data() + (axis == 0   ? m_size.offsetOf(0, u, v)
                                                        : axis == 1 ? m_size.offsetOf(u, 0, v)
@@ -70,7 +70,8 @@ private:
 
 } // namespace
 
-Coverage softened(const Coverage &region, const GridSize &size, double sigma) {
+Coverage softened(const Coverage &region, const GridSize &size, double sigma,
+                  const task::Progress &progress) {
     if (region.isEmpty() || sigma <= 0.0)
         return region;
     // A pass with the weights 1/4, 1/2, 1/4 has the variance 1/2; no weight may be larger, because
@@ -85,44 +86,66 @@ Coverage softened(const Coverage &region, const GridSize &size, double sigma) {
     Samples samples(region, grown);
     for (int pass = 0; pass < passes; ++pass)
         for (int axis = 0; axis < 3; ++axis)
-            samples.blur(axis, a);
+            samples.blur(axis, a, progress);
     return samples.rounded();
 }
 
-Coverage coarsened(const Coverage &region, const Lattice &from, const Lattice &to) {
+Coverage coarsened(const Coverage &region, const Lattice &from, const Lattice &to,
+                   const task::Progress &progress) {
     if (region.isEmpty())
         return region;
-    const GridSize size = to.size();
-    const auto cellOf = [&](int i, int j, int k) {
-        const glm::dvec3 v =
-            glm::floor(to.voxel(from.patient(volume::VoxelIndex{i, j, k})).v + 0.5);
-        const glm::dvec3 last(size.i - 1, size.j - 1, size.k - 1);
-        const glm::dvec3 inside = glm::clamp(v, glm::dvec3(0.0), last);
-        return volume::VoxelIndex{int(inside.x), int(inside.y), int(inside.z)};
+    const GridSize size = to.size(), finer = from.size();
+    // Both lattices have the same axes: each coordinate has its own cell.
+    const auto cellsAlong = [&](int axis) {
+        std::vector<int> cells;
+        for (int n = 0; n < finer[axis]; ++n) {
+            glm::dvec3 v(0.0);
+            v[axis] = n;
+            const double at = to.voxel(from.patient(volume::VoxelPoint{v})).v[axis];
+            cells.push_back(std::clamp(int(std::floor(at + 0.5)), 0, size[axis] - 1));
+        }
+        return cells;
     };
-    const VoxelBox &box = region.box;
-    VoxelBox cells;
-    for (int corner = 0; corner < 8; ++corner) {
-        const volume::VoxelIndex n = cellOf((corner & 1) != 0 ? box.hi.i - 1 : box.lo.i,
-                                            (corner & 2) != 0 ? box.hi.j - 1 : box.lo.j,
-                                            (corner & 4) != 0 ? box.hi.k - 1 : box.lo.k);
-        cells = united(cells, {n, {n.i + 1, n.j + 1, n.k + 1}});
+    const std::array<std::vector<int>, 3> cells{cellsAlong(0), cellsAlong(1), cellsAlong(2)};
+    // The number of samples that a cell holds: those at the border may hold fewer.
+    std::array<std::vector<int>, 3> counts;
+    for (int axis = 0; axis < 3; ++axis) {
+        counts[std::size_t(axis)].assign(std::size_t(size[axis]), 0);
+        for (const int cell : cells[std::size_t(axis)])
+            ++counts[std::size_t(axis)][std::size_t(cell)];
     }
-    const GridSize within = cells.size();
-    std::vector<double> sums(within.count());
-    for (int k = box.lo.k; k < box.hi.k; ++k)
-        for (int j = box.lo.j; j < box.hi.j; ++j)
+    const VoxelBox &box = region.box;
+    const auto cellAt = [&](int i, int j, int k) {
+        return volume::VoxelIndex{cells[0][std::size_t(i)], cells[1][std::size_t(j)],
+                                  cells[2][std::size_t(k)]};
+    };
+    const volume::VoxelIndex low = cellAt(box.lo.i, box.lo.j, box.lo.k),
+                             last = cellAt(box.hi.i - 1, box.hi.j - 1, box.hi.k - 1);
+    Coverage result{{low, {last.i + 1, last.j + 1, last.k + 1}}, {}};
+    const GridSize within = result.box.size();
+    std::vector<std::uint32_t> sums(within.count());
+    for (int k = box.lo.k; k < box.hi.k; ++k) {
+        progress.check();
+        for (int j = box.lo.j; j < box.hi.j; ++j) {
+            const volume::VoxelIndex first = cellAt(box.lo.i, j, k);
+            const std::uint8_t *const row =
+                region.shares.data() + region.offsetOf({box.lo.i, j, k});
+            std::uint32_t *const to0 =
+                sums.data() + within.offsetOf(0, first.j - low.j, first.k - low.k);
             for (int i = box.lo.i; i < box.hi.i; ++i)
-                if (const std::uint8_t share = region.at({i, j, k}); share != 0) {
-                    const volume::VoxelIndex n = cellOf(i, j, k);
-                    sums[within.offsetOf(n.i - cells.lo.i, n.j - cells.lo.j, n.k - cells.lo.k)] +=
-                        share;
-                }
-    Coverage result{cells, std::vector<std::uint8_t>(sums.size())};
-    const double samplesEach = to.cellVolumeMm3() / from.cellVolumeMm3();
-    std::transform(sums.begin(), sums.end(), result.shares.begin(), [&](double sum) {
-        return std::uint8_t(std::min(std::lround(sum / samplesEach), long(Coverage::whole)));
-    });
+                to0[cells[0][std::size_t(i)] - low.i] += row[i - box.lo.i];
+        }
+    }
+    result.shares.resize(sums.size());
+    for (int k = 0; k < within.k; ++k)
+        for (int j = 0; j < within.j; ++j)
+            for (int i = 0; i < within.i; ++i) {
+                const double held = double(counts[0][std::size_t(low.i + i)]) *
+                                    counts[1][std::size_t(low.j + j)] *
+                                    counts[2][std::size_t(low.k + k)];
+                const std::size_t n = within.offsetOf(i, j, k);
+                result.shares[n] = std::uint8_t(std::lround(sums[n] / held));
+            }
     return result;
 }
 

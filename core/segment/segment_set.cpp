@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/segment/segment_set.h"
 
-#include <fmt/format.h>
+#include <set>
+#include <utility>
 
 namespace pellucid::segment {
 
-const Segment *SegmentSet::find(const std::string &name) const {
-    for (const Segmentation &segmentation : m_segmentations)
-        for (const Segment &segment : segmentation.segments)
-            if (segment.name == name)
-                return &segment;
-    return nullptr;
+const SegmentSet::Place *SegmentSet::placeOf(const std::string &name) const {
+    const auto found = m_places.find(name);
+    return found == m_places.end() ? nullptr : &found->second;
 }
 
-std::string SegmentSet::titleOf(const std::string &name) const {
-    for (const Segmentation &segmentation : m_segmentations)
-        for (const Segment &segment : segmentation.segments)
-            if (segment.name == name)
-                return segmentation.title;
-    return {};
+const Segment *SegmentSet::find(const std::string &name) const {
+    const Place *const place = placeOf(name);
+    return place == nullptr ? nullptr
+                            : &m_segmentations[place->segmentation].segments[place->segment];
+}
+
+const Segmentation *SegmentSet::fileOf(const std::string &name) const {
+    const Place *const place = placeOf(name);
+    return place == nullptr ? nullptr : &m_segmentations[place->segmentation];
 }
 
 std::size_t SegmentSet::bytes() const {
@@ -30,12 +31,15 @@ std::size_t SegmentSet::bytes() const {
 }
 
 std::shared_ptr<const SegmentSet> SegmentSet::with(Segmentation added) const {
-    for (Segment &segment : added.segments) {
-        const std::string name = segment.name;
-        for (int n = 2; find(segment.name) != nullptr; ++n)
-            segment.name = fmt::format("{} ({})", name, n);
-    }
     auto joined = std::make_shared<SegmentSet>(*this);
+    std::set<std::string> taken;
+    for (const auto &place : m_places)
+        taken.insert(place.first);
+    for (std::size_t n = 0; n < added.segments.size(); ++n) {
+        Segment &segment = added.segments[n];
+        segment.name = uniqueName(segment.name, taken);
+        joined->m_places[segment.name] = {m_segmentations.size(), n};
+    }
     joined->m_segmentations.push_back(std::move(added));
     return joined;
 }

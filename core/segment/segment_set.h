@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/segment/segmentation.h"
 
 namespace pellucid::segment {
 
-/// The segments that are loaded for a volume. Immutable; a set with more segments is another one.
+/// The segments that are loaded for a volume. Immutable: adding segments returns a new set.
 class SegmentSet {
 public:
     explicit SegmentSet(volume::Lattice lattice) : m_lattice(std::move(lattice)) {}
@@ -23,14 +25,19 @@ public:
     const std::vector<Segmentation> &segmentations() const { return m_segmentations; }
     /// The segment of this name, or null.
     const Segment *find(const std::string &name) const;
-    bool isEmpty() const { return m_segmentations.empty(); }
-    /// The title of the file that a segment comes from; empty if there is no such segment.
-    std::string titleOf(const std::string &name) const;
+    /// The file that the segment of this name comes from, or null.
+    const Segmentation *fileOf(const std::string &name) const;
     std::size_t bytes() const;
 
 private:
+    struct Place {
+        std::size_t segmentation = 0, segment = 0;
+    };
+    const Place *placeOf(const std::string &name) const;
+
     volume::Lattice m_lattice;
     std::vector<Segmentation> m_segmentations;
+    std::map<std::string, Place> m_places; ///< by name
 };
 
 } // namespace pellucid::segment

@@ -58,7 +58,7 @@ std::string numbered(int number) {
     return fmt::format("Segment {}", number);
 }
 
-// Places segments on a volume and sums up what came of it.
+// Collects the segments that are in a volume, and the warnings about them.
 class Collector {
 public:
     explicit Collector(const Volume &volume) : m_lattice(volume.lattice()) {}
@@ -68,11 +68,8 @@ public:
             m_outside.push_back(segment.name);
             return;
         }
-        segment.name = unused(segment.name);
-        double sum = 0.0;
-        for (const std::uint8_t share : coverage.shares)
-            sum += share;
-        segment.volumeMm3 = sum / Coverage::whole * m_lattice.cellVolumeMm3();
+        segment.name = uniqueName(segment.name, m_names);
+        segment.volumeMm3 = coverage.total() * m_lattice.cellVolumeMm3();
         static std::atomic<std::uint64_t> next = 1;
         segment.id = next++;
         segment.coverage = std::make_shared<const Coverage>(std::move(coverage));
@@ -83,7 +80,6 @@ public:
         for (std::size_t n = 0; n < segments.size(); ++n)
             add(std::move(segments[n]), std::move(masks.coverages[n]));
     }
-    void noteResampled() { m_isResampled = true; }
     void warn(task::Reason warning) { m_result.warnings.push_back(std::move(warning)); }
 
     Segmentation take(std::string title) {
@@ -102,13 +98,6 @@ public:
     }
 
 private:
-    std::string unused(const std::string &name) {
-        std::string result = name;
-        for (int n = 2; !m_names.insert(result).second; ++n)
-            result = fmt::format("{} ({})", name, n);
-        return result;
-    }
-
     Lattice m_lattice;
     Segmentation m_result;
     std::set<std::string> m_names;
@@ -170,11 +159,11 @@ Segmentation loadStructureSet(const fs::path &path, const Volume &volume,
         ignored += structure.ignoredContours;
         if (contours.empty())
             continue;
-        Segment segment = segmentOf({structure.number, structure.name, {}, structure.color, {}, {}},
+        Segment segment = segmentOf({structure.number, structure.name, structure.color, {}, {}},
                                     numbered(structure.number));
         segment.type.meaning = structure.type;
         const FilledContours planes = filled(contours, volume.lattice(), progress);
-        PlacedMasks masks = placed(planes.masks, volume.lattice());
+        PlacedMasks masks = placed(planes.masks, volume.lattice(), progress.part(done, done));
         collector.add({std::move(segment)}, std::move(masks));
         done += 0.7 / double(file.header.structures.size());
         progress.report(done);
@@ -269,6 +258,13 @@ template <class F> auto naming(const fs::path &path, F &&f) {
 }
 
 } // namespace
+
+std::string uniqueName(const std::string &name, std::set<std::string> &taken) {
+    std::string result = name;
+    for (int n = 2; !taken.insert(result).second; ++n)
+        result = fmt::format("{} ({})", name, n);
+    return result;
+}
 
 std::vector<std::string> segmentNames(const fs::path &path, const task::Progress &progress) {
     std::vector<std::string> names;

@@ -12,10 +12,12 @@
 #include <glm/gtx/component_wise.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <tbb/parallel_for.h>
 
+#include "core/system/memory.h"
 #include "core/task/error.h"
 
 namespace pellucid::segment {
@@ -30,8 +32,6 @@ using volume::VoxelIndex;
 
 // Of a step: how far a pixel may lie from a sample that it belongs to.
 constexpr double tolerance = 0.05;
-// Of the thickness: planes farther apart have a gap between them.
-constexpr double longestGap = 1.5;
 
 class Pixels {
 public:
@@ -101,18 +101,8 @@ private:
     const StoredMasks &m_masks;
 };
 
-void include(VoxelBox &box, VoxelIndex n) {
-    if (box.size().count() == 0) {
-        box = {n, {n.i + 1, n.j + 1, n.k + 1}};
-        return;
-    }
-    box = {{std::min(box.lo.i, n.i), std::min(box.lo.j, n.j), std::min(box.lo.k, n.k)},
-           {std::max(box.hi.i, n.i + 1), std::max(box.hi.j, n.j + 1), std::max(box.hi.k, n.k + 1)}};
-}
-
-bool isIn(const VoxelBox &box, VoxelIndex n) {
-    return n.i >= box.lo.i && n.i < box.hi.i && n.j >= box.lo.j && n.j < box.hi.j &&
-           n.k >= box.lo.k && n.k < box.hi.k;
+void grow(VoxelBox &box, VoxelIndex n) {
+    box = united(box, {n, {n.i + 1, n.j + 1, n.k + 1}});
 }
 
 // A plane whose pixels are samples of a lattice.
@@ -147,26 +137,37 @@ std::optional<SampledPlane> onSamples(const MaskPlane &plane, const StoredMasks 
     return SampledPlane{glm::ivec3(first), glm::ivec3(columnStep), glm::ivec3(rowStep)};
 }
 
-// The smallest distance between planes, or the stated thickness, if that is smaller: planes without
-// a pixel need not be stored. 0 if neither is known.
-double thicknessOf(const StoredMasks &masks) {
+// The smallest and the typical distance between neighbouring planes, or the stated thickness, if
+// that is smaller: planes without a pixel need not be stored. 0 if neither is known.
+struct Spacing {
+    double smallest, typical;
+};
+
+Spacing spacingOf(const StoredMasks &masks) {
     const MaskPlane &first = masks.planes.front();
     const glm::dvec3 normal = glm::normalize(glm::cross(first.columnStep, first.rowStep));
-    std::vector<double> positions;
+    std::vector<double> positions, gaps;
     for (const MaskPlane &plane : masks.planes)
         positions.push_back(glm::dot(plane.origin, normal));
     std::sort(positions.begin(), positions.end());
-    double thickness = masks.thicknessMm;
+    constexpr double roundingMm = 0.05; // of positions that are written differently
     for (std::size_t n = 1; n < positions.size(); ++n)
-        if (const double gap = positions[n] - positions[n - 1];
-            gap > 1e-3 && (thickness == 0.0 || gap < thickness))
-            thickness = gap;
-    return thickness;
+        if (const double gap = positions[n] - positions[n - 1]; gap > roundingMm)
+            gaps.push_back(gap);
+    const double stated = masks.thicknessMm;
+    if (gaps.empty())
+        return {stated, stated};
+    const double smallest = *std::min_element(gaps.begin(), gaps.end());
+    // The larger half is not affected by planes of one segment between those of another.
+    const auto typical = gaps.begin() + std::ptrdiff_t(gaps.size() * 3 / 4);
+    std::nth_element(gaps.begin(), typical, gaps.end());
+    const auto orStated = [&](double gap) { return stated > 0.0 ? std::min(gap, stated) : gap; };
+    return {orStated(smallest), orStated(*typical)};
 }
 
 // All planes on the samples of the lattice, unless they are thicker than its slices.
 std::optional<std::vector<SampledPlane>> allOnSamples(const StoredMasks &masks,
-                                                      const Lattice &lattice) {
+                                                      const Lattice &lattice, double thicknessMm) {
     std::vector<SampledPlane> planes;
     for (const MaskPlane &plane : masks.planes) {
         const auto sampled = onSamples(plane, masks, lattice);
@@ -181,7 +182,8 @@ std::optional<std::vector<SampledPlane>> allOnSamples(const StoredMasks &masks,
     const glm::dvec3 normal =
         glm::normalize(glm::cross(masks.planes.front().columnStep, masks.planes.front().rowStep));
     const double step = std::abs(glm::dot(lattice.step(across), normal));
-    if (thicknessOf(masks) > longestGap * step)
+    constexpr double thickest = 1.5; // of a step
+    if (thicknessMm > thickest * step)
         return std::nullopt;
     return planes;
 }
@@ -199,13 +201,17 @@ PlacedMasks placedOnSamples(const StoredMasks &masks, const Lattice &lattice,
         for (int row = 0; row < masks.rows; ++row)
             pixels.forEachInRow(plane, row, [&](int column, int segment, int) {
                 if (const VoxelIndex n = planes[plane].at(column, row); lattice.contains(n))
-                    include(found[std::size_t(segment)], n);
+                    grow(found[std::size_t(segment)], n);
             });
         const std::lock_guard lock(guard);
         for (std::size_t s = 0; s < boxes.size(); ++s)
             boxes[s] = united(boxes[s], found[s]);
         progress.report(0.5 * double(++done) / double(planes.size()));
     });
+    double bytes = 0.0;
+    for (const VoxelBox &box : boxes)
+        bytes += double(box.size().count());
+    system::requireMemory(bytes);
     PlacedMasks result;
     for (const VoxelBox &box : boxes)
         result.coverages.push_back({box, std::vector<std::uint8_t>(box.size().count())});
@@ -216,7 +222,7 @@ PlacedMasks placedOnSamples(const StoredMasks &masks, const Lattice &lattice,
             pixels.forEachInRow(plane, row, [&](int column, int segment, int share) {
                 const VoxelIndex n = planes[plane].at(column, row);
                 Coverage &coverage = result.coverages[std::size_t(segment)];
-                if (!isIn(coverage.box, n))
+                if (!coverage.box.contains(n))
                     return;
                 std::uint8_t &sample = coverage.shares[coverage.offsetOf(n)];
                 sample = std::max(sample, std::uint8_t(share));
@@ -227,45 +233,81 @@ PlacedMasks placedOnSamples(const StoredMasks &masks, const Lattice &lattice,
     return result;
 }
 
-// The planes of one segment as a stack whose values are interpolated.
+// The columns and rows that a segment uses in any plane.
+struct Extent {
+    glm::ivec2 low{1 << 30}, high{-1};
+    bool isEmpty() const { return high.x < 0; }
+};
+
+std::vector<Extent> extentsOf(const StoredMasks &masks, const Pixels &pixels,
+                              const task::Progress &progress) {
+    std::vector<Extent> extents(std::size_t(masks.segments));
+    std::mutex guard;
+    tbb::parallel_for(std::size_t(0), masks.planes.size(), [&](std::size_t plane) {
+        progress.check();
+        std::vector<Extent> found(extents.size());
+        for (int row = 0; row < masks.rows; ++row)
+            pixels.forEachInRow(plane, row, [&](int column, int segment, int) {
+                Extent &extent = found[std::size_t(segment)];
+                extent.low = glm::min(extent.low, glm::ivec2(column, row));
+                extent.high = glm::max(extent.high, glm::ivec2(column, row));
+            });
+        const std::lock_guard lock(guard);
+        for (std::size_t s = 0; s < extents.size(); ++s) {
+            extents[s].low = glm::min(extents[s].low, found[s].low);
+            extents[s].high = glm::max(extents[s].high, found[s].high);
+        }
+    });
+    return extents;
+}
+
+// The planes of one segment as a stack whose values are interpolated. Planes at about one position
+// are one level. How far apart neighbouring levels may be is judged by the distances beside them,
+// because the spacing of a scan may change.
 class MaskStack {
 public:
-    MaskStack(const StoredMasks &masks, const Pixels &pixels, int segment)
-        : m_masks(masks), m_pixels(pixels), m_segment(segment) {
+    // `thicknessMm`: the typical distance between planes of all segments.
+    MaskStack(const StoredMasks &masks, const Pixels &pixels, int segment, const Extent &extent,
+              double thicknessMm)
+        : m_masks(masks), m_pixels(pixels), m_segment(segment), m_extent(extent),
+          m_thickness(thicknessMm > 0.0 ? thicknessMm : 1.0) {
         const MaskPlane &first = masks.planes.front();
         m_origin = first.origin;
         m_normal = glm::normalize(glm::cross(first.columnStep, first.rowStep));
         m_toPixels = glm::inverse(glm::dmat3(first.columnStep, first.rowStep, m_normal));
+        std::vector<Plane> planes;
+        // A label map has planes without a pixel of the segment, between which it ends.
         for (std::size_t n = 0; n < masks.planes.size(); ++n)
             if (masks.kind == StoredMasks::Pixels::labels || masks.planes[n].segment == segment)
-                addPlane(n);
-        std::sort(m_planes.begin(), m_planes.end(),
+                planes.push_back(planeOf(n));
+        std::sort(planes.begin(), planes.end(),
                   [](const Plane &a, const Plane &b) { return a.at < b.at; });
-        if (const double known = thicknessOf(masks); known > 0.0)
-            m_thickness = known;
-        findExtent();
+        for (const Plane &plane : planes) {
+            if (m_levels.empty() || plane.at - m_levels.back().at > samePlace * m_thickness)
+                m_levels.push_back({plane.at, {}, false});
+            m_levels.back().planes.push_back(plane);
+        }
+        joinLevels();
     }
 
-    bool isEmpty() const { return m_lowColumn > m_highColumn; }
     double thicknessMm() const { return m_thickness; }
 
     // The samples of a lattice that the segment may reach.
     VoxelBox boxIn(const Lattice &lattice) const {
         glm::dvec3 low{1e30}, high{-1e30};
         for (int corner = 0; corner < 8; ++corner) {
-            const double c = (corner & 1) != 0 ? m_highColumn + 1 : m_lowColumn - 1,
-                         r = (corner & 2) != 0 ? m_highRow + 1 : m_lowRow - 1,
-                         z = (corner & 4) != 0 ? m_highAt + m_thickness : m_lowAt - m_thickness;
+            // A plane may have its origin elsewhere than the first.
+            const double reach = 1.0 + m_largestShift;
+            const double c = (corner & 1) != 0 ? m_extent.high.x + reach : m_extent.low.x - reach,
+                         r = (corner & 2) != 0 ? m_extent.high.y + reach : m_extent.low.y - reach,
+                         z = (corner & 4) != 0 ? m_levels.back().at + m_longestFade
+                                               : m_levels.front().at - m_longestFade;
             const MaskPlane &first = m_masks.planes.front();
-            // A shifted plane has its own origin, so that the box includes the largest shift.
-            for (const double shift : {-m_largestShift, m_largestShift}) {
-                const glm::dvec3 v = lattice
-                                         .voxel({m_origin + (c + shift) * first.columnStep +
-                                                 (r + shift) * first.rowStep + z * m_normal})
-                                         .v;
-                low = glm::min(low, v);
-                high = glm::max(high, v);
-            }
+            const glm::dvec3 v =
+                lattice.voxel({m_origin + c * first.columnStep + r * first.rowStep + z * m_normal})
+                    .v;
+            low = glm::min(low, v);
+            high = glm::max(high, v);
         }
         const GridSize n = lattice.size();
         const glm::dvec3 from = glm::clamp(glm::floor(low), glm::dvec3(0.0),
@@ -278,48 +320,82 @@ public:
     double at(glm::dvec3 pointMm) const {
         const glm::dvec3 p = m_toPixels * (pointMm - m_origin);
         const auto above =
-            std::upper_bound(m_planes.begin(), m_planes.end(), p.z,
-                             [](double z, const Plane &plane) { return z < plane.at; });
-        const Plane *const lower = above == m_planes.begin() ? nullptr : &*std::prev(above);
-        const Plane *const upper = above == m_planes.end() ? nullptr : &*above;
-        const bool isGap = lower == nullptr || upper == nullptr ||
-                           upper->at - lower->at > longestGap * m_thickness;
-        const double reach = isGap ? m_thickness : upper->at - lower->at;
+            std::upper_bound(m_levels.begin(), m_levels.end(), p.z,
+                             [](double z, const Level &level) { return z < level.at; });
+        const auto next = std::size_t(above - m_levels.begin());
         double sum = 0.0;
-        if (lower != nullptr && p.z - lower->at < reach)
-            sum += (1.0 - (p.z - lower->at) / reach) * inPlane(*lower, p);
-        if (upper != nullptr && upper->at - p.z < reach)
-            sum += (1.0 - (upper->at - p.z) / reach) * inPlane(*upper, p);
+        if (next > 0)
+            sum += part(p.z - m_levels[next - 1].at, fadeAbove(next - 1)) *
+                   inLevel(m_levels[next - 1], p);
+        if (next < m_levels.size())
+            sum += part(m_levels[next].at - p.z, fadeBelow(next)) * inLevel(m_levels[next], p);
         return sum;
     }
 
 private:
+    static constexpr double samePlace = 0.2; // of the thickness
+    // Of the stated thickness: no scan that is stored slice by slice has a wider spacing.
+    static constexpr double widestSpacing = 2.5;
+
     struct Plane {
         std::size_t index;
         double at;             // along the normal, mm
         double shiftX, shiftY; // of its origin within the plane, pixels
     };
+    struct Level {
+        double at;
+        std::vector<Plane> planes;
+        bool isJoined; // to the next one: there is no gap between them
+    };
 
-    void addPlane(std::size_t n) {
-        const MaskPlane &plane = m_masks.planes[n];
-        const glm::dvec3 origin = m_toPixels * (plane.origin - m_origin);
-        m_planes.push_back({n, origin.z, origin.x, origin.y});
+    Plane planeOf(std::size_t n) {
+        const glm::dvec3 origin = m_toPixels * (m_masks.planes[n].origin - m_origin);
         m_largestShift = std::max({m_largestShift, std::abs(origin.x), std::abs(origin.y)});
+        return {n, origin.z, origin.x, origin.y};
     }
 
-    void findExtent() {
-        for (const Plane &plane : m_planes)
-            for (int row = 0; row < m_masks.rows; ++row)
-                m_pixels.forEachInRow(plane.index, row, [&](int column, int segment, int) {
-                    if (segment != m_segment)
-                        return;
-                    m_lowColumn = std::min(m_lowColumn, column);
-                    m_highColumn = std::max(m_highColumn, column);
-                    m_lowRow = std::min(m_lowRow, row);
-                    m_highRow = std::max(m_highRow, row);
-                    m_lowAt = std::min(m_lowAt, plane.at);
-                    m_highAt = std::max(m_highAt, plane.at);
-                });
+    double gapAfter(std::size_t level) const { return m_levels[level + 1].at - m_levels[level].at; }
+
+    void joinLevels() {
+        const double stated = m_masks.thicknessMm;
+        for (std::size_t n = 0; n + 1 < m_levels.size(); ++n) {
+            double beside = 0.0;
+            if (n > 0)
+                beside = gapAfter(n - 1);
+            if (n + 2 < m_levels.size())
+                beside = std::max(beside, gapAfter(n + 1));
+            if (beside == 0.0) // of two levels
+                beside = m_thickness;
+            const double gap = gapAfter(n);
+            m_levels[n].isJoined = gap <= m_masks.longestGap * beside &&
+                                   (stated == 0.0 || gap <= widestSpacing * stated);
+        }
+        for (std::size_t n = 0; n < m_levels.size(); ++n)
+            m_longestFade = std::max({m_longestFade, fadeAbove(n), fadeBelow(n)});
+    }
+
+    // The distance over which a level fades: that to the next, or, at an end, that on its other
+    // side.
+    double fadeAbove(std::size_t level) const {
+        if (m_levels[level].isJoined)
+            return gapAfter(level);
+        return level > 0 && m_levels[level - 1].isJoined ? gapAfter(level - 1) : m_thickness;
+    }
+    double fadeBelow(std::size_t level) const {
+        if (level > 0 && m_levels[level - 1].isJoined)
+            return gapAfter(level - 1);
+        return m_levels[level].isJoined ? gapAfter(level) : m_thickness;
+    }
+
+    static double part(double distance, double fade) {
+        return distance < fade ? 1.0 - distance / fade : 0.0;
+    }
+
+    double inLevel(const Level &level, const glm::dvec3 &p) const {
+        double most = 0.0;
+        for (const Plane &plane : level.planes)
+            most = std::max(most, inPlane(plane, p));
+        return most;
     }
 
     double inPlane(const Plane &plane, const glm::dvec3 &p) const {
@@ -337,12 +413,12 @@ private:
     const StoredMasks &m_masks;
     const Pixels &m_pixels;
     int m_segment;
+    const Extent &m_extent;
+    double m_thickness;
     glm::dvec3 m_origin, m_normal;
     glm::dmat3 m_toPixels;
-    std::vector<Plane> m_planes;
-    double m_thickness = 1.0, m_largestShift = 0.0;
-    int m_lowColumn = 1 << 30, m_highColumn = -1, m_lowRow = 1 << 30, m_highRow = -1;
-    double m_lowAt = 1e30, m_highAt = -1e30;
+    std::vector<Level> m_levels;
+    double m_largestShift = 0.0, m_longestFade = 0.0;
 };
 
 // The points within a cell of a lattice at which finer masks are read.
@@ -371,7 +447,7 @@ Coverage trimmed(const VoxelBox &box, const std::vector<std::uint8_t> &shares) {
         for (int j = 0; j < size.j; ++j)
             for (int i = 0; i < size.i; ++i)
                 if (shares[size.offsetOf(i, j, k)] != 0)
-                    include(used, {i, j, k});
+                    grow(used, {i, j, k});
     Coverage result{{{used.lo.i + box.lo.i, used.lo.j + box.lo.j, used.lo.k + box.lo.k},
                      {used.hi.i + box.lo.i, used.hi.j + box.lo.j, used.hi.k + box.lo.k}},
                     {}};
@@ -384,15 +460,13 @@ Coverage trimmed(const VoxelBox &box, const std::vector<std::uint8_t> &shares) {
     return result;
 }
 
-Coverage resampled(const StoredMasks &masks, const Pixels &pixels, int segment,
-                   const Lattice &lattice, const task::Progress &progress) {
-    const MaskStack stack(masks, pixels, segment);
-    if (stack.isEmpty())
-        return {};
+Coverage resampled(const MaskStack &stack, const StoredMasks &masks, const Lattice &lattice,
+                   const task::Progress &progress) {
     const VoxelBox box = stack.boxIn(lattice);
     const GridSize size = box.size();
     if (size.count() == 0)
         return {};
+    system::requireMemory(2.0 * double(size.count()));
     const auto points = pointsInCell(lattice, masks, stack.thicknessMm());
     std::vector<std::uint8_t> shares(size.count());
     tbb::parallel_for(0, size.k, [&](int k) {
@@ -428,13 +502,22 @@ void requireParallel(const StoredMasks &masks) {
 PlacedMasks placed(const StoredMasks &masks, const Lattice &lattice,
                    const task::Progress &progress) {
     return task::orOutOfMemory(task::because::noMemoryForTheSegments, [&] {
-        if (const auto planes = allOnSamples(masks, lattice))
+        const Spacing spacing = spacingOf(masks);
+        if (const auto planes = allOnSamples(masks, lattice, spacing.smallest))
             return placedOnSamples(masks, lattice, *planes, progress);
         requireParallel(masks);
         PlacedMasks result{{}, true};
         const Pixels pixels(masks);
+        const std::vector<Extent> extents = extentsOf(masks, pixels, progress);
         for (int segment = 0; segment < masks.segments; ++segment) {
-            result.coverages.push_back(resampled(masks, pixels, segment, lattice, progress));
+            progress.check();
+            const Extent &extent = extents[std::size_t(segment)];
+            if (extent.isEmpty())
+                result.coverages.emplace_back();
+            else
+                result.coverages.push_back(
+                    resampled(MaskStack(masks, pixels, segment, extent, spacing.typical), masks,
+                              lattice, progress));
             progress.report(double(segment + 1) / masks.segments);
         }
         return result;

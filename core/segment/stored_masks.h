@@ -29,6 +29,8 @@ struct StoredMasks {
     int columns = 0, rows = 0;     ///< of every plane
     std::vector<MaskPlane> planes; ///< parallel to each other
     double thicknessMm = 0.0;      ///< of a plane, as stated; 0: unknown
+    /// Between planes that are farther apart than this times their thickness is a gap.
+    double longestGap = 1.5;
     /// *Shape*: planes x rows x columns. Bytes that change while they are read give wrong masks,
     /// but do no harm.
     std::span<const std::byte> pixels;
@@ -46,8 +48,8 @@ struct PlacedMasks {
 
 /// Places masks by their geometry. Where every pixel lies on a sample, within a twentieth of a
 /// step, the sample gets its value, whatever the order and direction of rows, columns and planes.
-/// Otherwise the masks are interpolated linearly, between planes that are at most 1.5 times the
-/// thickness apart; they end half a thickness beyond the outermost. *Throws* Error{unusable} if the
+/// Otherwise the masks are interpolated linearly, but not across gaps; they end half a thickness
+/// beyond the outermost planes. *Throws* Error{unusable} if the
 /// planes are not parallel, Error{outOfMemory}, Cancelled.
 PlacedMasks placed(const StoredMasks &masks, const volume::Lattice &lattice,
                    const task::Progress &progress = {});

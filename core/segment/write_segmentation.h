@@ -27,7 +27,10 @@ void writeSegmentation(const std::filesystem::path &path, const std::vector<Segm
 /// Writes segments as a NRRD volume of labels, 1 for the first, with their names and colors as 3D
 /// Slicer reads them. A sample belongs to a segment if at least half of it does. *Throws*
 /// Error{usage} if segments overlap, which labels cannot express; Error{output}, Cancelled.
-void writeLabels(const std::filesystem::path &path, const std::vector<Segment> &segments,
-                 const volume::Lattice &lattice, const task::Progress &progress = {});
+/// *Returns* the number of samples of each segment.
+std::vector<std::size_t> writeLabels(const std::filesystem::path &path,
+                                     const std::vector<Segment> &segments,
+                                     const volume::Lattice &lattice,
+                                     const task::Progress &progress = {});
 
 } // namespace pellucid::segment

@@ -20,6 +20,7 @@
 
 #include "core/dcmtk/dictionary.h"
 #include "core/dicom/write_dataset.h"
+#include "core/system/memory.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 
@@ -44,11 +45,17 @@ void require(const OFCondition &done) {
 // Terms for a segment without codes (PS3.16, CID 7150 and 7151).
 const decoder::CodedConcept otherCategory{"85756007", "SCT", "Tissue"};
 
-CodeSequenceMacro codeOf(const decoder::CodedConcept &given,
-                         const decoder::CodedConcept &otherwise) {
-    const bool isComplete = !given.value.empty() && !given.scheme.empty() && !given.meaning.empty();
-    const decoder::CodedConcept &code = isComplete ? given : otherwise;
-    return {code.value.c_str(), code.scheme.c_str(), code.meaning.c_str()};
+bool isComplete(const decoder::CodedConcept &code) {
+    return !code.value.empty() && !code.scheme.empty() && !code.meaning.empty();
+}
+
+const decoder::CodedConcept &orOther(const decoder::CodedConcept &code) {
+    return isComplete(code) ? code : otherCategory;
+}
+
+CodeSequenceMacro codeOf(const decoder::CodedConcept &given) {
+    const decoder::CodedConcept &code = orOther(given);
+    return {code.value.c_str(), code.scheme.c_str(), "-"}; // the meaning follows, see putTexts
 }
 
 // A text of a limited length (LO: 64 characters), not cut within a character of UTF-8, and without
@@ -96,8 +103,7 @@ public:
 
     void add(const Segment &segment, const task::Progress &progress) {
         DcmSegment *made = nullptr;
-        require(DcmSegment::create(made, "segment", codeOf(segment.category, otherCategory),
-                                   codeOf(segment.type, otherCategory),
+        require(DcmSegment::create(made, "segment", codeOf(segment.category), codeOf(segment.type),
                                    DcmSegTypes::SAT_SEMIAUTOMATIC, "Pellucid"));
         if (segment.color) {
             double l = 0.0, a = 0.0, b = 0.0;
@@ -108,7 +114,8 @@ public:
             };
             require(made->setRecommendedDisplayCIELabValue(rounded(l), rounded(a), rounded(b)));
         }
-        m_names.push_back(shortText(segment.name));
+        m_texts.push_back({shortText(segment.name), shortText(orOther(segment.category).meaning),
+                           shortText(orOther(segment.type).meaning)});
         Uint16 number = 0;
         require(m_document->addSegment(made, number));
         const Coverage &coverage = *segment.coverage;
@@ -157,11 +164,20 @@ private:
         if (!study.studyDescription.empty())
             dicom::put(d, DCM_StudyDescription, study.studyDescription);
         dicom::put(d, DCM_SeriesDescription, shortText(m_labels.seriesDescription));
-        for (std::size_t n = 0; n < m_names.size(); ++n) {
+        for (std::size_t n = 0; n < m_texts.size(); ++n) {
             DcmItem *segment = nullptr;
             require(d.findAndGetSequenceItem(DCM_SegmentSequence, segment, long(n)));
-            dicom::put(*segment, DCM_SegmentLabel, m_names[n]);
+            dicom::put(*segment, DCM_SegmentLabel, m_texts[n].name);
+            putMeaning(*segment, DCM_SegmentedPropertyCategoryCodeSequence, m_texts[n].category);
+            putMeaning(*segment, DCM_SegmentedPropertyTypeCodeSequence, m_texts[n].type);
         }
+    }
+
+    static void putMeaning(DcmItem &segment, const DcmTagKey &sequence,
+                           const std::string &meaning) {
+        DcmItem *code = nullptr;
+        require(segment.findAndGetSequenceItem(sequence, code));
+        dicom::put(*code, DCM_CodeMeaning, meaning);
     }
 
     // What all frames have in common, and what tells them apart.
@@ -223,7 +239,10 @@ private:
     const Lattice &m_lattice;
     GridSize m_size;
     const SegmentationLabels &m_labels;
-    std::vector<std::string> m_names; ///< of the segments
+    struct Texts {
+        std::string name, category, type;
+    };
+    std::vector<Texts> m_texts; ///< of the segments
     std::unique_ptr<DcmSegmentation> m_document;
 };
 
@@ -234,8 +253,22 @@ void writeSegmentation(const std::filesystem::path &path, const std::vector<Segm
                        const task::Progress &progress) {
     if (std::max(lattice.size().i, lattice.size().j) > 65535)
         throw Error(ErrorCode::usage, because::hasATooLargeImage, path);
+    constexpr double largestShear = 1e-3; // of the axes of a frame, which DICOM takes as orthogonal
+    if (std::abs(glm::dot(lattice.step(0) / lattice.spacingMm(0),
+                          lattice.step(1) / lattice.spacingMm(1))) > largestShear)
+        throw Error(ErrorCode::usage, because::planesNotAtRightAngles, path);
+    std::size_t frames = 0;
+    for (const Segment &segment : segments)
+        frames += std::size_t(segment.coverage->box.size().k);
+    if (frames > decoder::maxFrames)
+        throw Error(ErrorCode::usage, because::needsTooManyFrames(frames, decoder::maxFrames),
+                    path);
+    const bool areBits = isBinary(segments);
+    // DCMTK holds the frames twice while it writes.
+    system::requireMemory(2.0 * double(frames) * double(lattice.size().offsetOf(0, 0, 1)) /
+                          (areBits ? 8.0 : 1.0));
     dcmtk::prepareDcmtk();
-    Writer writer(lattice, labels, isBinary(segments));
+    Writer writer(lattice, labels, areBits);
     for (std::size_t n = 0; n < segments.size(); ++n) {
         writer.add(segments[n], progress);
         progress.report(0.9 * double(n + 1) / double(segments.size()));
@@ -243,11 +276,13 @@ void writeSegmentation(const std::filesystem::path &path, const std::vector<Segm
     writer.write(path);
 }
 
-void writeLabels(const std::filesystem::path &path, const std::vector<Segment> &segments,
-                 const Lattice &lattice, const task::Progress &progress) {
+std::vector<std::size_t> writeLabels(const std::filesystem::path &path,
+                                     const std::vector<Segment> &segments, const Lattice &lattice,
+                                     const task::Progress &progress) {
     const GridSize size = lattice.size();
     std::vector<std::int16_t> labels(size.count());
     std::vector<std::pair<std::string, std::string>> names;
+    std::vector<std::size_t> counts(segments.size());
     for (std::size_t n = 0; n < segments.size(); ++n) {
         progress.check();
         const Segment &segment = segments[n];
@@ -265,6 +300,7 @@ void writeLabels(const std::filesystem::path &path, const std::vector<Segment> &
                                                              segment.name),
                                     path);
                     label = std::int16_t(n + 1);
+                    ++counts[n];
                 }
         const std::string key = fmt::format("Segment{}_", n);
         names.emplace_back(key + "ID", fmt::format("Segment_{}", n + 1));
@@ -277,6 +313,7 @@ void writeLabels(const std::filesystem::path &path, const std::vector<Segment> &
     }
     volume::writeNrrd(path, volume::Volume(lattice, std::move(labels), volume::ValueUnit::none),
                       volume::NrrdEncoding::gzip, progress, names);
+    return counts;
 }
 
 } // namespace pellucid::segment

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "core/volume/lattice.h"
@@ -18,10 +19,10 @@ struct Coverage {
 
     bool isEmpty() const { return shares.empty(); }
     std::uint8_t at(VoxelIndex n) const {
-        const bool isInside = n.i >= box.lo.i && n.i < box.hi.i && n.j >= box.lo.j &&
-                              n.j < box.hi.j && n.k >= box.lo.k && n.k < box.hi.k;
-        return isInside ? shares[offsetOf(n)] : std::uint8_t(0);
+        return box.contains(n) ? shares[offsetOf(n)] : std::uint8_t(0);
     }
+    /// The shares of all samples together. *Units*: samples.
+    double total() const { return std::accumulate(shares.begin(), shares.end(), 0.0) / whole; }
     /// *Requires*: the sample is in the box.
     std::size_t offsetOf(VoxelIndex n) const {
         return box.size().offsetOf(n.i - box.lo.i, n.j - box.lo.j, n.k - box.lo.k);

@@ -46,6 +46,9 @@ struct PatientPoint {
 struct VoxelBox {
     VoxelIndex lo, hi;
     GridSize size() const { return {hi.i - lo.i, hi.j - lo.j, hi.k - lo.k}; }
+    bool contains(VoxelIndex n) const {
+        return n.i >= lo.i && n.j >= lo.j && n.k >= lo.k && n.i < hi.i && n.j < hi.j && n.k < hi.k;
+    }
     bool operator==(const VoxelBox &) const = default;
 };
 

@@ -40,6 +40,7 @@ struct VolumeNotes {
         warnings;                   ///< changes that the reader made to the geometry or the values
     std::vector<SliceRange> filled; ///< missing slices that were interpolated
     bool darkIsHigh = false;        ///< MONOCHROME1: shown inverted
+    bool isDifference = false;      ///< of two volumes: 0 means no change
     bool lossy = false;             ///< lossy compression at some point
     bool placed = true;             ///< false: images without positions, not a volume
     bool hasSpacing = true;         ///< false: nothing says how large a pixel is; a "mm" is a pixel

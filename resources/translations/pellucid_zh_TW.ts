@@ -387,6 +387,14 @@
         <source>Leaves</source>
         <translation>樹葉</translation>
     </message>
+    <message>
+        <source>Gain</source>
+        <translation>增加</translation>
+    </message>
+    <message>
+        <source>Loss</source>
+        <translation>減少</translation>
+    </message>
 </context>
 <context>
     <name>OverlayTexts</name>
@@ -2418,28 +2426,12 @@
         <translation>屬於另一個檢查</translation>
     </message>
     <message>
-        <source>has another frame of reference than the volume: its positions do not apply here</source>
-        <translation>參考座標系與此體積不同：其位置在此不適用</translation>
-    </message>
-    <message>
         <source>has no segment within the volume</source>
         <translation>沒有任何分割區在此體積之內</translation>
     </message>
     <message>
-        <source>is not a volume of labels: its values must be whole numbers from 0 to 65535, at most 2000 of them</source>
-        <translation>不是標籤體積：其值必須是 0 至 65535 的整數，最多 2000 種</translation>
-    </message>
-    <message>
         <source>the segments are not on the volume&apos;s samples; they were interpolated</source>
         <translation>分割區不在此體積的取樣點上，已經內插</translation>
-    </message>
-    <message>
-        <source>the segment &apos;%1&apos; has nothing within the volume</source>
-        <translation>分割區「%1」在此體積之內沒有任何部分</translation>
-    </message>
-    <message>
-        <source>segments that have nothing within the volume: %1</source>
-        <translation>在此體積之內沒有任何部分的分割區：%1</translation>
     </message>
     <message>
         <source>open contours and points, which enclose nothing: %1</source>
@@ -2476,6 +2468,38 @@
     <message>
         <source>not enough memory for the segments</source>
         <translation>記憶體不足以容納分割區</translation>
+    </message>
+    <message>
+        <source>has a different frame of reference from the volume, so its positions do not apply</source>
+        <translation>參考座標系與此體積不同，因此其位置不適用</translation>
+    </message>
+    <message>
+        <source>is not a volume of labels: it must have at most 2000 different values, all whole numbers from 0 to 65535</source>
+        <translation>不是標籤體積：不同的值最多 2000 種，且皆為 0 至 65535 的整數</translation>
+    </message>
+    <message>
+        <source>the segment &apos;%1&apos; is outside the volume</source>
+        <translation>分割區「%1」在體積之外</translation>
+    </message>
+    <message>
+        <source>segments outside the volume: %1</source>
+        <translation>體積之外的分割區：%1</translation>
+    </message>
+    <message>
+        <source>not enough memory for the difference of two volumes</source>
+        <translation>記憶體不足以計算兩個體積的差異</translation>
+    </message>
+    <message>
+        <source>the two volumes do not overlap</source>
+        <translation>兩個體積沒有重疊</translation>
+    </message>
+    <message>
+        <source>needs %1 frames; a file has at most %2</source>
+        <translation>需要 %1 格，一個檔案最多 %2 格</translation>
+    </message>
+    <message>
+        <source>segments are left out: a look has at most %1 classes</source>
+        <translation>有分割區未列入：外觀最多有 %1 個類別</translation>
     </message>
 </context>
 <context>
@@ -2718,6 +2742,10 @@
         <source>%1: %2 of %3</source>
         <translation>%1：%2 / %3</translation>
     </message>
+    <message>
+        <source>Unfold %1</source>
+        <translation>展開 %1</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::ClassRow</name>
@@ -2811,6 +2839,10 @@
     <message>
         <source>Open segmentation...</source>
         <translation>開啟分割檔...</translation>
+    </message>
+    <message>
+        <source>Finds classes by their names and the terms of their codes</source>
+        <translation>依名稱與代碼的用語尋找類別</translation>
     </message>
 </context>
 <context>
@@ -4687,6 +4719,10 @@
     <message>
         <source>2 x 2</source>
         <translation>2 x 2</translation>
+    </message>
+    <message>
+        <source>&amp;Tint segments in the planes</source>
+        <translation>切面對分割區著色(&amp;T)</translation>
     </message>
 </context>
 </TS>

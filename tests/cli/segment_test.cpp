@@ -15,6 +15,7 @@
 #include "core/reference/wide_kernel.h"
 #include "core/scene/scene.h"
 #include "core/segment/segment_set.h"
+#include "core/subtraction/difference.h"
 
 namespace pellucid {
 
@@ -41,7 +42,7 @@ TEST_F(Cli, SegmentsAreProjectedAsTheExactReferenceDoes) {
     const auto set =
         segment::SegmentSet(volume.lattice()).with(segment::loadSegmentation(organs, volume));
     preprocess::StepCache steps(0);
-    steps.setSegments(set);
+    preprocess::ClassRunner runner(steps, set);
     const auto classes = [&](std::vector<std::pair<const char *, double>> names) {
         classify::Look look;
         for (const auto &[name, weight] : names) {
@@ -63,7 +64,7 @@ TEST_F(Cli, SegmentsAreProjectedAsTheExactReferenceDoes) {
         const json report = json::parse(r.out);
         EXPECT_EQ(report["segmentations"][0]["segments"].size(), 2U);
         const auto fields =
-            classify::shownFields(volume, classify::defaultFieldWindow(volume), c.look, &steps);
+            classify::shownFields(volume, classify::defaultFieldWindow(volume), c.look, &runner);
         int height = 0, width = 0;
         const auto got = readNpy(out, height, width, 3);
         ASSERT_EQ(got.size(), std::size_t(3 * camera.width * camera.height));
@@ -157,6 +158,54 @@ TEST_F(Cli, GrowsARegionAndWritesIt) {
     EXPECT_GT(decoder::readVolumeFile(field).value({20, 20, 20}), 0.0);
 }
 
+// The difference of two phantoms is projected as the exact reference projects it.
+TEST_F(Cli, SubtractsAnotherVolumeExactly) {
+    const fs::path series = phantomFolder("--kind chest --size 48x44x36"),
+                   other = phantomFolder("--kind head --size 48x44x36 --spacing 8,8,10"),
+                   out = folder / "image.npy";
+    const volume::Volume a = volumeIn(series), b = volumeIn(other);
+    const auto d = subtraction::difference(a, b);
+    for (const auto &[options, look] :
+         {std::pair(std::string(), classify::Look()),
+          std::pair(std::string(" --class loss=1"),
+                    classify::Look{{}, {classify::differenceClasses()[1]}})}) {
+        auto r = cli("render " + quoted(series) + " --subtract " + quoted(other) + " -o " +
+                     quoted(out) + " --json --window 0,500" + options);
+        ASSERT_EQ(r.exitCode, 0) << r.error;
+        classify::Look grey = look;
+        for (classify::TissueClass &tissue : grey.classes)
+            tissue.color = {};
+        preprocess::StepCache steps(0);
+        const auto fields = classify::shownFields(d, {0.0, 500.0}, grey, &steps);
+        const auto &field = fields.channels.front();
+        auto camera = scene::defaultCamera(a.lattice());
+        camera.orientation = scene::viewOrientation(scene::StandardView::front, {0, 0, 0});
+        int height = 0, width = 0;
+        const auto got = readNpy(out, height, width);
+        const auto truth = reference::WideKernel(field.values, field.support).image(camera, {});
+        ASSERT_EQ(got.size(), truth.size());
+        double error = 0.0, sum = 0.0;
+        for (std::size_t n = 0; n < got.size(); ++n) {
+            error += (got[n] - truth[n]) * (got[n] - truth[n]);
+            sum += truth[n] * truth[n];
+        }
+        const double relative = std::sqrt(error / sum);
+        EXPECT_LE(relative, 1.1e-3) << options;
+        EXPECT_LE(relative, json::parse(r.out)["predicted_error"]["relative_l2"].get<double>());
+        EXPECT_TRUE(json::parse(r.out)["registration"].is_null());
+    }
+    const auto r = cli("render " + quoted(series) + " --subtract " + quoted(series) +
+                       " --register rigid -o " + quoted(out) + " --json --window 0,500");
+    ASSERT_EQ(r.exitCode, 0) << r.error;
+    const json registration = json::parse(r.out)["registration"];
+    EXPECT_LT(registration["angle_deg"].get<double>(), 0.1);
+    expectOneLine(cli("render " + quoted(series) + " --register rigid -o " + quoted(out)), 2,
+                  "--subtract");
+    expectOneLine(cli("render " + quoted(series) + " --subtract " + quoted(folder / "none") +
+                      " -o " + quoted(out)),
+                  3, "none");
+}
+
 TEST_F(Cli, SegmentOptionsAreRefusedWithAReason) {
     const fs::path series = phantomFolder("--kind sphere --size 24x24x24"),
                    other = phantomFolder("--kind sphere --size 24x24x24"), out = folder / "o.dcm",
@@ -177,6 +226,9 @@ TEST_F(Cli, SegmentOptionsAreRefusedWithAReason) {
     expectOneLine(cli(start + "--grow 0,0,0 --between 30000,30001" + to), 2,
                   "no value at the points to grow from");
     expectOneLine(cli(start + "--segment a" + to), 2, "--segmentation");
+    expectOneLine(cli("render " + quoted(other) + " --segmentation " + quoted(organs) +
+                      " --segmentation " + quoted(organs) + " -o " + quoted(folder / "p.png")),
+                  2, "given twice");
     expectOneLine(cli(start + "--segmentation " + quoted(organs) + to), 3,
                   "belongs to another study");
     expectOneLine(cli(start + "--segmentation " + quoted(folder / "none.dcm") + to), 3, "none.dcm");

@@ -35,6 +35,13 @@ private slots:
         QCOMPARE(text(), QString("Blocks of the head: 20 of 20"));
         QCOMPARE(visibleRows(), 20);
         save("segments");
+        // The planes tint them, unless the user wants them plain.
+        const QImage tinted = grab("axialView");
+        QVERIFY(colorfulShare(tinted) > 0.1);
+        find<QAction>("tintSegmentsAction")->trigger();
+        QTRY_VERIFY(colorfulShare(grab("axialView")) < 0.05); // the crosshair and letters
+        find<QAction>("tintSegmentsAction")->trigger();
+        QTRY_VERIFY(changed(tinted, grab("axialView")) < 0.001);
 
         // The search finds names and terms; the eye of the group hides what is listed.
         auto *const search = find<QLineEdit>("classSearch");
@@ -84,9 +91,8 @@ private slots:
                 });
         const ui::DragId drag = ui::nextDragId();
         const auto setWeight = [&](double weight) {
-            ui::editScene(document(), "Weight", drag, [&](scene::Scene &scene) {
-                scene.look.classes[24].weight = weight;
-            });
+            ui::editScene(document(), "Weight", drag,
+                          [&](scene::Scene &scene) { scene.look.classes[24].weight = weight; });
         };
         setWeight(1.4);
         QTRY_VERIFY_WITH_TIMEOUT(layers > 0, patienceMs);
@@ -158,7 +164,8 @@ private slots:
         waitForVolume();
         settle();
         QVERIFY(document().scene().look.classes.empty());
-        QCOMPARE(document().problems().size(), std::size_t(1));
+        // One for the file and one for the classes that go with it.
+        QCOMPARE(document().problems().size(), std::size_t(2));
     }
 
 private:
@@ -190,6 +197,13 @@ private:
         return QString::fromStdString(path.string());
     }
 
+    static double colorfulShare(const QImage &image) {
+        int count = 0;
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x)
+                count += image.pixelColor(x, y).saturation() > 40;
+        return double(count) / (image.width() * image.height());
+    }
     int visibleRows() {
         int count = 0;
         for (const auto *const row : mainWindow().findChildren<ui::ClassRow *>())

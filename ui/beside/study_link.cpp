@@ -5,6 +5,7 @@
 
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
+#include "ui/opening/segment_opener.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
@@ -75,6 +76,7 @@ void StudyLink::follow() {
             const scene::Scene &shown = m_leader.document.scene();
             scene::Scene scene = m_follower.document.scene();
             scene.look = shown.look;
+            dropMissing(scene.look, m_follower.document);
             scene.crop = shown.crop;
             scene.shading = shown.shading;
             scene.image = shown.image;

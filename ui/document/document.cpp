@@ -229,6 +229,13 @@ void Document::setSegments(std::shared_ptr<const segment::SegmentSet> segments) 
     emit segmentsChanged();
 }
 
+void Document::setTintsSegments(bool tints) {
+    if (tints == m_tintsSegments)
+        return;
+    m_tintsSegments = tints;
+    emit segmentsChanged();
+}
+
 QStringList Document::missingSegments(const classify::Look &look) const {
     QStringList missing;
     for (const classify::TissueClass &tissue : look.classes)

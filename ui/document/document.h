@@ -135,6 +135,9 @@ public:
     /// an undo removes their classes.
     const std::shared_ptr<const segment::SegmentSet> &segments() const { return m_segments; }
     void setSegments(std::shared_ptr<const segment::SegmentSet> segments);
+    /// Whether the planes tint the segments of shown classes.
+    bool tintsSegments() const { return m_tintsSegments; }
+    void setTintsSegments(bool tints);
     /// The names of segments that the classes of a look need but that are not loaded.
     QStringList missingSegments(const classify::Look &look) const;
 
@@ -161,7 +164,7 @@ signals:
     void selectedMeasurementChanged();
     void selectedClassChanged();
     void tintChanged();
-    /// Also after a new volume, which has none at first.
+    /// Also after a new volume, which has none at first, and if the planes tint them or not.
     void segmentsChanged();
 
 private:
@@ -178,6 +181,7 @@ private:
     int m_selectedClass = -1;
     std::optional<classify::TissueClass> m_tint;
     std::shared_ptr<const segment::SegmentSet> m_segments;
+    bool m_tintsSegments = true;
     scene::Scene m_scene;
     Pose m_pose;
     QSizeF m_projectionSize{2.0, 2.0};

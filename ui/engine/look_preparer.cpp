@@ -41,8 +41,6 @@ LookPreparer::LookPreparer(Document &document, JobRunner &jobs, QObject *parent)
     m_rest.setInterval(restMs);
     connect(&m_rest, &QTimer::timeout, this, [this] { act(Occasion::handRested); });
     connect(&document, &Document::sceneChanged, this, [this] { act(Occasion::sceneChanged); });
-    connect(&document, &Document::segmentsChanged, this,
-            [this] { m_steps->setSegments(m_document.segments()); });
 }
 
 LookPreparer::~LookPreparer() = default;
@@ -150,20 +148,20 @@ void LookPreparer::showFull() {
 
 void LookPreparer::showLayers() {
     // Layers of the coarse volume, or of fewer samples, lack detail.
-    emit engineReady({std::make_shared<prepare::MixtureEngine>(
-                          m_layers, classify::mixtureOf(m_document.scene().look, m_have.layers->heldClass)
-                              .channelWeights),
-                      m_layers->plan(), m_layers->bytes(), false, m_layers->viewError(),
-                      m_layersAreCoarse || m_layers->reduction() > 1,
-                      m_layersAreCoarse ? nullptr : m_layers->detailLoss(),
-                      plan::SpectrumOf::layer},
-                     EngineStage::live);
+    emit engineReady(
+        {std::make_shared<prepare::MixtureEngine>(
+             m_layers, classify::mixtureOf(m_document.scene().look, m_have.layers->adjustedClass)
+                           .channelWeights),
+         m_layers->plan(), m_layers->bytes(), false, m_layers->viewError(),
+         m_layersAreCoarse || m_layers->reduction() > 1,
+         m_layersAreCoarse ? nullptr : m_layers->detailLoss(), plan::SpectrumOf::layer},
+        EngineStage::live);
 }
 
 void LookPreparer::start(Step step, const PreparedFor &wanted) {
     if (step == Step::startLayers) {
         PreparedFor layers = wanted;
-        layers.heldClass = classify::onlyDifference(m_have.full->look, wanted.look);
+        layers.adjustedClass = classify::onlyDifference(m_have.full->look, wanted.look);
         start(step, layers, tr("Preparing the parts of the look"), layersWork(layers));
         return;
     }
@@ -189,7 +187,8 @@ void LookPreparer::start(Step step, const PreparedFor &wanted, const QString &ti
 }
 
 JobRunner::Work LookPreparer::layersWork(const PreparedFor &wanted) {
-    return [this, source = EngineSource{*m_document.volume(), wanted, m_steps}](const Job &job) {
+    return [this, source = EngineSource{*m_document.volume(), wanted, m_steps,
+                                        m_document.segments()}](const Job &job) {
         const auto deliver = [&](const std::shared_ptr<prepare::LayerSet> &layers, Detail detail) {
             job.deliver(
                 [this, of = source.wanted, layers, detail] { takeLayers(of, layers, detail); });
@@ -218,13 +217,14 @@ void LookPreparer::jobEnded(const Outcome &outcome) {
 
 LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, double from,
                                                     Detail first) {
-    return
-        [this, steps = m_steps, wanted, from, first](const Job &job, const volume::Volume &volume) {
-            const auto deliver = [&](const prepare::PreparedEngine &engine, Detail detail) {
-                job.deliver([this, wanted, engine, detail] { takeEngine(wanted, engine, detail); });
-            };
-            makeEngine({volume, wanted, steps}, first, deliver, job.progress().part(from, 1.0));
+    return [this, steps = m_steps, segments = m_document.segments(), wanted, from,
+            first](const Job &job, const volume::Volume &volume) {
+        const auto deliver = [&](const prepare::PreparedEngine &engine, Detail detail) {
+            job.deliver([this, wanted, engine, detail] { takeEngine(wanted, engine, detail); });
         };
+        makeEngine({volume, wanted, steps, segments}, first, deliver,
+                   job.progress().part(from, 1.0));
+    };
 }
 
 void LookPreparer::takeEngine(const PreparedFor &of, const prepare::PreparedEngine &engine,

@@ -62,30 +62,31 @@ void LookPreviewer::preview(const std::vector<presets::Preset> &presets) {
     const auto &open = m_document.volume();
     if (!open || m_document.isPreview())
         return;
-    m_jobs.start(
-        {}, [this, volume = *open, own = m_document.defaultFieldWindow(), presets](const Job &job) {
-            const auto histogram = volume::histogram(volume, histogramBins);
-            job.deliver([this, histogram] { emit histogramReady(histogram); });
-            if (!volume.notes().placed)
-                return;
-            const volume::Volume coarse = classify::coarseVolume(volume, coarseSide);
-            preprocess::StepCache steps(stepsBytes);
-            for (const presets::Preset &preset : presets) {
-                job.progress().check();
-                const classify::FieldWindow window = preset.window.value_or(own);
-                QImage picture;
-                try {
-                    picture =
-                        pictureOf(coarse, window, presets::lookFor(preset, window), preset.shading,
-                                  shading::shadingScale(volume.lattice()), steps, job.progress());
-                } catch (const task::Error &) {
-                    // A preset that fails here reports the reason when it is chosen.
-                }
-                job.deliver([this, name = QString::fromStdString(preset.name), picture] {
-                    emit pictureReady(name, picture);
-                });
+    m_jobs.start({}, [this, volume = *open, own = m_document.defaultFieldWindow(),
+                      segments = m_document.segments(), presets](const Job &job) {
+        const auto histogram = volume::histogram(volume, histogramBins);
+        job.deliver([this, histogram] { emit histogramReady(histogram); });
+        if (!volume.notes().placed)
+            return;
+        const volume::Volume coarse = classify::coarseVolume(volume, coarseSide);
+        preprocess::StepCache steps(stepsBytes);
+        preprocess::ClassRunner runner(steps, segments);
+        for (const presets::Preset &preset : presets) {
+            job.progress().check();
+            const classify::FieldWindow window = preset.window.value_or(own);
+            QImage picture;
+            try {
+                picture =
+                    pictureOf(coarse, window, presets::lookFor(preset, window), preset.shading,
+                              shading::shadingScale(volume.lattice()), runner, job.progress());
+            } catch (const task::Error &) {
+                // A preset that fails here reports the reason when it is chosen.
             }
-        });
+            job.deliver([this, name = QString::fromStdString(preset.name), picture] {
+                emit pictureReady(name, picture);
+            });
+        }
+    });
 }
 
 } // namespace pellucid::ui

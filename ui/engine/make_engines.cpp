@@ -56,7 +56,8 @@ public:
     EngineMaker(const EngineSource &source, const TakeEngine &take, const task::Progress &progress)
         : m_source(source), m_take(take), m_progress(progress),
           m_scene(planningScene(source.volume, source.wanted)), m_window(windowOf(source)),
-          m_scale(shading::shadingScale(source.volume.lattice())) {}
+          m_scale(shading::shadingScale(source.volume.lattice())),
+          m_runner(*source.steps, source.segments) {}
 
     void make(Detail first) {
         requireMemory();
@@ -85,11 +86,10 @@ private:
                               task::because::fieldsNeedMemory(needed >> 20));
     }
 
-    classify::ShownFields fieldsOf(const volume::Volume &volume,
-                                   const task::Progress &progress) const {
-        return classify::cropped(classify::shownFields(volume, m_window, m_source.wanted.look,
-                                                       m_source.steps.get(), progress),
-                                 m_source.wanted.crop);
+    classify::ShownFields fieldsOf(const volume::Volume &volume, const task::Progress &progress) {
+        return classify::cropped(
+            classify::shownFields(volume, m_window, m_source.wanted.look, &m_runner, progress),
+            m_source.wanted.crop);
     }
 
     plan::Budget budgetFor(const classify::ShownFields &fields) const {
@@ -125,6 +125,7 @@ private:
     const scene::Scene m_scene;
     const classify::FieldWindow m_window;
     const shading::ShadingScale m_scale;
+    preprocess::ClassRunner m_runner;
     std::optional<prepare::PreparedEngine> m_coarse;
     accuracy::AxisProjections m_coarseProjections;
 };
@@ -138,10 +139,11 @@ void makeEngine(const EngineSource &source, Detail first, const TakeEngine &take
 
 void makeLayers(const EngineSource &source, const TakeLayers &take,
                 const task::Progress &progress) {
-    const auto mixture = classify::mixtureOf(source.wanted.look, source.wanted.heldClass);
+    const auto mixture = classify::mixtureOf(source.wanted.look, source.wanted.adjustedClass);
     const classify::FieldWindow window = windowOf(source);
+    preprocess::ClassRunner runner(*source.steps, source.segments);
     const auto make = [&](const volume::Volume &of, Detail detail, const task::Progress &part) {
-        classify::LayerFields fields(of, window, mixture, source.steps.get());
+        classify::LayerFields fields(of, window, mixture, &runner);
         take(prepare::LayerSet::prepare(
                  planningScene(of, source.wanted), fields.count(),
                  [&](std::size_t n, const task::Progress &p) {

@@ -14,7 +14,8 @@ namespace pellucid::ui {
 struct EngineSource {
     volume::Volume volume;
     prepare::PreparedFor wanted;
-    std::shared_ptr<preprocess::StepCache> steps; ///< results of the classes' steps
+    std::shared_ptr<preprocess::StepCache> steps;        ///< results of the classes' steps
+    std::shared_ptr<const segment::SegmentSet> segments; ///< of the volume; may be null
 };
 
 /// Receives an engine, coarse or full, on the job's thread.

@@ -50,6 +50,8 @@ namespace {
     QT_TRANSLATE_NOOP("Names", "Contrast"),
     QT_TRANSLATE_NOOP("Names", "Air"),
     QT_TRANSLATE_NOOP("Names", "Organ"),
+    QT_TRANSLATE_NOOP("Names", "Gain"),
+    QT_TRANSLATE_NOOP("Names", "Loss"),
     QT_TRANSLATE_NOOP("Names", "Body"),
     QT_TRANSLATE_NOOP("Names", "Brain"),
     QT_TRANSLATE_NOOP("Names", "Abdomen"),

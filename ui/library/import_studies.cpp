@@ -282,6 +282,12 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
     const dicom::Catalogue catalogue = scanFiles(library, import, progress);
     ImportResult result;
     result.skipped = catalogue.skipped;
+    // The library lists volumes only.
+    for (const dicom::Patient &patient : catalogue.patients)
+        for (const dicom::Study &study : patient.studies)
+            for (const dicom::SegmentationFile &file : study.segmentations)
+                result.skipped.push_back(
+                    {catalogue.named(file.path), task::because::isASegmentation});
     std::vector<LibrarySeries> all = seriesOf(catalogue, progress.part(0.5, 0.7));
     FilePlacer placer(library, import.mode, result);
     placer.place(all, progress.part(0.7, 0.99));

@@ -30,13 +30,17 @@ LoadedSegments loadSegments(const QStringList &paths, const volume::Volume &volu
             const segment::SegmentSet none(volume.lattice());
             loaded.set = (loaded.set ? *loaded.set : none).with(std::move(segmentation));
         } catch (const task::Error &error) {
-            if (error.code() != task::ErrorCode::unusable)
-                throw;
             loaded.problems.push_back({error.path(), error.reason()});
         }
         done = next;
     }
     return loaded;
+}
+
+void dropMissing(classify::Look &look, const Document &document) {
+    std::erase_if(look.classes, [&](const classify::TissueClass &tissue) {
+        return !document.missingSegments({{}, {tissue}}).isEmpty();
+    });
 }
 
 SegmentOpener::SegmentOpener(Document &document, JobRunner &jobs, LookPreparer &preparer,
@@ -53,8 +57,13 @@ void SegmentOpener::open(const QStringList &paths) {
             const LoadedSegments loaded = loadSegments(paths, volume, present, job.progress());
             job.deliver([this, loaded] { show(loaded); });
         },
-        // This job may have stopped that of the projection.
-        [this](const Outcome &) { m_preparer.prepareAgain(); }, paths.front());
+        [this](const Outcome &) {
+            m_preparer.setHeld(false);
+            m_preparer.prepareAgain();
+        },
+        paths.front());
+    if (m_jobs.isRunning()) // it is not if no thread could be had
+        m_preparer.setHeld(true);
 }
 
 void SegmentOpener::show(const LoadedSegments &loaded) {
@@ -64,6 +73,7 @@ void SegmentOpener::show(const LoadedSegments &loaded) {
     if (!loaded.set || loaded.set->segmentations().size() == before)
         return;
     m_document.setSegments(loaded.set);
+    std::size_t leftOut = 0;
     editScene(m_document, tr("Open segmentation"), noDrag, [&](scene::Scene &scene) {
         std::size_t index = scene.look.classes.size();
         const auto &all = loaded.set->segmentations();
@@ -71,7 +81,12 @@ void SegmentOpener::show(const LoadedSegments &loaded) {
             for (const segment::Segment &segment : all[n].segments)
                 if (scene.look.classes.size() < classify::maxClasses)
                     scene.look.classes.push_back(preprocess::classOf(segment, index++));
+                else
+                    ++leftOut;
     });
+    if (leftOut > 0)
+        m_document.addProblems({{loaded.set->segmentations().back().path,
+                                 task::because::tooManyClassesToAdd(classify::maxClasses)}});
 }
 
 } // namespace pellucid::ui

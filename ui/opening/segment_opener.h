@@ -7,6 +7,7 @@
 #include <QObject>
 #include <QStringList>
 
+#include "core/classify/look.h"
 #include "core/dicom/catalogue.h"
 #include "core/segment/segment_set.h"
 #include "core/task/progress.h"
@@ -24,12 +25,16 @@ struct LoadedSegments {
 };
 
 /// Loads the segments of files for a volume, in addition to those of a set, which may be null. A
-/// file that cannot be used is a problem. *Throws* Error{outOfMemory}, Cancelled.
+/// file that cannot be used is a problem. *Throws* Cancelled.
 LoadedSegments loadSegments(const QStringList &paths, const volume::Volume &volume,
                             std::shared_ptr<const segment::SegmentSet> present,
                             const task::Progress &progress);
 
+/// Removes the classes whose segments are not loaded.
+void dropMissing(classify::Look &look, const Document &document);
+
 /// Opens files of segments for the open volume, as jobs: their segments become classes of the look.
+/// Meanwhile no projection is prepared, which would stop the job.
 class SegmentOpener : public QObject {
     Q_OBJECT
 public:

@@ -18,10 +18,12 @@ namespace pellucid::ui {
 
 namespace {
 
-QStringList segmentationsIn(const std::vector<dicom::Skipped> &skipped) {
+// Without those in archives, whose unpacked files are gone with the catalogue.
+QStringList segmentationsIn(const dicom::Catalogue &catalogue) {
     QStringList paths;
-    for (const dicom::Skipped &file : skipped)
-        if (file.reason.is(task::because::isASegmentation))
+    for (const dicom::Skipped &file : catalogue.skipped)
+        if (std::error_code unknown; file.reason.is(task::because::isASegmentation) &&
+                                     std::filesystem::is_regular_file(file.path, unknown))
             paths << QString::fromStdString(file.path.string());
     return paths;
 }
@@ -70,9 +72,13 @@ void StudyOpener::resume(const Continuity &continuity) {
         continuity.segments->lattice() == m_document.volume()->lattice())
         m_document.setSegments(continuity.segments);
     scene::Scene scene = continuity.scene;
-    std::erase_if(scene.look.classes, [&](const classify::TissueClass &tissue) {
-        return !m_document.missingSegments({{}, {tissue}}).isEmpty();
-    });
+    const QStringList missing = m_document.missingSegments(scene.look);
+    if (!missing.isEmpty()) {
+        m_document.addProblems(
+            {{m_document.place().toStdString(),
+              task::because::sceneNeedsSegments(missing.join(", ").toStdString())}});
+        dropMissing(scene.look, m_document);
+    }
     m_preparer.setHeld(true);
     m_document.setScene(scene);
     m_preparer.setHeld(false);
@@ -130,19 +136,24 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
                 dicom::scan(files, job.progress(), options));
             job.deliver([this, catalogue, files, paths] {
                 std::vector<dicom::Skipped> problems = catalogue->skipped;
-                if (catalogue->empty() && m_document.volume()) // they are opened for it
-                    std::erase_if(problems, [](const dicom::Skipped &s) {
-                        return s.reason.is(task::because::isASegmentation);
+                if (catalogue->empty() && m_document.volume()) { // they are opened for it
+                    const QStringList opened = segmentationsIn(*catalogue);
+                    std::erase_if(problems, [&](const dicom::Skipped &s) {
+                        return opened.contains(QString::fromStdString(s.path.string()));
                     });
+                }
                 m_document.addProblems(problems);
                 std::vector<dicom::Skipped> huge = catalogue->skipped;
                 std::erase_if(huge, [](const dicom::Skipped &s) { return !s.isHuge; });
                 if (!huge.empty())
                     emit hugeFound(paths, huge);
                 if (catalogue->empty()) {
-                    const QStringList segmentations = segmentationsIn(catalogue->skipped);
-                    if (!segmentations.isEmpty())
+                    const QStringList segmentations = segmentationsIn(*catalogue);
+                    if (!segmentations.isEmpty() && m_document.volume()) {
+                        m_preparer.setHeld(false); // the opener holds it
                         emit segmentationsFound(segmentations);
+                        return;
+                    }
                     if (catalogue->skipped.empty())
                         m_document.addProblems({{files.front(), task::because::holdsNoImages}});
                     endScan();
@@ -253,11 +264,23 @@ void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
     const PreparedFor wanted(scene);
     m_jobs.start(
         tr("Loading %1").arg(seriesText(source.volume)),
-        [this, source, index, wanted,
+        [this, source, index, wanted, lattice = m_document.volume()->lattice(),
+         hasSegments = m_document.segments() != nullptr,
          prepare = m_preparer.preparation(wanted, 0.6, prepare::Detail::full)](const Job &job) {
             const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), {});
             const volume::ValueWindow window = initialWindow(loaded.volume);
             const auto field = classify::defaultFieldWindow(loaded.volume);
+            // Segments of this phase are not on the lattice of another.
+            if (hasSegments && !(loaded.volume.lattice() == lattice)) {
+                job.deliver([this, loaded, window, field, index] {
+                    const Continuity stays = leavePhase(index);
+                    m_document.addProblems(loaded.skipped);
+                    m_document.setVolume(loaded.volume, window, field, false);
+                    resume(stays);
+                    m_preparer.prepareAgain();
+                });
+                return;
+            }
             job.deliver([this, loaded, window, field, index, wanted] {
                 const Continuity stays = leavePhase(index);
                 m_document.addProblems(loaded.skipped);
@@ -329,7 +352,7 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
         const volume::ValueWindow window = initialWindow(volume);
         const classify::FieldWindow field = classify::defaultFieldWindow(volume);
         const LoadedSegments segments =
-            loadSegments(segmentations, volume, nullptr, job.progress());
+            loadSegments(segmentations, volume, nullptr, job.progress().part(0.6, 0.6));
         job.deliver([this, loaded, window, field, segments] {
             m_document.addProblems(loaded.skipped);
             m_document.addProblems(segments.problems);

@@ -189,7 +189,8 @@ void ClassDialog::showTint() {
     shown.low = m_low->value();
     shown.high = m_high->value();
     shown.softness = m_softness->value();
-    m_document.setTint(shown);
+    // The planes tint segments anyway; a range of all values would tint everything else, too.
+    m_document.setTint(shown.hasRange() ? std::optional(shown) : std::nullopt);
 }
 
 } // namespace pellucid::ui

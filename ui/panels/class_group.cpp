@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/class_group.h"
 
+#include <utility>
+
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMouseEvent>
@@ -33,13 +35,12 @@ QIcon groupIcon(const QColor &color, int shownCount, int count) {
 
 } // namespace
 
-ClassGroup::ClassGroup(const QString &title, QWidget *parent)
-    : QWidget(parent), m_title(title), m_fold(new QToolButton), m_eye(new QToolButton),
-      m_name(new QLabel) {
+ClassGroup::ClassGroup(const QString &title, std::filesystem::path path, QWidget *parent)
+    : QWidget(parent), m_title(title), m_path(std::move(path)), m_fold(new QToolButton),
+      m_eye(new QToolButton), m_name(new QLabel) {
     setObjectName("classGroup");
     m_fold->setObjectName("classGroupFold");
     m_fold->setProperty("role", "bare");
-    m_fold->setAccessibleName(tr("Fold %1").arg(title));
     m_eye->setObjectName("classGroupEye");
     m_eye->setProperty("role", "bare");
     m_eye->setIconSize({16, 16});
@@ -48,6 +49,7 @@ ClassGroup::ClassGroup(const QString &title, QWidget *parent)
     m_name->setObjectName("classGroupName");
     m_name->setProperty("role", "muted");
     m_name->setMinimumWidth(20);
+    m_name->setTextFormat(Qt::PlainText);
     auto *row = new QHBoxLayout(this);
     row->setContentsMargins(0, 6, 2, 0);
     row->setSpacing(4);
@@ -59,17 +61,21 @@ ClassGroup::ClassGroup(const QString &title, QWidget *parent)
         showFold();
         emit folded();
     });
-    connect(m_eye, &QToolButton::clicked, this, [this] { emit toggled(m_title); });
+    connect(m_eye, &QToolButton::clicked, this, [this] { emit toggled(); });
     showFold();
 }
 
 void ClassGroup::showFold() {
     m_fold->setArrowType(m_isFolded ? Qt::RightArrow : Qt::DownArrow);
+    const QString text = m_isFolded ? tr("Unfold %1").arg(m_title) : tr("Fold %1").arg(m_title);
+    m_fold->setAccessibleName(text);
+    m_fold->setToolTip(text);
 }
 
-void ClassGroup::show(int shownCount, int count) {
+void ClassGroup::showCounts(int shownCount, int count) {
     m_eye->setIcon(groupIcon(palette().color(QPalette::WindowText), shownCount, count));
-    m_name->setText(tr("%1: %2 of %3").arg(m_title).arg(shownCount).arg(count));
+    m_name->setText(
+        tr("%1: %2 of %3").arg(m_title, QString::number(shownCount), QString::number(count)));
     m_name->setToolTip(m_name->text());
 }
 

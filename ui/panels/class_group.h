@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
+
 #include <QWidget>
 
 class QLabel;
@@ -13,14 +15,15 @@ namespace pellucid::ui {
 class ClassGroup : public QWidget {
     Q_OBJECT
 public:
-    explicit ClassGroup(const QString &title, QWidget *parent = nullptr);
+    ClassGroup(const QString &title, std::filesystem::path path, QWidget *parent);
 
     const QString &title() const { return m_title; }
+    const std::filesystem::path &path() const { return m_path; }
     bool isFolded() const { return m_isFolded; }
-    void show(int shownCount, int count);
+    void showCounts(int shownCount, int count);
 
 signals:
-    void toggled(const QString &title);
+    void toggled();
     void folded();
 
 protected:
@@ -30,6 +33,7 @@ private:
     void showFold();
 
     QString m_title;
+    std::filesystem::path m_path;
     bool m_isFolded = false;
     QToolButton *m_fold, *m_eye;
     QLabel *m_name;

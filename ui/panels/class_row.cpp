@@ -38,7 +38,7 @@ QString rangeText(const classify::TissueClass &tissue, const segment::Segment *s
     QStringList parts;
     if (segment != nullptr)
         parts << ClassRow::tr("%1 ml").arg(segment->volumeMm3 / 1000.0, 0, 'f', 1);
-    if (tissue.low > classify::lowestValue || tissue.high < classify::highestValue)
+    if (tissue.hasRange())
         parts << QString("%1 .. %2").arg(tissue.low, 0, 'g', 4).arg(tissue.high, 0, 'g', 5);
     QString text = parts.join(", ");
     for (const classify::Step &step : tissue.steps)
@@ -63,6 +63,8 @@ ClassRow::ClassRow(int index, QWidget *parent)
     m_range->setObjectName("classRange");
     m_range->setProperty("role", "small");
     m_name->setMinimumWidth(20);
+    m_name->setTextFormat(Qt::PlainText);
+    m_range->setTextFormat(Qt::PlainText);
     m_range->setMinimumWidth(20);
     m_weight->setFixedWidth(134);
     auto *grid = new QGridLayout(this);

@@ -32,6 +32,11 @@ classify::TissueClass ownClass(const classify::FieldWindow &window) {
 // More classes than a panel shows at once.
 constexpr std::size_t manyClasses = 12;
 
+// In menus, an ampersand marks a key.
+QString menuText(const std::string &text) {
+    return QString::fromStdString(text).replace('&', "&&");
+}
+
 QString capitalised(const std::string &name) {
     QString text = QString::fromStdString(name);
     return text.isEmpty() ? text : text.at(0).toUpper() + text.mid(1);
@@ -55,6 +60,8 @@ ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
     m_search->setObjectName("classSearch");
     m_search->setPlaceholderText(tr("Search classes"));
     m_search->setClearButtonEnabled(true);
+    m_search->setToolTip(tr("Finds classes by their names and the terms of their codes"));
+    m_search->setAccessibleName(tr("Search classes"));
     m_rows->setContentsMargins(0, 0, 4, 0);
     m_rows->setSpacing(1);
     m_rows->addWidget(m_empty);
@@ -115,7 +122,7 @@ void ClassesPanel::makeRows(std::size_t count) {
         m_shown.pop_back();
     }
     while (m_shown.size() < count) {
-        auto *row = new ClassRow(int(m_shown.size()));
+        auto *row = new ClassRow(int(m_shown.size()), m_list);
         m_shown.push_back(row);
         connect(row, &ClassRow::chosen, &m_document, &Document::selectClass);
         connect(row, &ClassRow::toggled, this, &ClassesPanel::toggle);
@@ -125,11 +132,9 @@ void ClassesPanel::makeRows(std::size_t count) {
     }
 }
 
-QString ClassesPanel::groupOf(const classify::TissueClass &tissue) const {
+const segment::Segmentation *ClassesPanel::fileOf(const classify::TissueClass &tissue) const {
     const auto &segments = m_document.segments();
-    return segments && !tissue.segment.empty()
-               ? QString::fromStdString(segments->titleOf(tissue.segment))
-               : QString();
+    return segments ? segments->fileOf(tissue.segment) : nullptr;
 }
 
 // The search also finds the terms of a segment's codes, such as "bone".
@@ -150,47 +155,58 @@ void ClassesPanel::arrange() {
     const auto &classes = m_document.scene().look.classes;
     if (m_shown.size() != classes.size()) // a signal within a change; showScene follows
         return;
-    QStringList titles;
-    for (const classify::TissueClass &tissue : classes)
-        if (const QString title = groupOf(tissue); !title.isEmpty() && !titles.contains(title))
-            titles << title;
+    std::vector<const segment::Segmentation *> files, fileOfClass;
+    std::vector<bool> isListed;
+    for (const classify::TissueClass &tissue : classes) {
+        fileOfClass.push_back(fileOf(tissue));
+        isListed.push_back(isFound(tissue));
+        if (fileOfClass.back() != nullptr &&
+            std::find(files.begin(), files.end(), fileOfClass.back()) == files.end())
+            files.push_back(fileOfClass.back());
+    }
     std::erase_if(m_groups, [&](ClassGroup *group) {
-        const bool isGone = !titles.contains(group->title());
+        const bool isGone = std::none_of(files.begin(), files.end(), [&](const auto *file) {
+            return file->path == group->path();
+        });
         if (isGone)
             group->deleteLater();
         return isGone;
     });
     std::vector<QWidget *> order{m_empty};
-    const auto addRows = [&](const QString &title, bool isFolded) {
+    const auto addRows = [&](const segment::Segmentation *file, bool isFolded) {
         for (std::size_t n = 0; n < classes.size(); ++n) {
-            if (groupOf(classes[n]) != title)
+            if (fileOfClass[n] != file)
                 continue;
             order.push_back(m_shown[n]);
-            m_shown[n]->setVisible(!isFolded && isFound(classes[n]));
+            m_shown[n]->setVisible(!isFolded && isListed[n]);
         }
     };
-    addRows({}, false);
-    for (const QString &title : titles) {
-        auto found = std::find_if(m_groups.begin(), m_groups.end(),
-                                  [&](ClassGroup *group) { return group->title() == title; });
-        if (found == m_groups.end()) {
-            m_groups.push_back(new ClassGroup(title));
-            found = std::prev(m_groups.end());
-            connect(*found, &ClassGroup::folded, this, &ClassesPanel::arrange);
-            connect(*found, &ClassGroup::toggled, this, &ClassesPanel::toggleGroup);
-        }
+    addRows(nullptr, false);
+    for (const segment::Segmentation *const file : files) {
+        ClassGroup *const group = groupFor(*file);
         int shown = 0, listed = 0;
-        for (const classify::TissueClass &tissue : classes)
-            if (groupOf(tissue) == title && isFound(tissue)) {
+        for (std::size_t n = 0; n < classes.size(); ++n)
+            if (fileOfClass[n] == file && isListed[n]) {
                 ++listed;
-                shown += tissue.weight > 0.0 ? 1 : 0;
+                shown += classes[n].weight > 0.0 ? 1 : 0;
             }
-        (*found)->show(shown, listed);
-        order.push_back(*found);
-        (*found)->setVisible(listed > 0);
-        addRows(title, (*found)->isFolded());
+        group->showCounts(shown, listed);
+        order.push_back(group);
+        group->setVisible(listed > 0);
+        addRows(file, group->isFolded());
     }
     place(order);
+}
+
+ClassGroup *ClassesPanel::groupFor(const segment::Segmentation &file) {
+    for (ClassGroup *const group : m_groups)
+        if (group->path() == file.path)
+            return group;
+    auto *const group = new ClassGroup(QString::fromStdString(file.title), file.path, m_list);
+    m_groups.push_back(group);
+    connect(group, &ClassGroup::folded, this, &ClassesPanel::arrange);
+    connect(group, &ClassGroup::toggled, this, [this, group] { toggleGroup(*group); });
+    return group;
 }
 
 // During a drag nothing moves: laying out a hundred rows takes longer than a frame.
@@ -208,15 +224,18 @@ void ClassesPanel::place(const std::vector<QWidget *> &order) {
 }
 
 // Hides all that the list shows of a group, or shows them if all of them are hidden.
-void ClassesPanel::toggleGroup(const QString &title) {
+void ClassesPanel::toggleGroup(const ClassGroup &group) {
     const auto &classes = m_document.scene().look.classes;
     const auto belongs = [&](const classify::TissueClass &tissue) {
-        return groupOf(tissue) == title && isFound(tissue);
+        const segment::Segmentation *const file = fileOf(tissue);
+        return file != nullptr && file->path == group.path() && isFound(tissue);
     };
     const bool hides = std::any_of(classes.begin(), classes.end(), [&](const auto &tissue) {
         return belongs(tissue) && tissue.weight > 0.0;
     });
-    change(hides ? tr("Hide %1").arg(title) : tr("Show %1").arg(title), [&](classify::Look &look) {
+    const QString what =
+        hides ? tr("Hide %1").arg(group.title()) : tr("Show %1").arg(group.title());
+    change(what, [&](classify::Look &look) {
         for (classify::TissueClass &tissue : look.classes) {
             if (!belongs(tissue))
                 continue;
@@ -267,11 +286,13 @@ void ClassesPanel::add(const classify::TissueClass &tissue) {
 void ClassesPanel::showAddMenu() {
     QMenu menu;
     const auto &volume = m_document.volume();
-    if (!volume)
+    if (!volume || m_document.scene().look.classes.size() >= classify::maxClasses)
         return;
     // The standard ranges are in HU.
-    if (volume->unit() == volume::ValueUnit::hounsfield) {
-        for (classify::TissueClass tissue : classify::standardClasses()) {
+    const bool isHu = volume->unit() == volume::ValueUnit::hounsfield;
+    if (isHu || volume->notes().isDifference) {
+        for (classify::TissueClass tissue :
+             isHu ? classify::standardClasses() : classify::differenceClasses()) {
             tissue.name = capitalised(tissue.name).toStdString();
             menu.addAction(translatedName(tissue.name), this, [this, tissue] { add(tissue); });
         }
@@ -304,16 +325,15 @@ void ClassesPanel::addSegments(QMenu &menu) {
             for (const segment::Segment &segment : segmentation.segments)
                 if (!isShown(segment)) {
                     if (of == nullptr)
-                        of = menu.addMenu(QString::fromStdString(segmentation.title));
+                        of = menu.addMenu(menuText(segmentation.title));
                     const auto tissue = preprocess::classOf(segment, index++);
-                    of->addAction(QString::fromStdString(segment.name), this,
-                                  [this, tissue] { add(tissue); });
+                    of->addAction(menuText(segment.name), this, [this, tissue] { add(tissue); });
                 }
         }
     if (const int source = m_document.currentSource(); source >= 0)
         for (const auto &[path, title] : m_document.sources()[std::size_t(source)].segmentations)
             if (!loaded.contains(path))
-                menu.addAction(tr("Segments of %1").arg(title), this,
+                menu.addAction(tr("Segments of %1").arg(menuText(title.toStdString())), this,
                                [this, path = path] { emit segmentationRequested({path}); });
     menu.addAction(tr("Open segmentation..."), this, [this] { emit segmentationRequested({}); });
 }

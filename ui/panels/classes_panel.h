@@ -10,6 +10,7 @@
 #include <QWidget>
 
 #include "core/scene/scene.h"
+#include "core/segment/segmentation.h"
 #include "ui/document/commands.h"
 
 class QLabel;
@@ -48,10 +49,11 @@ private:
     void place(const std::vector<QWidget *> &order);
     /// Makes as many rows as there are classes.
     void makeRows(std::size_t count);
-    /// The file that a class's segment comes from; empty if it has none.
-    QString groupOf(const classify::TissueClass &tissue) const;
+    /// The file that a class's segment comes from, or null.
+    const segment::Segmentation *fileOf(const classify::TissueClass &tissue) const;
+    ClassGroup *groupFor(const segment::Segmentation &file);
     bool isFound(const classify::TissueClass &tissue) const;
-    void toggleGroup(const QString &title);
+    void toggleGroup(const ClassGroup &group);
     void change(const QString &what, const std::function<void(classify::Look &)> &edit,
                 DragId drag = noDrag);
     void changeClass(int index, const QString &what,

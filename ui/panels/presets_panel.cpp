@@ -203,6 +203,12 @@ void PresetsPanel::apply(QListWidgetItem *item) {
     const auto *entry = m_library.find(item->data(nameRole).toString().toStdString());
     if (entry == nullptr || !m_document.volume())
         return;
+    if (const QStringList missing = m_document.missingSegments(entry->preset.look);
+        !missing.isEmpty()) {
+        emit failed(task::because::sceneNeedsSegments(missing.join(", ").toStdString()),
+                    item->text());
+        return;
+    }
     editScene(m_document, tr("Preset %1").arg(item->text()), noDrag, [&](scene::Scene &scene) {
         scene.fieldWindow = entry->preset.window;
         scene.look = presets::lookFor(entry->preset,

@@ -28,6 +28,23 @@ constexpr int restMs = 150;
 
 } // namespace
 
+namespace {
+
+QImage pictureOf(const volume::Volume &volume, const mpr::Plane &plane,
+                 const mpr::ResliceOptions &options, const volume::ValueWindow &window,
+                 const std::optional<classify::TissueClass> &tint,
+                 const std::vector<SegmentTint> &segments) {
+    QImage picture =
+        slicePicture(mpr::reslice(volume, plane, options), window, volume.notes().darkIsHigh, tint);
+    if (!segments.empty()) {
+        picture = picture.convertToFormat(QImage::Format_RGB32);
+        tintSegments(picture, plane, volume.lattice(), segments);
+    }
+    return picture;
+}
+
+} // namespace
+
 MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *parent)
     : QWidget(parent), m_document(document), m_orientation(orientation),
       m_tools(document, orientation, *this) {
@@ -61,6 +78,8 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
     for (const auto changed : {&Document::displayWindowChanged, &Document::tintChanged,
                                &Document::crosshairChanged, &Document::cutChanged})
         connect(&document, changed, this, &MprView::refresh);
+    for (const auto changed : {&Document::sceneChanged, &Document::segmentsChanged})
+        connect(&document, changed, this, &MprView::refreshTints);
     for (const auto changed : {&Document::measurementsChanged,
                                &Document::selectedMeasurementChanged, &Document::sceneChanged})
         connect(&document, changed, this, qOverload<>(&QWidget::update));
@@ -69,6 +88,14 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
 void MprView::refresh() {
     m_imageValid = false;
     update();
+}
+
+void MprView::refreshTints() {
+    auto tints = segmentTints(m_document);
+    if (tints == m_tints)
+        return;
+    m_tints = std::move(tints);
+    refresh();
 }
 
 void MprView::setTool(Tool tool) {
@@ -140,9 +167,8 @@ void MprView::updateImage() {
     }
     QElapsedTimer clock;
     clock.start();
-    m_image =
-        slicePicture(mpr::reslice(volume, cut, m_document.cut().options),
-                     m_document.displayWindow(), volume.notes().darkIsHigh, m_document.tint());
+    m_image = pictureOf(volume, cut, m_document.cut().options, m_document.displayWindow(),
+                        m_document.tint(), m_tints);
     m_image.setDevicePixelRatio(isDraft ? 0.5 * devicePixelRatioF() : devicePixelRatioF());
     if (!isDraft)
         m_cutMs = double(clock.nsecsElapsed()) * 1e-6;
@@ -184,9 +210,8 @@ std::function<QImage()> MprView::pictureMaker(int scale) const {
     cut.height *= scale;
     cut.pixelMm /= scale;
     return [cut, volume = *m_document.volume(), options = m_document.cut().options,
-            window = m_document.displayWindow(), tint = m_document.tint()] {
-        return slicePicture(mpr::reslice(volume, cut, options), window, volume.notes().darkIsHigh,
-                            tint)
+            window = m_document.displayWindow(), tint = m_document.tint(), tints = m_tints] {
+        return pictureOf(volume, cut, options, window, tint, tints)
             .convertToFormat(QImage::Format_RGB32);
     };
 }

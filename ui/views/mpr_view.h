@@ -11,6 +11,7 @@
 #include "core/mpr/plane.h"
 #include "ui/views/overlay.h"
 #include "ui/views/pane_mapping.h"
+#include "ui/views/segment_tints.h"
 #include "ui/views/tools/plane_tools.h"
 
 namespace pellucid::ui {
@@ -71,6 +72,8 @@ protected:
 private:
     bool showsVolume() const;
     void refresh();
+    /// Draws again if other segments are tinted.
+    void refreshTints();
     void updateImage();
     ToolSurface surface() const;
     void showReadout(const QPointF &position);
@@ -88,6 +91,7 @@ private:
     /// The lattice of the last volume, which may have been a preview.
     volume::Lattice m_lattice;
     bool m_wasPreview = false;
+    std::vector<SegmentTint> m_tints;
     QImage m_image;
     bool m_imageValid = false;
     /// If a slice takes too long, it is drawn at half resolution during interaction.

@@ -22,6 +22,14 @@ ViewMenu::ViewMenu(QMenu &menu, QMainWindow &window, const Viewer &viewer, Graph
         add(tr("&Orbit about the crosshair"), "orbitCrosshairAction", QKeySequence("O"),
             [projection] { projection->setOrbitsCrosshair(!projection->orbitsCrosshair()); });
     about->setCheckable(true);
+    QAction *tints = add(
+        tr("&Tint segments in the planes"), "tintSegmentsAction", {},
+        [&document = viewer.document] { document.setTintsSegments(!document.tintsSegments()); });
+    tints->setCheckable(true);
+    connect(&menu, &QMenu::aboutToShow, this, [tints, &document = viewer.document] {
+        tints->setChecked(document.tintsSegments());
+        tints->setEnabled(document.segments() != nullptr);
+    });
     QAction *compare =
         add(tr("&Compare with the look before") + "\t" + tr("hold Q"), "compareAction", {},
             [this, projection] { emit comparisonRequested(!projection->isComparing()); });

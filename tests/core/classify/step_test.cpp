@@ -17,13 +17,19 @@ using classify::StepEffect;
 using classify::StepKind;
 
 // Files of earlier programs contain these names.
-const std::vector<std::pair<StepKind, std::string>> names{
-    {StepKind::gaussian, "gaussian"},   {StepKind::median, "median"},
-    {StepKind::diffusion, "diffusion"}, {StepKind::gradient, "gradient"},
-    {StepKind::threshold, "threshold"}, {StepKind::edges, "edges"},
-    {StepKind::binarise, "binarise"},   {StepKind::opening, "opening"},
-    {StepKind::closing, "closing"},     {StepKind::largestComponent, "largest"},
-    {StepKind::body, "body"},           {StepKind::skin, "skin"}};
+const std::vector<std::pair<StepKind, std::string>> names{{StepKind::gaussian, "gaussian"},
+                                                          {StepKind::median, "median"},
+                                                          {StepKind::diffusion, "diffusion"},
+                                                          {StepKind::gradient, "gradient"},
+                                                          {StepKind::negate, "negate"},
+                                                          {StepKind::threshold, "threshold"},
+                                                          {StepKind::edges, "edges"},
+                                                          {StepKind::binarise, "binarise"},
+                                                          {StepKind::opening, "opening"},
+                                                          {StepKind::closing, "closing"},
+                                                          {StepKind::largestComponent, "largest"},
+                                                          {StepKind::body, "body"},
+                                                          {StepKind::skin, "skin"}};
 
 std::string reasonOf(const std::string &text) {
     try {
@@ -91,7 +97,7 @@ TEST(Step, InvalidStepsAreRefusedWithTheReason) {
               "iterations of the step 'diffusion' is 2.5, not a whole number");
     EXPECT_EQ(reasonOf("blur"),
               "unknown step 'blur': use one of gaussian, median, diffusion, gradient, "
-              "threshold, edges, binarise, opening, closing, largest, body, skin");
+              "negate, threshold, edges, binarise, opening, closing, largest, body, skin");
 }
 
 } // namespace

@@ -79,8 +79,8 @@ auto fieldsOf(IsA<CodedConcept> auto &c) {
     return std::tie(value, scheme, meaning);
 }
 auto fieldsOf(IsA<SegmentDescription> auto &s) {
-    auto &[number, label, description, color, category, type] = s;
-    return std::tie(number, label, description, color, category, type);
+    auto &[number, label, color, category, type] = s;
+    return std::tie(number, label, color, category, type);
 }
 auto fieldsOf(IsA<Structure> auto &s) {
     auto &[number, name, color, type, contourSizes, ignoredContours] = s;

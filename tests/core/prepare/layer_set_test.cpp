@@ -119,8 +119,11 @@ TEST_P(Layers, SixteenAlternatingPointsAreWithinTheTolerance) {
 TEST_P(Layers, OfManyClassesTheHeldOneMoves) {
     Look look;
     for (int n = 0; n < 100; ++n)
-        look.classes.push_back({"part " + std::to_string(n), 20.0 * n - 900.0, 20.0 * n - 850.0,
-                                30.0, 0.5 + 0.01 * n,
+        look.classes.push_back({"part " + std::to_string(n),
+                                20.0 * n - 900.0,
+                                20.0 * n - 850.0,
+                                30.0,
+                                0.5 + 0.01 * n,
                                 {0.01 * n, 1.0 - 0.005 * n, n % 7 / 7.0}});
     const std::size_t held = 46; // fluid
     const auto mixture = classify::mixtureOf(look, held);

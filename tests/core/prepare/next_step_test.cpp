@@ -45,7 +45,7 @@ TEST(NextStep, OfManyClassesOneIsHeld) {
     EXPECT_TRUE(dragged.hasSameLayersAs(full));
     EXPECT_EQ(classify::onlyDifference(full.look, dragged.look), std::size_t(40));
     PreparedFor layers = dragged;
-    layers.heldClass = 40;
+    layers.adjustedClass = 40;
     dragged.look.classes[40].weight = 0.1;
     dragged.look.classes[40].color = {0.2, 0.3, 0.4};
     EXPECT_TRUE(layers.hasSameLayersAs(dragged));

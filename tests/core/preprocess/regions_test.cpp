@@ -59,7 +59,7 @@ TEST(SegmentClasses, AreDensityTimesShareInTheirColors) {
     const Volume volume = head();
     const auto set = boxes(volume.lattice(), 5);
     preprocess::StepCache steps(std::size_t(1) << 28);
-    steps.setSegments(set);
+    preprocess::ClassRunner runner(steps, set);
     classify::Look look;
     const auto &segments = set->segmentations().front().segments;
     for (std::size_t n = 0; n < segments.size(); ++n) {
@@ -68,7 +68,7 @@ TEST(SegmentClasses, AreDensityTimesShareInTheirColors) {
         tissue.edge = n % 2 == 0 ? 0.5 : 0.0;
         look.classes.push_back(tissue);
     }
-    const auto fields = classify::shownFields(volume, window, look, &steps);
+    const auto fields = classify::shownFields(volume, window, look, &runner);
     ASSERT_EQ(fields.channels.size(), 3U); // whatever the number of segments
     const GridSize size = volume.lattice().size();
     std::vector<Coverage> soft;
@@ -114,10 +114,10 @@ TEST(SegmentClasses, CombineWithRangeStepsAndCoarseVolumes) {
     const auto set = boxes(volume.lattice(), 1);
     const Coverage &box = *set->find("box 0")->coverage;
     preprocess::StepCache steps(std::size_t(1) << 28);
-    steps.setSegments(set);
+    preprocess::ClassRunner runner(steps, set);
     TissueClass tissue{"bone", 250.0, 2500.0};
     tissue.segment = "box 0";
-    const Coverage alone = preprocess::regionOf(volume, tissue, steps);
+    const Coverage alone = preprocess::regionOf(volume, tissue, runner);
     for (int k = 0; k < size.k; ++k)
         for (int j = 0; j < size.j; ++j)
             for (int i = 0; i < size.i; ++i) {
@@ -126,7 +126,7 @@ TEST(SegmentClasses, CombineWithRangeStepsAndCoarseVolumes) {
                           value >= 250.0 && value <= 2500.0 ? int(box.at({i, j, k})) : 0);
             }
     tissue.steps = {{classify::StepKind::largestComponent, {}}};
-    const Coverage largest = preprocess::regionOf(volume, tissue, steps);
+    const Coverage largest = preprocess::regionOf(volume, tissue, runner);
     Mask mask(size.count());
     for (int k = 0; k < size.k; ++k)
         for (int j = 0; j < size.j; ++j)
@@ -141,7 +141,7 @@ TEST(SegmentClasses, CombineWithRangeStepsAndCoarseVolumes) {
                 }
     // The same class with soft edges reaches beyond its region, and nowhere else is it more.
     tissue.edge = 0.5;
-    const auto soft = steps.run(volume, tissue, {});
+    const auto soft = runner.run(volume, tissue, {});
     ASSERT_TRUE(soft.coverage);
     EXPECT_FALSE(soft.regions);
     const Lattice coarse =
@@ -152,7 +152,7 @@ TEST(SegmentClasses, CombineWithRangeStepsAndCoarseVolumes) {
                        volume::ValueUnit::hounsfield);
     tissue.steps.clear();
     tissue.edge = 0.0;
-    EXPECT_EQ(*steps.run(small, tissue, {}).coverage,
+    EXPECT_EQ(*runner.run(small, tissue, {}).coverage,
               segment::coarsened(box, volume.lattice(), coarse));
 }
 

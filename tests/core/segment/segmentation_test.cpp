@@ -294,8 +294,17 @@ TEST(SegmentSet, GivesEverySegmentAnotherName) {
     EXPECT_NE(all->find("liver"), nullptr);
     EXPECT_NE(all->find("liver (2)"), nullptr);
     EXPECT_NE(all->find("liver (3)"), nullptr);
-    EXPECT_EQ(all->titleOf("spleen"), "file of spleen");
+    ASSERT_NE(all->fileOf("spleen"), nullptr);
+    EXPECT_EQ(all->fileOf("spleen")->title, "file of spleen");
+    EXPECT_EQ(all->fileOf("nose"), nullptr);
     EXPECT_EQ(first->find("spleen"), nullptr); // a set does not change
+    // Within one file, too.
+    Segmentation two = one("liver (2)");
+    two.segments.push_back(two.segments.front());
+    const auto more = first->with(two);
+    EXPECT_NE(more->find("liver (2)"), nullptr);
+    EXPECT_NE(more->find("liver (2) (2)"), nullptr);
+    EXPECT_NE(more->find("liver (2)"), more->find("liver (2) (2)"));
 }
 
 // Writes segments, checks the file with DCMTK's own reader, and reads it again.

@@ -248,6 +248,50 @@ TEST(StoredMasks, ThickPlanesAreInterpolatedButNotAcrossAGap) {
     EXPECT_NEAR(share(18), 255 * 2 / 5, 1);
 }
 
+// Squares of 8 x 8 mm at these depths on a volume with slices of 1 mm.
+double millilitresOf(const std::vector<double> &depths, double statedMm) {
+    const Lattice volume = Lattice::centred({8, 8, 100}, {1.0, 1.0, 1.0});
+    std::vector<std::byte> bits(8 * depths.size(), std::byte(0xFF));
+    StoredMasks masks;
+    masks.columns = masks.rows = 8;
+    masks.pixels = bits;
+    masks.thicknessMm = statedMm;
+    const glm::dvec3 low = volume.patient(VoxelIndex{0, 0, 0}).mm;
+    for (const double depth : depths)
+        masks.planes.push_back(
+            {low + glm::dvec3(0.0, 0.0, depth), volume.step(0), volume.step(1), 0});
+    const auto placed = segment::placed(masks, volume);
+    return placed.coverages[0].total() / 1000.0;
+}
+
+// The spacing of a scan may change, and planes of one position may be written with other digits.
+TEST(StoredMasks, UnevenPlanesFillTheSpaceBetweenThem) {
+    const double square = 0.064; // ml for each mm
+    // From half of the first distance before to half of the last one behind.
+    EXPECT_NEAR(millilitresOf({10.3, 14.3, 18.3, 19.4, 26.4, 33.4, 40.4}, 4.0),
+                square * (30.1 + 2.0 + 3.5), 0.1);
+    EXPECT_NEAR(millilitresOf({10.5, 13.5, 16.5, 19.5, 22.5}, 3.0), square * 15.0, 0.05);
+    EXPECT_NEAR(millilitresOf({10.5, 13.5, 16.5, 19.5, 22.5, 10.61}, 3.0), square * 15.0, 0.05);
+    EXPECT_NEAR(millilitresOf({10.5, 12.5, 16.5, 20.5, 22.5}, 0.0), square * 14.0, 0.05);
+    // Two parts of a segment are not one.
+    EXPECT_NEAR(millilitresOf({10.5, 12.5, 14.5, 40.5, 42.5, 44.5}, 2.0), square * 12.0, 0.05);
+}
+
+// Another origin in every plane, on a volume that is turned.
+TEST(StoredMasks, ShiftedPlanesAreWhole) {
+    const glm::dvec3 a = glm::normalize(glm::dvec3(1, 1, 0)), b(-a.y, a.x, 0.0);
+    const Lattice volume =
+        Lattice::make({110, 90, 30}, {glm::dvec3(30.0, -60.0, -3.0)}, {a, b, glm::dvec3(0, 0, 1)});
+    std::vector<std::byte> bits(20 * 20 * 20 / 8, std::byte(0xFF));
+    StoredMasks masks;
+    masks.columns = masks.rows = 20;
+    masks.pixels = bits;
+    for (int n = 0; n < 20; ++n)
+        masks.planes.push_back(
+            {glm::dvec3(30.0 + n, 10.0 - n, n + 0.5), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), 0});
+    EXPECT_NEAR(segment::placed(masks, volume).coverages[0].total(), 8000.0, 80.0);
+}
+
 TEST(StoredMasks, PlanesThatAreNotParallelAreRefused) {
     const Lattice volume = Lattice::centred({8, 8, 8}, {1.0, 1.0, 1.0});
     std::vector<std::byte> bits(16, std::byte(0xFF));

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/subtraction/rigid_registration.h"
+
+namespace pellucid::subtraction {
+
+/// A volume on the lattice of another: interpolated linearly where the transformed sample is within
+/// it, else NaN. *Shape*: one value per sample of the lattice. *Throws* Error{outOfMemory},
+/// Cancelled.
+std::vector<float> resampledOnto(const volume::Lattice &lattice, const volume::Volume &volume,
+                                 const RigidTransform &toVolume,
+                                 const task::Progress &progress = {});
+
+/// `minuend - subtrahend` on the minuend's lattice; 0 where the subtrahend is not. Values have no
+/// unit: a difference of 0 HU is not water. Volumes of 16 bits on one lattice give 16 bits if every
+/// difference fits. *Throws* Error{unusable} if the volumes do not overlap, Error{outOfMemory},
+/// Cancelled.
+volume::Volume difference(const volume::Volume &minuend, const volume::Volume &subtrahend,
+                          const RigidTransform &toSubtrahend = {},
+                          const task::Progress &progress = {});
+
+} // namespace pellucid::subtraction
