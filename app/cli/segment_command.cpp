@@ -18,6 +18,7 @@
 #include "app/cli/terminal.h"
 #include "core/preprocess/class_region.h"
 #include "core/preprocess/region_growing.h"
+#include "core/preprocess/segment_class.h"
 #include "core/preprocess/step_cache.h"
 #include "core/segment/write_segmentation.h"
 #include "core/task/error.h"
@@ -74,7 +75,7 @@ public:
         preprocess::StepCache steps(budgetOfSteps);
         preprocess::ClassRunner runner(steps, loaded);
         for (const classify::TissueClass &tissue : look.classes)
-            addClass(tissue, loaded.get(), runner);
+            add(preprocess::segmentOf(volume(), tissue, loaded.get(), runner, m_progress));
         if (!m_options.seeds.empty())
             addGrown();
         if (m_segments.empty())
@@ -86,19 +87,6 @@ public:
 
 private:
     const volume::Volume &volume() const { return m_input.loaded.volume; }
-
-    void addClass(const classify::TissueClass &tissue, const segment::SegmentSet *loaded,
-                  classify::StepRunner &runner) {
-        segment::Segment segment;
-        if (const segment::Segment *const own =
-                loaded != nullptr ? loaded->find(tissue.segment) : nullptr) {
-            segment.category = own->category;
-            segment.type = own->type;
-        }
-        segment.name = tissue.name;
-        segment.color = glm::dvec3(tissue.color.red, tissue.color.green, tissue.color.blue);
-        add(std::move(segment), preprocess::regionOf(volume(), tissue, runner, m_progress));
-    }
 
     void addGrown() {
         preprocess::Growth growth;
@@ -117,19 +105,17 @@ private:
         }
         segment::Segment segment;
         segment.name = m_options.name;
-        add(std::move(segment),
-            preprocess::regionOf(volume().lattice().size(),
-                                 preprocess::grownRegion(volume(), growth, m_progress)));
+        segment.coverage = std::make_shared<const volume::Coverage>(preprocess::regionOf(
+            volume().lattice().size(), preprocess::grownRegion(volume(), growth, m_progress)));
+        segment.volumeMm3 = segment.coverage->total() * volume().lattice().cellVolumeMm3();
+        add(std::move(segment));
     }
 
-    void add(segment::Segment segment, volume::Coverage region) {
-        if (region.isEmpty()) {
+    void add(segment::Segment segment) {
+        if (segment.coverage->isEmpty())
             warn("no sample belongs to '" + segment.name + "'");
-            return;
-        }
-        segment.volumeMm3 = region.total() * volume().lattice().cellVolumeMm3();
-        segment.coverage = std::make_shared<const volume::Coverage>(std::move(region));
-        m_segments.push_back(std::move(segment));
+        else
+            m_segments.push_back(std::move(segment));
     }
 
     void write(const fs::path &out) {

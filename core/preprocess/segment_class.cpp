@@ -5,6 +5,8 @@
 
 #include <glm/gtx/color_space.hpp>
 
+#include "core/preprocess/class_region.h"
+
 namespace pellucid::preprocess {
 
 namespace {
@@ -27,6 +29,23 @@ classify::TissueClass classOf(const segment::Segment &segment, std::size_t index
     tissue.edge = classify::defaultEdge;
     tissue.color = {color.x, color.y, color.z};
     return tissue;
+}
+
+segment::Segment segmentOf(const volume::Volume &volume, const classify::TissueClass &tissue,
+                           const segment::SegmentSet *loaded, classify::StepRunner &runner,
+                           const task::Progress &progress) {
+    segment::Segment segment;
+    if (const segment::Segment *const own =
+            loaded != nullptr ? loaded->find(tissue.segment) : nullptr) {
+        segment.category = own->category;
+        segment.type = own->type;
+    }
+    segment.name = tissue.name;
+    segment.color = glm::dvec3(tissue.color.red, tissue.color.green, tissue.color.blue);
+    segment.coverage =
+        std::make_shared<const volume::Coverage>(regionOf(volume, tissue, runner, progress));
+    segment.volumeMm3 = segment.coverage->total() * volume.lattice().cellVolumeMm3();
+    return segment;
 }
 
 } // namespace pellucid::preprocess

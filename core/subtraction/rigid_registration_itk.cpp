@@ -139,7 +139,19 @@ public:
         m_transform->SetCenter(pointOf(centre));
     }
 
+    // The search may stop too early, on a narrow ridge. A second one from there, with other
+    // samples, goes on with long steps.
     RigidTransform run() {
+        const double first = search(0);
+        const RigidTransform found = fromItk(*m_transform);
+        const double second = search(1);
+        return second < first ? fromItk(*m_transform) : found;
+    }
+
+private:
+    // From the present transform, which it improves. Returns the value of the metric; the least is
+    // the best.
+    double search(unsigned pass) {
         using Metric = itk::MattesMutualInformationImageToImageMetricv4<Image, Image>;
         using Optimizer = itk::RegularStepGradientDescentOptimizerv4<double>;
         using Scales = itk::RegistrationParameterScalesFromPhysicalShift<Metric>;
@@ -180,13 +192,14 @@ public:
         for (unsigned level = 0; level < levels; ++level)
             share[level] = level + 1 == levels ? 0.2 : 0.5;
         method->SetMetricSamplingPercentagePerLevel(share);
+        method->MetricSamplingReinitializeSeed(int(pass) + 1); // the same result each time
         method->SetNumberOfWorkUnits(itk::ThreadIdType(
             tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
         optimizer->AddObserver(itk::IterationEvent(), [&](const itk::EventObject &) {
             const double within = double(optimizer->GetCurrentIteration()) / iterations;
             const double part =
                 (double(method->GetCurrentLevel()) + std::min(within, 1.0)) / levels;
-            m_progress.report(part);
+            m_progress.report((double(pass) + part) / passes);
             if (m_progress.stopRequested())
                 optimizer->StopOptimization();
         });
@@ -204,11 +217,10 @@ public:
                         because::stepFailed("register", error.GetDescription()));
         }
         m_progress.check();
-        return fromItk(*m_transform);
+        return optimizer->GetCurrentMetricValue();
     }
 
-private:
-    static constexpr unsigned levels = 3, iterations = 200;
+    static constexpr unsigned levels = 3, iterations = 200, passes = 2;
 
     Image::Pointer m_fixed, m_moving;
     task::Progress m_progress;

@@ -16,6 +16,21 @@
     </message>
 </context>
 <context>
+    <name>DifferenceTexts</name>
+    <message>
+        <source>aligned: turned by %1°, moved by %2 mm; RMS difference %3, before %4</source>
+        <translation>已對齊：旋轉 %1°，移動 %2 mm；差異均方根 %3，之前 %4</translation>
+    </message>
+    <message>
+        <source>not aligned, although the frames of reference differ</source>
+        <translation>未對齊，但參考座標系不同</translation>
+    </message>
+    <message>
+        <source>%1 minus %2</source>
+        <translation>%1 減 %2</translation>
+    </message>
+</context>
+<context>
     <name>Dock</name>
     <message>
         <source>Collapse or expand</source>
@@ -3128,6 +3143,34 @@
         <source>Open segmentation</source>
         <translation>開啟分割檔</translation>
     </message>
+    <message>
+        <source>Su&amp;btract a volume...</source>
+        <translation>減去體積(&amp;B)...</translation>
+    </message>
+    <message>
+        <source>Save classes as segmenta&amp;tion...</source>
+        <translation>將類別存為分割檔(&amp;T)...</translation>
+    </message>
+    <message>
+        <source>There are no classes to save yet</source>
+        <translation>尚無類別可儲存</translation>
+    </message>
+    <message>
+        <source>Save classes as segmentation</source>
+        <translation>將類別存為分割檔</translation>
+    </message>
+    <message>
+        <source>DICOM segmentation (*.dcm);;Labels (*.nrrd)</source>
+        <translation>DICOM 分割檔 (*.dcm);;標籤 (*.nrrd)</translation>
+    </message>
+    <message>
+        <source>Writing %1</source>
+        <translation>正在寫入 %1</translation>
+    </message>
+    <message>
+        <source>Saved: %1; no sample belongs to %2</source>
+        <translation>已儲存：%1；沒有取樣屬於 %2</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::GraphicsCard</name>
@@ -3307,6 +3350,18 @@
     <message>
         <source>S&amp;pline</source>
         <translation>樣條(&amp;P)</translation>
+    </message>
+    <message>
+        <source>Remove the c&amp;ouch</source>
+        <translation>移除檢查床(&amp;O)</translation>
+    </message>
+    <message>
+        <source>Show the couch</source>
+        <translation>顯示檢查床</translation>
+    </message>
+    <message>
+        <source>Remove the couch</source>
+        <translation>移除檢查床</translation>
     </message>
 </context>
 <context>
@@ -4366,6 +4421,41 @@
     <message>
         <source>Remove</source>
         <translation>移除</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::SubtractionDialog</name>
+    <message>
+        <source>&amp;Align it first (rotation and shift)</source>
+        <translation>先對齊（旋轉與位移）(&amp;A)</translation>
+    </message>
+    <message>
+        <source>&amp;Show the open volume beside the difference</source>
+        <translation>在差異旁顯示開啟的體積(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Subtract a volume</source>
+        <translation>減去體積</translation>
+    </message>
+    <message>
+        <source>Subtract from %1, such as the phase before the contrast:</source>
+        <translation>從 %1 減去，例如注射顯影劑之前的時相：</translation>
+    </message>
+    <message>
+        <source>Volumes of the patient</source>
+        <translation>病患的體積</translation>
+    </message>
+    <message>
+        <source>By mutual information; takes several seconds</source>
+        <translation>以互資訊對齊，需時數秒</translation>
+    </message>
+    <message>
+        <source>Subtract</source>
+        <translation>減去</translation>
+    </message>
+    <message>
+        <source>No other volume of this patient is open or in the library.</source>
+        <translation>此病患沒有其他開啟的體積，資料庫中也沒有。</translation>
     </message>
 </context>
 <context>

@@ -24,6 +24,23 @@ namespace pellucid {
 
 using namespace test;
 
+namespace {
+
+// A plate below the head.
+volume::Volume onCouch(const volume::Volume &head) {
+    return head.visit([&](auto samples) {
+        std::vector<std::int16_t> values(samples.begin(), samples.end());
+        const volume::GridSize size = head.lattice().size();
+        for (int k = 0; k < size.k; ++k)
+            for (int j = size.j - 3; j < size.j; ++j)
+                for (int i = 0; i < size.i; ++i)
+                    values[size.offsetOf(i, j, k)] = 400;
+        return volume::Volume(head.lattice(), std::move(values), head.unit(), head.notes());
+    });
+}
+
+} // namespace
+
 class LookTest : public Workstation {
     Q_OBJECT
 private slots:
@@ -137,6 +154,45 @@ private slots:
         settle();
         QVERIFY(changed(before, projection()->picture()) < 0.001);
         takeTheLookAgain(before);
+    }
+
+    void oneCommandRemovesTheCouch() {
+        const auto lattice =
+            phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 96, 80}});
+        dicom::writeCtSeries(m_folder / "couch",
+                             onCouch(phantom::makePhantom(phantom::Kind::head, lattice)), {},
+                             dicom::TransferSyntax::explicitLittle);
+        open(QString::fromStdString((m_folder / "couch").string()));
+        auto *const command = find<QAction>("removeCouchAction");
+        const QImage with = projection()->picture();
+        command->trigger();
+        settle();
+        QVERIFY(command->isChecked());
+        const QImage without = projection()->picture();
+        QVERIFY(changed(with, without) > 0.02);
+        // The head alone is what a scan without a couch shows.
+        open(headPath());
+        command->trigger();
+        settle();
+        QVERIFY(changed(without, projection()->picture()) < 0.01);
+        command->trigger();
+        settle();
+        QVERIFY(!command->isChecked());
+        QVERIFY(document().scene().look.classes.empty());
+
+        // Classes of a preset show the couch, and again only the patient.
+        choosePreset("Bone over soft tissue");
+        const classify::Look look = document().scene().look;
+        QVERIFY(command->isChecked());
+        command->trigger();
+        settle();
+        for (const classify::TissueClass &tissue : document().scene().look.classes)
+            QVERIFY(tissue.steps.empty());
+        command->trigger();
+        settle();
+        QVERIFY(document().scene().look == look);
+        document().undoStack()->undo();
+        QVERIFY(!command->isChecked());
     }
 
     void presetsShowColoredClassesWhoseWeightsChangeThePicture() {

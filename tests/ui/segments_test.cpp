@@ -2,6 +2,8 @@
 // Segmentations in the window: opened, listed, searched, shown and hidden together, kept.
 #include "tests/ui/workstation.h"
 
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
@@ -168,7 +170,47 @@ private slots:
         QCOMPARE(document().problems().size(), std::size_t(2));
     }
 
+    void classesOfOnesOwnAreSavedAndOpenedAgain() {
+        open(headPath());
+        choosePreset("Bone over soft tissue");
+        const std::size_t classes = document().scene().look.classes.size();
+        for (const char *name : {"own.dcm", "own.nrrd"}) {
+            const QString path = QString::fromStdString((m_folder / name).string());
+            answerFileDialog(path);
+            find<QAction>("saveSegmentsAction")->trigger();
+            QTRY_VERIFY_WITH_TIMEOUT(!bench().exports.isRunning(), patienceMs);
+            for (const dicom::Skipped &problem : document().problems())
+                QFAIL(problem.reason.english().c_str());
+            QVERIFY(QFileInfo::exists(path));
+            bench().study.segments.open({path});
+            settle();
+            QCOMPARE(document().segments()->segmentations().back().segments.size(), classes);
+            // Its classes would be saved with the others.
+            document().undoStack()->undo();
+            settle();
+        }
+        const auto &saved = document().segments()->segmentations();
+        QCOMPARE(saved.size(), std::size_t(2));
+        for (std::size_t n = 0; n < classes; ++n)
+            QVERIFY(*saved[0].segments[n].coverage == *saved[1].segments[n].coverage);
+        QCOMPARE(QString::fromStdString(saved[0].segments[0].name), QString("Bone"));
+    }
+
 private:
+    // Enters a path once the dialog is open.
+    void answerFileDialog(const QString &path) {
+        auto *waiting = new QTimer(this);
+        waiting->start(20);
+        connect(waiting, &QTimer::timeout, this, [path, waiting] {
+            auto *const dialog = qobject_cast<QFileDialog *>(QApplication::activeModalWidget());
+            if (dialog == nullptr)
+                return;
+            waiting->stop();
+            waiting->deleteLater();
+            dialog->findChild<QLineEdit *>("fileNameEdit")->setText(path);
+            QMetaObject::invokeMethod(dialog, "accept");
+        });
+    }
     // Blocks of the head, as a segmentation of its study or of another one.
     QString writeBlocks(const std::string &name, int count, const std::string &study = "") {
         const volume::Volume &volume = *document().volume();

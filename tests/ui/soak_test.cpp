@@ -187,7 +187,8 @@ private slots:
         // Resident memory also has the software renderer's code and what the allocator cannot give
         // back.
         QVERIFY2(m_inUseMb < m_effort.heapGrowth * inUseBefore, "memory grows");
-        QVERIFY2(after < 1.2 * before, "resident memory grows");
+        // At rest it varies by a fifth from run to run.
+        QVERIFY2(after < 1.35 * before, "resident memory grows");
         QVERIFY2(openDescriptors() <= descriptors + 3, "descriptors stay open");
 #ifndef PELLUCID_SANITIZED // ten times slower
         // The aim is none, but a busy machine takes the processor away now and then.

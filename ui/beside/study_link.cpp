@@ -50,7 +50,9 @@ template <class F> void StudyLink::pass(F &&f) {
 }
 
 bool StudyLink::sharesUnit() const {
-    return m_leader.document.volume()->unit() == m_follower.document.volume()->unit();
+    const volume::Volume &a = *m_leader.document.volume(), &b = *m_follower.document.volume();
+    // Values without a unit that are differences are of another kind than those that are not.
+    return a.unit() == b.unit() && a.notes().isDifference == b.notes().isDifference;
 }
 
 void StudyLink::setLinked(bool isLinked) {

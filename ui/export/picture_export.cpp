@@ -17,6 +17,7 @@
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 #include "ui/document/document.h"
+#include "ui/export/capture_labels.h"
 #include "ui/export/scene_files.h"
 #include "ui/export/video_writer.h"
 #include "ui/views/mpr_view.h"
@@ -94,21 +95,10 @@ void write(const QImage &picture, PictureFormat format, const QString &path,
 
 // `seen`: the axes of the picture; `pixelMm`: the size of its pixels.
 dicom::CaptureLabels labelsOf(const Document &document, const mpr::Axes &seen, double pixelMm) {
-    const StudySource &source = document.sources().at(std::size_t(document.currentSource()));
-    dicom::CaptureLabels labels;
+    dicom::CaptureLabels labels = studyLabels(document);
     labels.pixelMm = document.volume()->notes().hasSpacing ? pixelMm : 0.0;
     if (document.volume()->notes().placed)
         labels.patientOrientation = scene::dicomOrientation(seen.right, seen.up);
-    if (!source.volume.file.isEmpty() || !source.phantom.isEmpty())
-        return labels; // a file or a phantom has no patient
-    const StudyFacts &study = source.study;
-    labels.patientId = study.patientId.toStdString();
-    labels.patientName = study.patientName.toStdString();
-    labels.birthDate = study.birthDate.toStdString();
-    labels.sex = study.sex.toStdString();
-    labels.studyUid = study.uid.toStdString();
-    labels.studyDate = study.date.toStdString();
-    labels.studyDescription = study.description.toStdString();
     return labels;
 }
 

@@ -39,6 +39,7 @@ std::optional<Session> currentSession(const Document &document) {
     session.files = source.lasting;
     session.leftOut = leftOutOf(source, document.problems());
     session.phantom = source.phantom;
+    session.difference = source.difference;
     session.key = source.digest();
     session.shown = {document.scene(), document.displayWindow(), document.crosshair(),
                      document.cut(), document.brightness()};
@@ -52,7 +53,7 @@ std::optional<Session> currentSession(const Document &document) {
 
 void resume(const Session &session, StudyOpener &opener) {
     const StudyOpener::Resumption resumption{session.key, session.shown, session.leftOut,
-                                             session.segmentations};
+                                             session.segmentations, session.difference};
     if (!session.phantom.isEmpty())
         opener.openPhantom(session.phantom, resumption);
     else

@@ -23,9 +23,10 @@ struct Session {
     /// Other files of the same folders that could not be used. Reopening reports them without
     /// reading them again.
     std::vector<dicom::Skipped> leftOut;
-    QStringList segmentations; ///< files of the segments that are loaded
-    QString phantom;           ///< name of the phantom, if the study is one
-    QString key;               ///< digest of the source
+    QStringList segmentations;              ///< files of the segments that are loaded
+    std::optional<DifferenceOf> difference; ///< of what the open volume is a difference
+    QString phantom;                        ///< name of the phantom, if the study is one
+    QString key;                            ///< digest of the source
     Continuity shown;
     /// The program that wrote the session ended normally.
     bool hasEnded = false;

@@ -100,8 +100,14 @@ QJsonObject objectOf(const Session &s) {
     QJsonArray brightness;
     if (s.shown.brightness)
         brightness = {s.shown.brightness->low, s.shown.brightness->high};
+    QJsonObject difference;
+    if (s.difference)
+        difference = {{"minuend", s.difference->minuend},
+                      {"subtrahend", s.difference->subtrahend},
+                      {"aligned", s.difference->isAligned}};
     return {
         {"schema", schema},
+        {"difference", difference},
         {"ended", s.hasEnded},
         {"files", QJsonArray::fromStringList(s.files)},
         {"left_out", leftOut},
@@ -131,6 +137,9 @@ Session fromJson(const QJsonObject &in) {
                              reasonFromLine(skipped["reason"].toString())});
     for (const QJsonValue file : in["segmentations"].toArray())
         s.segmentations << file.toString();
+    if (const QJsonObject of = in["difference"].toObject(); !of.isEmpty())
+        s.difference = {of["minuend"].toString(), of["subtrahend"].toString(),
+                        of["aligned"].toBool()};
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
     s.hasEnded = in["ended"].toBool(true); // older versions wrote at the end only

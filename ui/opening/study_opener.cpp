@@ -11,6 +11,7 @@
 #include "ui/jobs/job_runner.h"
 #include "ui/language/reasons.h"
 #include "ui/opening/segment_opener.h"
+#include "ui/studies/difference_source.h"
 #include "ui/studies/study_source.h"
 #include "ui/studies/window_presets.h"
 
@@ -181,12 +182,59 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
         m_preparer.setHeld(true);
 }
 
-std::optional<int> StudyOpener::resumedOf(const std::vector<int> &indices) const {
-    if (m_resumption)
+std::optional<int> StudyOpener::resumedOf(const std::vector<int> &indices) {
+    if (!m_resumption)
+        return std::nullopt;
+    const auto with = [&](const QString &digest) -> std::optional<int> {
         for (const int index : indices)
-            if (m_document.sources()[std::size_t(index)].digest() == m_resumption->digest)
+            if (m_document.sources()[std::size_t(index)].digest() == digest)
                 return index;
-    return std::nullopt;
+        return std::nullopt;
+    };
+    const auto &difference = m_resumption->difference;
+    if (!difference)
+        return with(m_resumption->digest);
+    const auto minuend = with(difference->minuend), subtrahend = with(difference->subtrahend);
+    if (!minuend || !subtrahend)
+        return std::nullopt;
+    // Copies: adding a source moves the others.
+    const StudySource from = m_document.sources()[std::size_t(*minuend)];
+    const StudySource what = m_document.sources()[std::size_t(*subtrahend)];
+    return addDifference(from, what, difference->isAligned);
+}
+
+int StudyOpener::addDifference(const StudySource &minuend, const StudySource &subtrahend,
+                               bool isAligned) {
+    const StudySource unnoted = differenceSource(minuend, subtrahend, isAligned, {});
+    const QString key = unnoted.key(), name = unnoted.volume.description;
+    const int present = m_document.sourceWith(key);
+    if (present >= 0 && !m_document.sources()[std::size_t(present)].isClosed)
+        return present;
+    const auto note = [this, key, name](const QString &text) {
+        // From the thread that loads. The jobs end before the opener does.
+        QMetaObject::invokeMethod(this, [this, key, name, text] {
+            const int index = m_document.sourceWith(key);
+            if (index < 0)
+                return;
+            StudySource noted = m_document.sources()[std::size_t(index)];
+            noted.volume.description = name + "; " + text;
+            if (!noted.isClosed)
+                m_document.addSources({noted});
+        });
+    };
+    return m_document.addSources({differenceSource(minuend, subtrahend, isAligned, note)}).front();
+}
+
+void StudyOpener::openDifference(const StudySource &subtrahend, bool isAligned) {
+    const int open = m_document.currentSource();
+    if (open < 0 || !m_document.volume() || m_document.isPreview())
+        return;
+    const StudySource minuend = m_document.sources()[std::size_t(open)];
+    const int index = addDifference(minuend, subtrahend, isAligned);
+    openSource(index, [this, index](const Outcome &) {
+        if (m_document.currentSource() != index) // it cannot be made, or was given up
+            m_document.closeSource(index);
+    });
 }
 
 void StudyOpener::applyResumption() {

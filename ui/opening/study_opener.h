@@ -42,12 +42,17 @@ public:
         std::vector<dicom::Skipped> leftOut;
         /// Files of segments to load for it.
         QStringList segmentations;
+        /// Set if the source is a difference, which is made again.
+        std::optional<DifferenceOf> difference = {};
     };
     void openPaths(const QStringList &paths, const std::optional<Resumption> &resumption = {},
                    const dicom::ScanOptions &options = {});
     void openPhantom(const QString &kind, const std::optional<Resumption> &resumption = {});
     /// Opens a source, unless it is open already. `onEnd` is called if the volume has to be loaded.
     void openSource(int index, JobRunner::OnEnd onEnd = {});
+    /// Opens the difference between the open volume and another one, which becomes a source of its
+    /// own. Does nothing if no volume is open.
+    void openDifference(const StudySource &subtrahend, bool isAligned);
     /// Opens another volume of the same series: look, view, window, crosshair and planes stay, and
     /// so does the former volume until the new one is loaded. `onEnd`: as in `openSource`.
     void openPhase(int index, JobRunner::OnEnd onEnd = {});
@@ -77,8 +82,9 @@ private:
     JobRunner::Work loading(const StudySource &source, const PreparedFor &wanted);
     /// Lets the preparer continue.
     void endScan();
-    /// The source among them that is to be resumed.
-    std::optional<int> resumedOf(const std::vector<int> &indices) const;
+    /// The source among them that is to be resumed, or their difference.
+    std::optional<int> resumedOf(const std::vector<int> &indices);
+    int addDifference(const StudySource &minuend, const StudySource &subtrahend, bool isAligned);
     void applyResumption();
     void keepCurrent();
     /// Reopens the previous study after a load that failed or was cancelled.

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,12 @@
 #include "ui/studies/study_facts.h"
 
 namespace pellucid::ui {
+
+/// Which sources a difference was made of, by their digests.
+struct DifferenceOf {
+    QString minuend, subtrahend;
+    bool isAligned = false;
+};
 
 /// A volume that can be shown: its facts and how to load it. A value.
 struct StudySource {
@@ -25,6 +32,8 @@ struct StudySource {
     QStringList lasting;
     /// Segmentations of its study: paths and titles.
     std::vector<std::pair<QString, QString>> segmentations;
+    /// Set for a difference of two volumes.
+    std::optional<DifferenceOf> difference;
     /// Thread-safe; see dicom::loadVolume.
     std::function<dicom::LoadedVolume(const task::Progress &, const dicom::LoadObserver &)> load;
     /// Thread-safe; for volumes whose facts have no thumbnail.

@@ -10,9 +10,11 @@
 #include "ui/document/commands.h"
 #include "ui/export/export_dialog.h"
 #include "ui/export/scene_files.h"
+#include "ui/export/segment_writer.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/views/projection_view.h"
 #include "ui/window/import_dialog.h"
+#include "ui/window/subtraction_dialog.h"
 #include "ui/window/workbench.h"
 
 namespace pellucid::ui {
@@ -33,9 +35,14 @@ FileMenu::FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &
     })->setIconText(tr("Import"));
     QAction *const segmentation = add(menu, tr("Open se&gmentation..."), "openSegmentationAction",
                                       {}, [this] { chooseSegmentations(); });
-    const auto enable = [this, segmentation] {
+    QAction *const subtraction = add(menu, tr("Su&btract a volume..."), "subtractAction", {},
+                                     [this] { chooseSubtrahend(); });
+    const auto enable = [this, segmentation, subtraction] {
         const Document &document = m_bench.study.document;
-        segmentation->setEnabled(document.volume() && !document.isPreview());
+        const bool isOpen = document.volume() && !document.isPreview();
+        segmentation->setEnabled(isOpen);
+        subtraction->setEnabled(isOpen && !document.volume()->notes().isDifference &&
+                                document.volume()->notes().placed);
     };
     connect(&bench.study.document, &Document::volumeChanged, this, enable);
     enable();
@@ -45,6 +52,8 @@ FileMenu::FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &
     menu.addSeparator();
     add(menu, tr("Open &scene..."), "openSceneAction", {}, [this] { openScene(); });
     add(menu, tr("Save s&cene as..."), "saveSceneAction", {}, [this] { saveScene(); });
+    add(menu, tr("Save classes as segmenta&tion..."), "saveSegmentsAction", {},
+        [this] { saveSegments(); });
     add(menu, tr("Save p&icture as..."), "savePictureAction", QKeySequence("F12"), [this] {
         savePicture();
     })->setIconText(tr("Picture"));
@@ -75,6 +84,23 @@ void FileMenu::chooseFiles() {
 
 void FileMenu::chooseSegmentations() {
     m_bench.study.segments.open(askForFiles(&m_window, tr("Open segmentation")));
+}
+
+void FileMenu::chooseSubtrahend() {
+    const Document &document = m_bench.study.document;
+    const int open = document.currentSource();
+    if (open < 0)
+        return;
+    const StudySource minuend = document.sources()[std::size_t(open)];
+    auto *dialog =
+        new SubtractionDialog(minuend, subtrahends(document, m_bench.library), &m_window);
+    connect(dialog, &SubtractionDialog::chosen, this,
+            [this, minuend](const StudySource &subtrahend, bool isAligned, bool showsMinuend) {
+                m_bench.study.opener.openDifference(subtrahend, isAligned);
+                if (showsMinuend)
+                    emit besideRequested(minuend);
+            });
+    dialog->open();
 }
 
 void FileMenu::chooseFolder() {
@@ -156,6 +182,38 @@ void FileMenu::saveScene() {
         m_bench.study.document.requireOther({path.toStdString()});
         writeSceneFile(path, m_panes.projection->sceneOfPicture());
         reportSaved(path);
+    });
+}
+
+void FileMenu::saveSegments() {
+    const Document &document = m_bench.study.document;
+    if (!document.volume() || document.isPreview() ||
+        classify::visibleClasses(document.scene().look).empty()) {
+        emit messageShown(tr("There are no classes to save yet"));
+        return;
+    }
+    const QString path =
+        askForSavePath(&m_window, tr("Save classes as segmentation"), "segmentation.dcm",
+                       tr("DICOM segmentation (*.dcm);;Labels (*.nrrd)"));
+    if (path.isEmpty())
+        return;
+    attempt([&] {
+        m_bench.exports.start(
+            tr("Writing %1").arg(QFileInfo(path).fileName()),
+            [this, path, write = segmentWriter(document, path)](const Job &job) {
+                const QStringList empty = write(job.progress());
+                job.deliver([this, path, empty] {
+                    reportSaved(path);
+                    if (!empty.isEmpty())
+                        emit messageShown(tr("Saved: %1; no sample belongs to %2")
+                                              .arg(QFileInfo(path).fileName(), empty.join(", ")));
+                });
+            },
+            [this, path](const Outcome &outcome) {
+                if (outcome.kind == Outcome::Kind::failed)
+                    emit failed(*outcome.reason, outcome.path);
+            },
+            path);
     });
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/task/reason.h"
 #include "ui/export/picture_export.h"
+#include "ui/studies/study_source.h"
 
 class QMenu;
 class QWidget;
@@ -25,11 +26,13 @@ public:
     void chooseFiles();
     void chooseFolder();
     void chooseSegmentations();
+    void chooseSubtrahend();
     /// Asks how to import and, if there are no paths, what.
     void importPaths(const QStringList &paths);
     void exportMeasurements();
 
 signals:
+    void besideRequested(const pellucid::ui::StudySource &source);
     void pathsChosen(const QStringList &paths);
     void phantomChosen(const QString &kind);
     void recentForgotten();
@@ -43,6 +46,7 @@ private:
     void reportSaved(const QString &path);
     void exportPicture();
     void saveScene();
+    void saveSegments();
     void openScene();
     /// Runs `what` and reports a task::Error that it throws.
     void attempt(const std::function<void()> &what);

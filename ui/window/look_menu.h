@@ -35,7 +35,7 @@ private:
 
     Document &m_document;
     QActionGroup *m_reconstructions;
-    QAction *m_film, *m_cue;
+    QAction *m_film, *m_cue, *m_couch;
     QList<QAction *> m_shadingActions;
     QMenu *m_windowMenu;
 };

@@ -177,6 +177,7 @@ QAction *MainWindow::command(QMenu &menu, const QString &text, const char *name,
 void MainWindow::createFileMenu() {
     m_file = new FileMenu(*menuBar()->addMenu(tr("&File")), *this, m_bench, {m_mpr, m_projection});
     connect(m_file, &FileMenu::pathsChosen, this, &MainWindow::openPaths);
+    connect(m_file, &FileMenu::besideRequested, m_pair, &StudyPair::openBeside);
     connect(m_file, &FileMenu::phantomChosen, this, &MainWindow::openPhantom);
     connect(m_file, &FileMenu::failed, this, &MainWindow::report);
     if (const auto *const application = qobject_cast<Application *>(qApp))
@@ -263,6 +264,7 @@ void MainWindow::createStatusBar() {
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_readout);
     statusBar()->addWidget(new JobStrip(m_bench.study.jobs, "job"));
+    statusBar()->addWidget(new JobStrip(m_bench.exports, "export"));
     statusBar()->addPermanentWidget(m_engine);
     connect(&m_bench.study.jobs, &JobRunner::failed, this, &MainWindow::reportLoad);
     connect(m_projection, &ProjectionView::engineDescribed, this, [this](const QString &text) {

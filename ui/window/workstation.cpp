@@ -64,6 +64,9 @@ Workstation::Workstation(std::optional<EngineChoice> engine)
 
 Workstation::~Workstation() {
     keepWhatIsOpen(true);
+    // While the timer still exists: a study beside that closes resizes the panes, which changes the
+    // scene.
+    m_window.reset();
 }
 
 void Workstation::keepWhatIsOpen(bool hasEnded) {

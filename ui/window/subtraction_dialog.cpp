@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/subtraction_dialog.h"
+
+#include <utility>
+
+#include <QCheckBox>
+#include <QDialogButtonBox>
+#include <QLabel>
+#include <QListWidget>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "ui/document/document.h"
+#include "ui/library/study_library.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// A patient with more studies is found by a narrower search first.
+constexpr int maxStudies = 100;
+
+} // namespace
+
+std::vector<StudySource> subtrahends(const Document &document, StudyLibrary &library) {
+    const auto &sources = document.sources();
+    const int open = document.currentSource();
+    if (open < 0)
+        return {};
+    const StudySource &minuend = sources[std::size_t(open)];
+    std::vector<StudySource> found;
+    for (int n = 0; n < int(sources.size()); ++n) {
+        const StudySource &other = sources[std::size_t(n)];
+        if (n != open && !other.isClosed && other.volume.placed && !other.difference &&
+            other.study.patientKey() == minuend.study.patientKey())
+            found.push_back(other);
+    }
+    if (!minuend.study.hasPatient())
+        return found; // volume files of different patients are alike
+    const StudyPage page =
+        library.find(patientText(minuend.study), StudyOrder::newestFirst, 0, maxStudies);
+    for (const StudyFacts &study : page.studies) {
+        if (study.patientKey() != minuend.study.patientKey())
+            continue;
+        for (const VolumeFacts &volume : library.volumes(study))
+            if (volume.placed && document.sourceWith(study.key() + "\n" + volume.key()) < 0)
+                found.push_back(librarySource(study, volume, library.files(study, volume)));
+    }
+    return found;
+}
+
+SubtractionDialog::SubtractionDialog(const StudySource &minuend,
+                                     std::vector<StudySource> subtrahends, QWidget *parent)
+    : QDialog(parent), m_subtrahends(std::move(subtrahends)), m_list(new QListWidget),
+      m_align(new QCheckBox(tr("&Align it first (rotation and shift)"))),
+      m_beside(new QCheckBox(tr("&Show the open volume beside the difference"))) {
+    setObjectName("subtractionDialog");
+    setWindowTitle(tr("Subtract a volume"));
+    setAttribute(Qt::WA_DeleteOnClose);
+    setMinimumWidth(460);
+    auto *what = new QLabel(tr("Subtract from %1, such as the phase before the contrast:")
+                                .arg(seriesText(minuend.volume)));
+    what->setWordWrap(true);
+    m_list->setObjectName("subtrahendList");
+    m_list->setAccessibleName(tr("Volumes of the patient"));
+    for (const StudySource &source : m_subtrahends) {
+        QString text = seriesText(source.volume);
+        if (source.study.key() != minuend.study.key())
+            text += ", " + studyText(source.study);
+        auto *item = new QListWidgetItem(text, m_list);
+        item->setToolTip(sizeText(source.volume));
+    }
+    m_align->setObjectName("alignBox");
+    m_align->setToolTip(tr("By mutual information; takes several seconds"));
+    m_beside->setObjectName("minuendBesideBox");
+    auto *buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+    m_subtract = buttons->addButton(tr("Subtract"), QDialogButtonBox::AcceptRole);
+    m_subtract->setObjectName("subtractNowButton");
+    m_subtract->setEnabled(!m_subtrahends.empty());
+    connect(buttons, &QDialogButtonBox::accepted, this, &SubtractionDialog::accept);
+    connect(buttons, &QDialogButtonBox::rejected, this, &SubtractionDialog::reject);
+    connect(m_list, &QListWidget::itemActivated, this, &SubtractionDialog::accept);
+    auto *layout = new QVBoxLayout(this);
+    layout->setSpacing(10);
+    layout->addWidget(what);
+    layout->addWidget(m_list);
+    if (m_subtrahends.empty()) {
+        auto *none = new QLabel(tr("No other volume of this patient is open or in the library."));
+        none->setObjectName("noSubtrahend");
+        none->setWordWrap(true);
+        layout->addWidget(none);
+    } else {
+        m_list->setCurrentRow(0);
+    }
+    layout->addWidget(m_align);
+    layout->addWidget(m_beside);
+    layout->addWidget(buttons);
+}
+
+void SubtractionDialog::accept() {
+    const int row = m_list->currentRow();
+    if (row < 0)
+        return;
+    emit chosen(m_subtrahends[std::size_t(row)], m_align->isChecked(), m_beside->isChecked());
+    QDialog::accept();
+}
+
+} // namespace pellucid::ui
