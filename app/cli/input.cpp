@@ -265,15 +265,13 @@ void subtractFrom(Input &input, const InputOptions &options,
         const volume::Volume &a = input.loaded.volume, &b = subtrahend.loaded.volume;
         if (input.labels.patientId != subtrahend.labels.patientId)
             warn("--subtract: the two volumes have different patient IDs");
-        subtraction::RigidTransform transform;
-        if (options.alignment == "rigid") {
-            input.registration = subtraction::registerRigidly(a, b, progress);
-            transform = input.registration->toMoving;
-        } else if (a.notes().frameOfReferenceUid != b.notes().frameOfReferenceUid) {
+        const subtraction::Subtraction made =
+            subtraction::subtract(a, b, options.alignment == "rigid", progress);
+        if (made.needsAlignment)
             warn("--subtract: the two volumes have different frames of reference; --register rigid "
                  "aligns them");
-        }
-        input.loaded.volume = subtraction::difference(a, b, transform, progress);
+        input.registration = made.registration;
+        input.loaded.volume = made.difference;
         input.scanMs += subtrahend.scanMs;
         input.loadMs += subtrahend.loadMs;
     } catch (const Error &error) {

@@ -64,8 +64,7 @@ private:
     FieldWindow m_window;
     Mixture m_mixture;
     StepRunner *m_runner;
-    /// Of a sum, until they are taken.
-    std::vector<DensityField> m_channels;
+    std::vector<DensityField> m_channels; ///< of the sum, until each is taken
 };
 
 } // namespace pellucid::classify

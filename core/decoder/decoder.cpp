@@ -14,7 +14,7 @@
 
 #include "core/decoder/child.h"
 #include "core/files/user_folders.h"
-#include "core/task/error.h"
+#include "core/task/naming.h"
 
 namespace pellucid::decoder {
 
@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
+using task::naming;
 
 constexpr const char *programName = "pellucid-decode";
 
@@ -64,17 +65,6 @@ void checkStart(const OpenFile &file, const fs::path &path) {
         throw Error(ErrorCode::unusable, because::isNotDicom, path);
 }
 
-// Calls f and adds the path to its errors.
-template <class F> auto naming(const fs::path &path, F &&f) {
-    try {
-        return f();
-    } catch (const Error &error) {
-        if (!error.path().empty())
-            throw;
-        throw Error(error.code(), error.reason(), path);
-    }
-}
-
 std::uint64_t sampleCount(const InstanceHeader &h) {
     std::uint64_t samples = 0;
     if (h.rows < 0 || h.columns < 0 ||
@@ -110,24 +100,12 @@ bool looksLikeDicom(std::span<const std::byte> start) {
     return (little && byte(3) == 0) || (big && byte(2) == 0);
 }
 
-DecodedFile::DecodedFile(InstanceHeader h, std::span<const std::uint16_t> s,
-                         std::unique_ptr<Child> child, Decoder &decoder)
-    : header(std::move(h)), samples(s), m_child(std::move(child)), m_decoder(&decoder) {}
+HeldDecoder::HeldDecoder(std::unique_ptr<Child> child, Decoder &decoder)
+    : m_child(std::move(child)), m_decoder(&decoder) {}
 
-DecodedFile::DecodedFile(DecodedFile &&other) noexcept = default;
+HeldDecoder::HeldDecoder(HeldDecoder &&other) noexcept = default;
 
-DecodedFile::~DecodedFile() {
-    if (m_child)
-        m_decoder->release(std::move(m_child));
-}
-
-DecodedSegmentation::DecodedSegmentation(SegmentationHeader h, std::span<const std::byte> p,
-                                         std::unique_ptr<Child> child, Decoder &decoder)
-    : header(std::move(h)), pixels(p), m_child(std::move(child)), m_decoder(&decoder) {}
-
-DecodedSegmentation::DecodedSegmentation(DecodedSegmentation &&other) noexcept = default;
-
-DecodedSegmentation::~DecodedSegmentation() {
+HeldDecoder::~HeldDecoder() {
     if (m_child)
         m_decoder->release(std::move(m_child));
 }
@@ -240,7 +218,7 @@ DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress)
             samples = {reinterpret_cast<const std::uint16_t *>(answer.data.data()), count};
             return h;
         });
-        return DecodedFile(std::move(header), samples, std::move(child), *this);
+        return DecodedFile{std::move(header), samples, {std::move(child), *this}};
     });
 }
 
@@ -263,7 +241,7 @@ DecodedSegmentation Decoder::segmentation(const fs::path &path, const task::Prog
             pixels = answer.data;
             return h;
         });
-        return DecodedSegmentation(std::move(header), pixels, std::move(child), *this);
+        return DecodedSegmentation{std::move(header), pixels, {std::move(child), *this}};
     });
 }
 

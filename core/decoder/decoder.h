@@ -19,41 +19,35 @@ namespace pellucid::decoder {
 
 class Child;
 
-/// A decoded file. Its decoder is not used for other files while this object exists.
-class DecodedFile {
+/// The process that holds what it has decoded. It reads no other file while this object exists.
+class HeldDecoder {
 public:
-    DecodedFile(InstanceHeader header, std::span<const std::uint16_t> samples,
-                std::unique_ptr<Child> child, class Decoder &decoder);
-    ~DecodedFile();
-    DecodedFile(DecodedFile &&other) noexcept;
-
-    InstanceHeader header;
-    /// As in DecodedImage. A compromised decoder may change them while they are read, so read each
-    /// sample only once.
-    std::span<const std::uint16_t> samples;
+    HeldDecoder(std::unique_ptr<Child> child, class Decoder &decoder);
+    ~HeldDecoder();
+    HeldDecoder(HeldDecoder &&other) noexcept;
 
 private:
     std::unique_ptr<Child> m_child;
     class Decoder *m_decoder;
 };
 
-/// A decoded segmentation. Its decoder is not used for other files while this object exists.
-class DecodedSegmentation {
-public:
-    DecodedSegmentation(SegmentationHeader header, std::span<const std::byte> pixels,
-                        std::unique_ptr<Child> child, class Decoder &decoder);
-    ~DecodedSegmentation();
-    DecodedSegmentation(DecodedSegmentation &&other) noexcept;
+/// A decoded file.
+struct DecodedFile {
+    InstanceHeader header;
+    /// As in DecodedImage. A compromised decoder may change them while they are read, so read each
+    /// sample only once.
+    std::span<const std::uint16_t> samples;
+    HeldDecoder decoder;
+};
 
+/// A decoded segmentation.
+struct DecodedSegmentation {
     SegmentationHeader header;
     /// *Shape*: frames x rows x columns, of a binary segmentation a bit each, the lowest of a byte
     /// first, without a gap between rows or frames; of others 16-bit values. A compromised decoder
     /// may change them while they are read.
     std::span<const std::byte> pixels;
-
-private:
-    std::unique_ptr<Child> m_child;
-    class Decoder *m_decoder;
+    HeldDecoder decoder;
 };
 
 /// An RT structure set. *Shape* of the points: of every contour of every structure, in order.
@@ -120,8 +114,7 @@ public:
     int confinement();
 
 private:
-    friend class DecodedFile;
-    friend class DecodedSegmentation;
+    friend class HeldDecoder;
     std::unique_ptr<Child> acquire(const task::Progress &progress);
     std::unique_ptr<Child> startChild(const task::Progress &progress) const;
     void release(std::unique_ptr<Child> child);

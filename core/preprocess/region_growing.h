@@ -14,7 +14,7 @@ namespace pellucid::preprocess {
 Mask connected(const volume::GridSize &size, const Mask &mask,
                const std::vector<volume::VoxelIndex> &seeds, const task::Progress &progress = {});
 
-/// What grows from its seeds: the samples with values from `low` to `high` that are connected with
+/// A region grown from seeds: the samples with values from `low` to `high` that are connected with
 /// them.
 struct Growth {
     std::vector<volume::VoxelIndex> seeds;

@@ -3,22 +3,16 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
-#include <limits>
 #include <list>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <variant>
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "core/preprocess/content_digest.h"
-#include "core/preprocess/edges.h"
-#include "core/preprocess/filters.h"
+#include "core/preprocess/step_result.h"
 #include "core/segment/coverages.h"
 #include "core/task/error.h"
 
@@ -27,15 +21,11 @@ namespace pellucid::preprocess {
 namespace {
 
 using classify::ClassSamples;
-using classify::DensityKind;
 using classify::Region;
 using classify::Step;
-using classify::StepKind;
 using classify::TissueClass;
-using Regions = std::shared_ptr<const std::vector<Region>>;
 using SharedCoverage = std::shared_ptr<const volume::Coverage>;
-// The result of a step: values or regions, by its effect; or a segment on another lattice or with
-// other edges.
+// What is kept: the result of a step, or a segment on another lattice or with other edges.
 using Outcome = std::variant<volume::Volume, Regions, SharedCoverage>;
 
 std::string geometryText(const volume::Lattice &l) {
@@ -51,206 +41,6 @@ std::string identity(const volume::Volume &volume) {
     return fmt::format("{} {} {}", samples, geometryText(volume.lattice()), int(volume.unit()));
 }
 
-bool isMostlyIn(const volume::Coverage &coverage, volume::VoxelIndex n) {
-    return 2 * coverage.at(n) >= volume::Coverage::whole;
-}
-
-// The samples whose membership of a class is at least a half after the steps so far.
-Mask belonging(const TissueClass &tissue, const ClassSamples &now) {
-    const volume::GridSize size = now.values.lattice().size();
-    Mask mask(size.count());
-    now.values.visit([&](auto samples) {
-        tbb::parallel_for(0, size.k, [&](int k) {
-            for (int j = 0; j < size.j; ++j)
-                for (int i = 0; i < size.i; ++i) {
-                    const std::size_t n = size.offsetOf(i, j, k);
-                    const Region where = now.regions ? (*now.regions)[n] : Region::inside;
-                    const bool isCovered = !now.coverage || isMostlyIn(*now.coverage, {i, j, k});
-                    mask[n] =
-                        where == Region::filled || (where == Region::inside && isCovered &&
-                                                    tissue.membership(double(samples[n])) >= 0.5);
-                }
-        });
-    });
-    return mask;
-}
-
-// The regions after a step has kept a part of the class: the part, and the rim around it in which
-// membership fades. Samples that were outside stay outside, and filled gaps stay filled.
-std::vector<Region> partOf(const volume::Lattice &lattice, const Mask &before, const Mask &kept,
-                           const Regions &former) {
-    const volume::GridSize size = lattice.size();
-    std::vector<Region> regions(kept.size(), Region::outside);
-    tbb::parallel_for(0, size.k, [&](int k) {
-        for (int j = 0; j < size.j; ++j)
-            for (int i = 0; i < size.i; ++i) {
-                const std::size_t n = size.offsetOf(i, j, k);
-                const Region was = former ? (*former)[n] : Region::inside;
-                bool touches = kept[n] != 0;
-                if (!touches && before[n] == 0 && was != Region::outside)
-                    for (int z = std::max(k - 1, 0); z <= std::min(k + 1, size.k - 1); ++z)
-                        for (int y = std::max(j - 1, 0); y <= std::min(j + 1, size.j - 1); ++y)
-                            for (int x = std::max(i - 1, 0); x <= std::min(i + 1, size.i - 1); ++x)
-                                touches = touches || kept[size.offsetOf(x, y, z)] != 0;
-                if (touches)
-                    regions[n] = was;
-            }
-    });
-    return regions;
-}
-
-Regions shared(std::vector<Region> regions) {
-    return std::make_shared<const std::vector<Region>>(std::move(regions));
-}
-
-Regions insideOf(const Mask &mask) {
-    std::vector<Region> regions(mask.size());
-    std::transform(mask.begin(), mask.end(), regions.begin(),
-                   [](std::uint8_t m) { return m != 0 ? Region::inside : Region::outside; });
-    return shared(std::move(regions));
-}
-
-// The regions whose values fulfil a condition that does not depend on the class.
-template <class F> Regions insideWhere(const volume::Volume &values, const F &holds) {
-    Mask mask(values.lattice().size().count());
-    values.visit([&](auto samples) {
-        for (std::size_t n = 0; n < mask.size(); ++n)
-            mask[n] = holds(double(samples[n]));
-    });
-    return insideOf(mask);
-}
-
-// The lowest 16-bit value has no opposite.
-volume::Volume negated(const volume::Volume &values) {
-    return values.visit([&](auto samples) {
-        using T = std::remove_cv_t<typename decltype(samples)::element_type>;
-        std::vector<T> opposite(samples.size());
-        std::transform(samples.begin(), samples.end(), opposite.begin(), [](T value) {
-            if constexpr (std::is_same_v<T, std::int16_t>)
-                return T(std::min(-int(value), int(std::numeric_limits<T>::max())));
-            else
-                return -value;
-        });
-        return volume::Volume(values.lattice(), std::move(opposite), values.unit(), values.notes());
-    });
-}
-
-volume::Volume smoothGradient(const volume::Volume &values, double sigmaMm,
-                              const task::Progress &progress) {
-    return gradientMagnitude(sigmaMm > 0.0 ? gaussian(values, sigmaMm, progress.part(0.0, 0.8))
-                                           : values,
-                             progress.part(0.8, 1.0));
-}
-
-// The regions before a closing, with the gaps that it filled.
-Regions withFilled(const Regions &before, const Mask &now, const Mask &closed) {
-    std::vector<Region> regions =
-        before ? *before : std::vector<Region>(closed.size(), Region::inside);
-    for (std::size_t n = 0; n < closed.size(); ++n)
-        if (closed[n] != 0 && now[n] == 0)
-            regions[n] = Region::filled;
-    return shared(std::move(regions));
-}
-
-// The result of a step on a class after the steps before it.
-Outcome outcomeOf(const Step &step, const TissueClass &tissue, const ClassSamples &before,
-                  const task::Progress &progress) {
-    const volume::Volume &values = before.values;
-    const volume::Lattice &lattice = values.lattice();
-    const auto given = [&](const char *parameter) { return step.at(parameter); };
-    const auto now = [&] { return belonging(tissue, before); };
-    const auto part = [&](const Mask &all, const Mask &kept) {
-        return shared(partOf(lattice, all, kept, before.regions));
-    };
-    switch (step.kind) {
-    case StepKind::gaussian:
-        return gaussian(values, given("sigma_mm"), progress);
-    case StepKind::median:
-        return median(values, given("radius_mm"), progress);
-    case StepKind::diffusion:
-        return diffusion(values, int(given("iterations")), given("conductance"), progress);
-    case StepKind::gradient:
-        return smoothGradient(values, given("sigma_mm"), progress);
-    case StepKind::negate:
-        return negated(values);
-    case StepKind::threshold:
-        return insideWhere(values, [low = given("low"), high = given("high")](double value) {
-            return value >= low && value <= high;
-        });
-    case StepKind::edges: {
-        const CannyOptions options{given("sigma_mm"), given("low"), given("high")};
-        return insideOf(given("itk") == 1.0 ? cannyEdgesByItk(values, options, progress)
-                                            : cannyEdges(values, options, progress));
-    }
-    case StepKind::binarise:
-        return insideWhere(values, [from = given("from")](double value) { return value >= from; });
-    case StepKind::opening: {
-        const Mask all = now();
-        const auto open = given("itk") == 1.0 ? openingByItk : opening;
-        return part(all, open(lattice, all, given("radius_mm"), progress));
-    }
-    case StepKind::closing: {
-        const Mask all = now();
-        const auto close = given("itk") == 1.0 ? closingByItk : closing;
-        return withFilled(before.regions, all, close(lattice, all, given("radius_mm"), progress));
-    }
-    case StepKind::largestComponent: {
-        const Mask all = now();
-        return part(all, largestPart(lattice, all, given("share"), progress));
-    }
-    case StepKind::body:
-        return insideOf(body(values, given("margin_mm"), progress));
-    case StepKind::skin:
-        return insideOf(skin(values, given("depth_mm"), given("margin_mm"), progress));
-    }
-    std::abort(); // the switch handles every kind
-}
-
-// Whether the result of a step depends on the class, not only on the values.
-bool dependsOnClass(StepKind kind) {
-    switch (kind) {
-    case StepKind::opening:
-    case StepKind::closing:
-    case StepKind::largestComponent:
-        return true;
-    case StepKind::gaussian:
-    case StepKind::median:
-    case StepKind::diffusion:
-    case StepKind::gradient:
-    case StepKind::negate:
-    case StepKind::threshold:
-    case StepKind::edges:
-    case StepKind::binarise:
-    case StepKind::body:
-    case StepKind::skin:
-        break;
-    }
-    return false;
-}
-
-// How a class is shown after a step, if the step changes that.
-std::optional<DensityKind> densityAfter(StepKind kind) {
-    switch (kind) {
-    case StepKind::gradient:
-        return DensityKind::range;
-    case StepKind::edges:
-    case StepKind::binarise:
-        return DensityKind::one;
-    case StepKind::gaussian:
-    case StepKind::median:
-    case StepKind::diffusion:
-    case StepKind::negate:
-    case StepKind::threshold:
-    case StepKind::opening:
-    case StepKind::closing:
-    case StepKind::largestComponent:
-    case StepKind::body:
-    case StepKind::skin:
-        break;
-    }
-    return std::nullopt;
-}
-
 // The intersection; a gap that either has filled is filled.
 Regions intersection(const Regions &a, const Regions &b) {
     if (!a)
@@ -260,7 +50,7 @@ Regions intersection(const Regions &a, const Regions &b) {
         joined[n] = (*a)[n] == Region::outside || (*b)[n] == Region::outside
                         ? Region::outside
                         : std::max((*a)[n], (*b)[n]);
-    return shared(std::move(joined));
+    return std::make_shared<const std::vector<Region>>(std::move(joined));
 }
 
 } // namespace
@@ -357,7 +147,10 @@ private:
             const double count = double(m_tissue.steps.size());
             const task::Progress part = progress.part(double(n) / count, double(n + 1) / count);
             const std::string text = " | " + classify::stepText(step);
-            const auto make = [&] { return outcomeOf(step, m_tissue, m_now, part); };
+            const auto make = [&] {
+                return std::visit([](auto made) { return Outcome(std::move(made)); },
+                                  resultOf(step, m_tissue, m_now, part));
+            };
             m_now.density = densityAfter(step.kind).value_or(m_now.density);
             if (classify::describe(step.kind).effect == classify::StepEffect::values) {
                 valuesKey += text;
@@ -415,7 +208,7 @@ private:
         std::transform(regions.begin(), regions.end(), kept.begin(), [](Region was) {
             return was == Region::filled ? Region::filled : Region::inside;
         });
-        m_now.regions = shared(std::move(kept));
+        m_now.regions = std::make_shared<const std::vector<Region>>(std::move(kept));
     }
 
     std::uint8_t shareOf(Region where, volume::VoxelIndex n) const {

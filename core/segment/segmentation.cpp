@@ -14,7 +14,7 @@
 #include "core/decoder/read_volume_file.h"
 #include "core/segment/contour_masks.h"
 #include "core/segment/stored_masks.h"
-#include "core/task/error.h"
+#include "core/task/naming.h"
 #include "core/volume/volume_file.h"
 
 namespace pellucid::segment {
@@ -29,6 +29,7 @@ using decoder::SegmentationKind;
 using decoder::SegmentDescription;
 using task::Error;
 using task::ErrorCode;
+using task::naming;
 using volume::Coverage;
 using volume::Lattice;
 using volume::Volume;
@@ -244,17 +245,6 @@ Segmentation load(const fs::path &path, const Volume &volume, const task::Progre
     if (isStructureSet(header))
         return loadStructureSet(path, volume, progress);
     throw Error(ErrorCode::unusable, because::isNoSegmentation);
-}
-
-// Calls f and adds the path to its errors.
-template <class F> auto naming(const fs::path &path, F &&f) {
-    try {
-        return f();
-    } catch (const Error &error) {
-        if (!error.path().empty())
-            throw;
-        throw Error(error.code(), error.reason(), path);
-    }
 }
 
 } // namespace

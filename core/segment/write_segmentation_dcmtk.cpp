@@ -180,7 +180,7 @@ private:
         dicom::put(*code, DCM_CodeMeaning, meaning);
     }
 
-    // What all frames have in common, and what tells them apart.
+    // Writes what all frames share, and what distinguishes each.
     void putGeometry() {
         FGPixelMeasures measures;
         require(measures.setPixelSpacing(

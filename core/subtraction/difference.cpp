@@ -24,7 +24,7 @@ using volume::GridSize;
 using volume::Lattice;
 using volume::Volume;
 
-// Positions in samples are rounded: a sample on the border is still inside.
+// Rounding may move a sample from the border to just outside it.
 constexpr double borderTolerance = 1e-4;
 
 Volume labelled(const Lattice &lattice, auto samples, const Volume &minuend,
@@ -136,6 +136,15 @@ Volume difference(const Volume &minuend, const Volume &subtrahend,
             throw task::Error(task::ErrorCode::unusable, because::volumesDoNotOverlap);
         return labelled(lattice, std::move(values), minuend, subtrahend);
     });
+}
+
+Subtraction subtract(const Volume &minuend, const Volume &subtrahend, bool isAligned,
+                     const task::Progress &progress) {
+    if (!isAligned)
+        return {difference(minuend, subtrahend, {}, progress), std::nullopt,
+                minuend.notes().frameOfReferenceUid != subtrahend.notes().frameOfReferenceUid};
+    const Registration found = registerRigidly(minuend, subtrahend, progress.part(0.0, 0.8));
+    return {difference(minuend, subtrahend, found.toMoving, progress.part(0.8, 1.0)), found, false};
 }
 
 } // namespace pellucid::subtraction

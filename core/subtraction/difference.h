@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "core/subtraction/rigid_registration.h"
 
 namespace pellucid::subtraction {
@@ -19,5 +21,17 @@ std::vector<float> resampledOnto(const volume::Lattice &lattice, const volume::V
 volume::Volume difference(const volume::Volume &minuend, const volume::Volume &subtrahend,
                           const RigidTransform &toSubtrahend = {},
                           const task::Progress &progress = {});
+
+/// A difference and how it was made.
+struct Subtraction {
+    volume::Volume difference;
+    std::optional<Registration> registration; ///< set if the subtrahend was aligned
+    /// Not aligned, although the frames of reference differ: the volumes may not fit.
+    bool needsAlignment = false;
+};
+
+/// `difference`, after `registerRigidly` if the subtrahend is to be aligned. *Throws* as both.
+Subtraction subtract(const volume::Volume &minuend, const volume::Volume &subtrahend,
+                     bool isAligned, const task::Progress &progress = {});
 
 } // namespace pellucid::subtraction

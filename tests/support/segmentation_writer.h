@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/volume/lattice.h"
+#include "core/volume/volume.h"
 #include "tests/support/dicom_writer.h"
 
 namespace pellucid::test {
@@ -177,6 +177,21 @@ inline DicomWriter structureSetFile(const std::vector<StructureKnobs> &structure
     w.putSequence({0x3006, 0x0039}, contours);
     w.putSequence({0x3006, 0x0080}, observations);
     return w;
+}
+
+/// A volume of the study that the files belong to.
+inline volume::Volume volumeOn(const volume::Lattice &lattice) {
+    volume::VolumeNotes notes;
+    notes.studyUid = knobsRoot + "2";
+    notes.frameOfReferenceUid = knobsRoot + "4";
+    return volume::Volume(lattice, std::vector<std::int16_t>(lattice.size().count(), 100),
+                          volume::ValueUnit::none, notes);
+}
+
+inline volume::Lattice tilted(const volume::GridSize &size) {
+    return volume::Lattice::make(
+        size, {glm::dvec3(-10.0, 20.0, 30.0)},
+        {glm::dvec3(0.75, 0.0, 0.0), glm::dvec3(0.0, 0.6, -0.45), glm::dvec3(0.0, 0.0, 2.5)});
 }
 
 } // namespace pellucid::test

@@ -205,24 +205,22 @@ std::optional<int> StudyOpener::resumedOf(const std::vector<int> &indices) {
 
 int StudyOpener::addDifference(const StudySource &minuend, const StudySource &subtrahend,
                                bool isAligned) {
-    const StudySource unnoted = differenceSource(minuend, subtrahend, isAligned, {});
-    const QString key = unnoted.key(), name = unnoted.volume.description;
-    const int present = m_document.sourceWith(key);
-    if (present >= 0 && !m_document.sources()[std::size_t(present)].isClosed)
-        return present;
-    const auto note = [this, key, name](const QString &text) {
-        // From the thread that loads. The jobs end before the opener does.
-        QMetaObject::invokeMethod(this, [this, key, name, text] {
+    // From the thread that loads. The jobs end before the opener does.
+    const auto rename = [this](const QString &key, const QString &description) {
+        QMetaObject::invokeMethod(this, [this, key, description] {
             const int index = m_document.sourceWith(key);
-            if (index < 0)
+            if (index < 0 || m_document.sources()[std::size_t(index)].isClosed)
                 return;
-            StudySource noted = m_document.sources()[std::size_t(index)];
-            noted.volume.description = name + "; " + text;
-            if (!noted.isClosed)
-                m_document.addSources({noted});
+            StudySource renamed = m_document.sources()[std::size_t(index)];
+            renamed.volume.description = description;
+            m_document.addSources({renamed});
         });
     };
-    return m_document.addSources({differenceSource(minuend, subtrahend, isAligned, note)}).front();
+    const StudySource source = differenceSource(minuend, subtrahend, isAligned, rename);
+    const int present = m_document.sourceWith(source.key());
+    if (present >= 0 && !m_document.sources()[std::size_t(present)].isClosed)
+        return present; // with what was found when it was loaded
+    return m_document.addSources({source}).front();
 }
 
 void StudyOpener::openDifference(const StudySource &subtrahend, bool isAligned) {

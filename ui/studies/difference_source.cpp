@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/studies/difference_source.h"
 
-#include <filesystem>
 #include <utility>
 
 #include <QCoreApplication>
@@ -9,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/subtraction/difference.h"
-#include "core/task/error.h"
+#include "core/task/naming.h"
 #include "ui/language/reasons.h"
 
 namespace pellucid::ui {
@@ -20,11 +19,17 @@ struct DifferenceTexts {
     Q_DECLARE_TR_FUNCTIONS(DifferenceTexts)
 };
 
-QString textOf(const subtraction::Registration &r) {
+// What the alignment found, or why one is needed.
+QString noteOn(const subtraction::Subtraction &made) {
+    if (made.needsAlignment)
+        return DifferenceTexts::tr("not aligned, although the frames of reference differ");
+    if (!made.registration)
+        return {};
     constexpr double radToDeg = 180.0 / 3.14159265358979323846;
     const auto number = [](double value, int digits) {
         return QString::number(value, 'f', digits);
     };
+    const subtraction::Registration &r = *made.registration;
     return DifferenceTexts::tr(
                "aligned: turned by %1°, moved by %2 mm; RMS difference %3, before %4")
         .arg(number(r.toMoving.angleRad() * radToDeg, 2),
@@ -32,45 +37,15 @@ QString textOf(const subtraction::Registration &r) {
              number(r.residualBefore, 1));
 }
 
-// Errors without a file are those of the second volume.
+// Errors without a file are those of the source.
 dicom::LoadedVolume loadNaming(const StudySource &source, const task::Progress &progress) {
-    try {
-        return source.load(progress, {});
-    } catch (const task::Error &error) {
-        throw task::Error(error.code(), error.reason(),
-                          error.path().empty() ? std::filesystem::path(source.place().toStdString())
-                                               : error.path());
-    }
-}
-
-dicom::LoadedVolume load(const StudySource &minuend, const StudySource &subtrahend, bool isAligned,
-                         const DifferenceNote &onLoaded, const task::Progress &progress) {
-    dicom::LoadedVolume from = loadNaming(minuend, progress.part(0.0, 0.3));
-    dicom::LoadedVolume with = loadNaming(subtrahend, progress.part(0.3, 0.6));
-    subtraction::RigidTransform transform;
-    QString note;
-    if (isAligned) {
-        const subtraction::Registration found =
-            subtraction::registerRigidly(from.volume, with.volume, progress.part(0.6, 0.9));
-        transform = found.toMoving;
-        note = textOf(found);
-    } else if (from.volume.notes().frameOfReferenceUid != with.volume.notes().frameOfReferenceUid) {
-        note = DifferenceTexts::tr("not aligned, although the frames of reference differ");
-    }
-    std::vector<dicom::Skipped> skipped = std::move(from.skipped);
-    skipped.insert(skipped.end(), with.skipped.begin(), with.skipped.end());
-    dicom::LoadedVolume loaded{
-        subtraction::difference(from.volume, with.volume, transform, progress.part(0.9, 1.0)),
-        std::move(skipped)};
-    if (onLoaded && !note.isEmpty())
-        onLoaded(note);
-    return loaded;
+    return task::naming(source.place().toStdString(), [&] { return source.load(progress, {}); });
 }
 
 } // namespace
 
 StudySource differenceSource(const StudySource &minuend, const StudySource &subtrahend,
-                             bool isAligned, DifferenceNote onLoaded) {
+                             bool isAligned, RenameSource onLoaded) {
     StudySource source;
     source.study = minuend.study;
     source.study.libraryId = 0;
@@ -95,9 +70,17 @@ StudySource differenceSource(const StudySource &minuend, const StudySource &subt
     source.lasting.removeDuplicates();
     source.difference = {minuend.digest(), subtrahend.digest(), isAligned};
     source.makeThumbnail = minuend.makeThumbnail;
-    source.load = [minuend, subtrahend, isAligned, onLoaded = std::move(onLoaded)](
-                      const task::Progress &progress, const dicom::LoadObserver &) {
-        return load(minuend, subtrahend, isAligned, onLoaded, progress);
+    source.load = [minuend, subtrahend, isAligned, key = source.key(), name = facts.description,
+                   onLoaded = std::move(onLoaded)](const task::Progress &progress,
+                                                   const dicom::LoadObserver &) {
+        dicom::LoadedVolume from = loadNaming(minuend, progress.part(0.0, 0.3));
+        const dicom::LoadedVolume with = loadNaming(subtrahend, progress.part(0.3, 0.6));
+        subtraction::Subtraction made =
+            subtraction::subtract(from.volume, with.volume, isAligned, progress.part(0.6, 1.0));
+        if (const QString note = noteOn(made); onLoaded && !note.isEmpty())
+            onLoaded(key, name + "; " + note);
+        from.skipped.insert(from.skipped.end(), with.skipped.begin(), with.skipped.end());
+        return dicom::LoadedVolume{std::move(made.difference), std::move(from.skipped)};
     };
     return source;
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/look_menu.h"
 
-#include <algorithm>
-
 #include <QActionGroup>
 #include <QMenu>
 
+#include "core/classify/couch.h"
 #include "ui/document/add_command.h"
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
@@ -15,67 +14,6 @@
 #include "ui/window/look_docks.h"
 
 namespace pellucid::ui {
-
-namespace {
-
-using classify::Step;
-using classify::StepKind;
-using classify::TissueClass;
-
-// A segment is what it is, with or without the couch.
-bool isOfTheVolume(const TissueClass &tissue) {
-    return tissue.segment.empty();
-}
-
-bool isOfTheBody(const TissueClass &tissue) {
-    return std::any_of(tissue.steps.begin(), tissue.steps.end(),
-                       [](const Step &step) { return step.kind == StepKind::body; });
-}
-
-// What stands for the whole volume once only the patient is to be shown.
-TissueClass patientClass(const classify::TransferFunction &curve,
-                         const classify::FieldWindow &window) {
-    constexpr double highest = 32767.0; // of 16 bits
-    TissueClass patient{"Patient", window.low, std::max(highest, window.high), 0.0, 1.0, {}};
-    if (!(curve == classify::TransferFunction()))
-        patient.transferFunction = curve;
-    patient.steps = {{StepKind::body, {}}};
-    return patient;
-}
-
-bool isWithoutCouch(const classify::Look &look) {
-    return std::any_of(look.classes.begin(), look.classes.end(), isOfTheVolume) &&
-           std::all_of(look.classes.begin(), look.classes.end(), [](const TissueClass &tissue) {
-               return !isOfTheVolume(tissue) || isOfTheBody(tissue);
-           });
-}
-
-void removeCouch(classify::Look &look, const classify::FieldWindow &window) {
-    if (look.classes.empty())
-        look.classes.push_back(patientClass(look.transferFunction, window));
-    for (TissueClass &tissue : look.classes) {
-        if (!isOfTheVolume(tissue) || isOfTheBody(tissue) ||
-            tissue.steps.size() >= classify::maxSteps)
-            continue;
-        // First of the steps that restrict the region: the others are to find only the patient.
-        const auto at =
-            std::find_if(tissue.steps.begin(), tissue.steps.end(), [](const Step &step) {
-                return classify::describe(step.kind).effect == classify::StepEffect::region;
-            });
-        tissue.steps.insert(at, {StepKind::body, {}});
-    }
-}
-
-void restoreCouch(classify::Look &look, const classify::FieldWindow &window) {
-    if (look.classes == std::vector{patientClass(look.transferFunction, window)}) {
-        look.classes.clear();
-        return;
-    }
-    for (TissueClass &tissue : look.classes)
-        std::erase_if(tissue.steps, [](const Step &step) { return step.kind == StepKind::body; });
-}
-
-} // namespace
 
 LookMenu::LookMenu(QMenu &menu, Document &document, LookDocks &docks, ProjectionView &projection)
     : QObject(&menu), m_document(document), m_reconstructions(new QActionGroup(this)) {
@@ -105,11 +43,11 @@ LookMenu::LookMenu(QMenu &menu, Document &document, LookDocks &docks, Projection
         projection.retakeTone();
     });
     m_couch = add(menu, tr("Remove the c&ouch"), "removeCouchAction", {}, [this] {
-        const bool isRemoved = isWithoutCouch(m_document.scene().look);
+        const bool isRemoved = classify::isWithoutCouch(m_document.scene().look);
         editScene(m_document, isRemoved ? tr("Show the couch") : tr("Remove the couch"), noDrag,
                   [&](scene::Scene &scene) {
-                      (isRemoved ? restoreCouch : removeCouch)(scene.look,
-                                                               m_document.fieldWindow());
+                      (isRemoved ? classify::restoreCouch
+                                 : classify::removeCouch)(scene.look, m_document.fieldWindow());
                   });
     });
     m_couch->setCheckable(true);
@@ -164,7 +102,7 @@ void LookMenu::showScene() {
         action->setChecked(action->data().toInt() == int(scene.image.reconstruction));
     m_film->setChecked(scene.tone.inverted);
     m_cue->setChecked(scene.shading.cue.isActive());
-    m_couch->setChecked(isWithoutCouch(scene.look));
+    m_couch->setChecked(classify::isWithoutCouch(scene.look));
     // The body is found by HU.
     m_couch->setEnabled(m_document.volume() &&
                         m_document.volume()->unit() == volume::ValueUnit::hounsfield);

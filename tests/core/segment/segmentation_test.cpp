@@ -7,24 +7,14 @@
 #include <random>
 #include <set>
 
-#include <dcmtk/config/osconfig.h>
-
-#include <dcmtk/dcmdata/dctk.h>
-#include <dcmtk/dcmseg/segdoc.h>
-#include <dcmtk/dcmseg/segment.h>
-
 #include <gtest/gtest.h>
 
-#include "core/decoder/read_volume_file.h"
-#include "core/dicom/load_volume.h"
-#include "core/dicom/scan.h"
 #include "core/segment/segment_set.h"
-#include "core/segment/write_segmentation.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
+#include "tests/support/dice.h"
 #include "tests/support/segmentation_writer.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
 
 namespace pellucid {
 namespace {
@@ -32,26 +22,15 @@ namespace {
 namespace because = task::because;
 namespace fs = std::filesystem;
 using segment::Segmentation;
+using test::dice;
 using test::DicomWriter;
+using test::tilted;
+using test::volumeOn;
 using volume::Coverage;
 using volume::GridSize;
 using volume::Lattice;
 using volume::Volume;
 using volume::VoxelIndex;
-
-Volume volumeOn(const Lattice &lattice) {
-    volume::VolumeNotes notes;
-    notes.studyUid = test::knobsRoot + "2";
-    notes.frameOfReferenceUid = test::knobsRoot + "4";
-    return Volume(lattice, std::vector<std::int16_t>(lattice.size().count(), 100),
-                  volume::ValueUnit::none, notes);
-}
-
-Lattice tilted(const GridSize &size) {
-    return Lattice::make(
-        size, {glm::dvec3(-10.0, 20.0, 30.0)},
-        {glm::dvec3(0.75, 0.0, 0.0), glm::dvec3(0.0, 0.6, -0.45), glm::dvec3(0.0, 0.0, 2.5)});
-}
 
 task::Reason reasonOf(const fs::path &file, const Volume &volume) {
     try {
@@ -62,20 +41,6 @@ task::Reason reasonOf(const fs::path &file, const Volume &volume) {
     }
     ADD_FAILURE() << "was loaded: " << file;
     return because::isEmpty;
-}
-
-// Twice the samples in common over the sum of samples.
-double dice(const Coverage &a, const Volume &labels, double label) {
-    const GridSize n = labels.lattice().size();
-    double both = 0.0, sum = 0.0;
-    for (int k = 0; k < n.k; ++k)
-        for (int j = 0; j < n.j; ++j)
-            for (int i = 0; i < n.i; ++i) {
-                const bool isIn = a.at({i, j, k}) != 0, isTrue = labels.value({i, j, k}) == label;
-                both += isIn && isTrue;
-                sum += int(isIn) + int(isTrue);
-            }
-    return 2.0 * both / sum;
 }
 
 class SegmentationFiles : public testing::Test {
@@ -307,87 +272,6 @@ TEST(SegmentSet, GivesEverySegmentAnotherName) {
     EXPECT_NE(more->find("liver (2)"), more->find("liver (2) (2)"));
 }
 
-// Writes segments, checks the file with DCMTK's own reader, and reads it again.
-TEST_F(SegmentationFiles, RoundTripBitForBit) {
-    const Lattice lattice = tilted({13, 10, 6});
-    std::mt19937 random(9);
-    for (const bool isBinary : {true, false}) {
-        std::vector<segment::Segment> segments;
-        for (int n = 0; n < 3; ++n) {
-            segment::Segment segment;
-            segment.name = n == 0 ? "left atrium \xE5\xB7\xA6" : "part " + std::to_string(n);
-            segment.color = glm::dvec3(0.9, 0.2 * n, 0.3);
-            if (n == 1)
-                segment.type = {"39607008", "SCT", "Lung"};
-            Coverage coverage{{{n, 1, 1}, {12, 9, 5 - n}}, {}};
-            coverage.shares.resize(coverage.box.size().count());
-            for (std::uint8_t &share : coverage.shares)
-                share = isBinary ? random() % 2 * 255 : random();
-            coverage.shares.front() = coverage.shares.back() = 255; // the box is the smallest
-            segment.coverage = std::make_shared<const Coverage>(coverage);
-            segments.push_back(segment);
-        }
-        const fs::path file = m_folder / "written.dcm";
-        segment::SegmentationLabels labels;
-        labels.study.studyUid = test::knobsRoot + "2";
-        labels.study.patientName = "Roundtrip^Jane";
-        labels.frameOfReferenceUid = test::knobsRoot + "4";
-        segment::writeSegmentation(file, segments, lattice, labels);
-
-        DcmSegmentation *opened = nullptr;
-        ASSERT_TRUE(DcmSegmentation::loadFile(file.c_str(), opened).good());
-        const std::unique_ptr<DcmSegmentation> byDcmtk(opened);
-        EXPECT_EQ(byDcmtk->getNumberOfSegments(), 3U);
-        OFString name;
-        EXPECT_TRUE(byDcmtk->getPatient().getPatientName(name).good());
-        EXPECT_EQ(name, "Roundtrip^Jane");
-        OFVector<size_t> frames;
-        byDcmtk->getFramesForSegment(2, frames);
-        EXPECT_EQ(frames.size(), 3U); // slices 1 to 3
-
-        const Segmentation read = segment::loadSegmentation(file, volumeOn(lattice));
-        ASSERT_EQ(read.segments.size(), 3U);
-        for (std::size_t n = 0; n < 3; ++n) {
-            EXPECT_EQ(read.segments[n].name, segments[n].name);
-            EXPECT_LT(glm::length(*read.segments[n].color - *segments[n].color), 2e-3);
-            for (int k = 0; k < 6; ++k)
-                for (int j = 0; j < 10; ++j)
-                    for (int i = 0; i < 13; ++i)
-                        ASSERT_EQ(read.segments[n].coverage->at({i, j, k}),
-                                  segments[n].coverage->at({i, j, k}));
-        }
-        EXPECT_EQ(read.segments[1].type.meaning, "Lung");
-    }
-}
-
-TEST_F(SegmentationFiles, LabelsRoundTripAndRefuseOverlaps) {
-    const Lattice lattice = tilted({8, 7, 5});
-    const auto boxed = [](const char *name, volume::VoxelBox box) {
-        segment::Segment segment;
-        segment.name = name;
-        segment.coverage = std::make_shared<const Coverage>(
-            Coverage{box, std::vector<std::uint8_t>(box.size().count(), 255)});
-        return segment;
-    };
-    const std::vector<segment::Segment> apart{boxed("a", {{0, 0, 0}, {3, 7, 5}}),
-                                              boxed("b", {{3, 0, 0}, {8, 7, 2}})};
-    segment::writeLabels(m_folder / "labels.nrrd", apart, lattice);
-    const Segmentation read =
-        segment::loadSegmentation(m_folder / "labels.nrrd", volumeOn(lattice));
-    ASSERT_EQ(read.segments.size(), 2U);
-    EXPECT_EQ(read.segments[1].name, "b");
-    for (std::size_t n = 0; n < 2; ++n)
-        EXPECT_EQ(*read.segments[n].coverage, *apart[n].coverage);
-    try {
-        segment::writeLabels(m_folder / "overlap.nrrd",
-                             {apart[0], boxed("c", {{2, 2, 2}, {4, 4, 4}})}, lattice);
-        ADD_FAILURE() << "overlapping labels were written";
-    } catch (const task::Error &error) {
-        EXPECT_EQ(error.reason(), because::segmentsOverlap("a", "c"));
-    }
-    EXPECT_FALSE(fs::exists(m_folder / "overlap.nrrd"));
-}
-
 // A hundred bad files of each kind: each is read, or refused with a reason, and crashes no decoder.
 TEST_F(SegmentationFiles, AHundredBadFilesAreReadOrRefused) {
     const Lattice lattice = Lattice::centred({8, 8, 4}, {1.0, 1.0, 1.0});
@@ -473,85 +357,6 @@ TEST_F(SegmentationFiles, AHundredBadFilesAreReadOrRefused) {
     EXPECT_GE(refused, 120);
     EXPECT_GE(reasons.size(), 12U);
     std::printf("%d bad files, %d refused for %zu reasons\n", count, refused, reasons.size());
-}
-
-// Segmentations by other programs, against the same masks written as volumes by yet another.
-TEST(RealSegmentations, LandOnTheirVoxels) {
-    PELLUCID_NEEDS_TEST_DATA();
-    const fs::path folder = test::testData() / "seg_dcmqi";
-    const auto catalogue = dicom::scan({folder / "ct-3slice"});
-    const Volume ct = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
-    const Segmentation liver = segment::loadSegmentation(folder / "liver.dcm", ct);
-    ASSERT_EQ(liver.segments.size(), 1U);
-    EXPECT_EQ(liver.segments[0].name, "Liver");
-    EXPECT_TRUE(liver.warnings.empty());
-    EXPECT_EQ(
-        dice(*liver.segments[0].coverage, decoder::readVolumeFile(folder / "liver_seg.nrrd"), 1.0),
-        1.0);
-    // Five segments in three volumes, because they overlap.
-    const Segmentation parts = segment::loadSegmentation(folder / "partial_overlaps.dcm", ct);
-    ASSERT_EQ(parts.segments.size(), 5U);
-    std::vector<bool> isFound(5);
-    for (const char *const file :
-         {"partial_overlaps-1.nrrd", "partial_overlaps-2.nrrd", "partial_overlaps-3.nrrd"}) {
-        const Volume labels = decoder::readVolumeFile(folder / file);
-        for (int s = 0; s < 5; ++s)
-            if (dice(*parts.segments[std::size_t(s)].coverage, labels, s + 1.0) == 1.0)
-                isFound[std::size_t(s)] = true;
-    }
-    EXPECT_EQ(isFound, std::vector<bool>(5, true));
-    // The same mask as a volume: interpolation is not needed.
-    const Segmentation asLabels = segment::loadSegmentation(folder / "liver_seg.nrrd", ct);
-    EXPECT_TRUE(asLabels.warnings.empty());
-    EXPECT_EQ(*asLabels.segments.at(0).coverage, *liver.segments[0].coverage);
-}
-
-TEST(RealSegmentations, ALabelMapIsThatOfItsVolume) {
-    PELLUCID_NEEDS_TEST_DATA();
-    const fs::path folder = test::testData() / "seg_dcmqi";
-    for (const auto &[file, truth] :
-         {std::pair("sparse-labelmap-noppv.dcm", "sparse_labelmap_noppv_seg.nrrd"),
-          std::pair("sparse-labelmap-ppv5.dcm", "sparse_labelmap_ppv5_seg.nrrd")}) {
-        const Volume labels = decoder::readVolumeFile(folder / truth);
-        const Segmentation loaded = segment::loadSegmentation(folder / file, labels);
-        ASSERT_EQ(loaded.segments.size(), 1U) << file;
-        EXPECT_TRUE(loaded.warnings.empty()) << file;
-        EXPECT_EQ(dice(*loaded.segments[0].coverage, labels, 1.0), 1.0) << file;
-    }
-}
-
-// By highdicom, on the CT of another folder.
-TEST(RealSegmentations, FractionalAndOverlappingOnesFit) {
-    PELLUCID_NEEDS_TEST_DATA();
-    const fs::path folder = test::testData() / "seg_highdicom_ct";
-    const auto catalogue = dicom::scan({folder});
-    const Volume ct = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
-    const Segmentation single =
-        segment::loadSegmentation(folder / "seg_image_ct_binary_single_frame.dcm", ct);
-    ASSERT_EQ(single.segments.size(), 1U);
-    EXPECT_TRUE(single.warnings.empty());
-    // The other four belong to a CT of 16 x 16 pixels with slices of 1.25 mm.
-    const Volume small =
-        Volume(Lattice::make({16, 16, 3}, {glm::dvec3(-125.0, -128.100006, 103.019997)},
-                             {glm::dvec3(0.488281, 0, 0), glm::dvec3(0, 0.488281, 0),
-                              glm::dvec3(0, 0, 1.25)}),
-               std::vector<std::int16_t>(768, 0), volume::ValueUnit::none);
-    const Segmentation binary =
-        segment::loadSegmentation(folder / "seg_image_ct_binary.dcm", small);
-    const Segmentation asFractions =
-        segment::loadSegmentation(folder / "seg_image_ct_binary_fractional.dcm", small);
-    EXPECT_TRUE(binary.warnings.empty());
-    EXPECT_EQ(*binary.segments.at(0).coverage, *asFractions.segments.at(0).coverage);
-    const Segmentation overlap =
-        segment::loadSegmentation(folder / "seg_image_ct_binary_overlap.dcm", small);
-    EXPECT_EQ(overlap.segments.size(), 2U);
-    const Segmentation fractional =
-        segment::loadSegmentation(folder / "seg_image_ct_true_fractional.dcm", small);
-    std::set<int> shares(fractional.segments.at(0).coverage->shares.begin(),
-                         fractional.segments.at(0).coverage->shares.end());
-    shares.erase(0);
-    shares.erase(255);
-    EXPECT_FALSE(shares.empty());
 }
 
 } // namespace
