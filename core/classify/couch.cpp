@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/classify/region_edits.h"
+
 namespace pellucid::classify {
 
 namespace {
@@ -18,10 +20,8 @@ bool isOfTheBody(const TissueClass &tissue) {
 
 // The class that shows only the patient, in place of the whole volume.
 TissueClass patientClass(const TransferFunction &curve, const FieldWindow &window) {
-    constexpr double highest = 32767.0; // of 16 bits
-    TissueClass patient{"Patient", window.low, std::max(highest, window.high), 0.0, 1.0, {}};
-    if (!(curve == TransferFunction()))
-        patient.transferFunction = curve;
+    TissueClass patient = volumeClass(curve, window);
+    patient.name = "Patient";
     patient.steps = {{StepKind::body, {}}};
     return patient;
 }

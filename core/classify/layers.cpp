@@ -37,9 +37,10 @@ Mixture termsOf(const TransferFunction &function) {
 
 } // namespace
 
-Mixture mixtureOf(const Look &look, std::optional<std::size_t> adjusted) {
-    if (look.classes.empty())
-        return termsOf(look.transferFunction);
+Mixture mixtureOf(const Look &source, std::optional<std::size_t> adjusted) {
+    if (source.classes.empty())
+        return termsOf(source.transferFunction);
+    const Look look{source.transferFunction, withOperands(source)};
     Mixture mixture;
     const auto add = [&](const TissueClass &tissue) {
         mixture.layers.push_back(alone(tissue));

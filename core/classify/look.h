@@ -20,13 +20,30 @@ struct Look {
     bool operator==(const Look &) const = default;
 };
 
-/// *Throws* Error{usage} naming the value that is out of range.
+/// *Throws* Error{usage} naming the value that is out of range, or a class whose steps name one
+/// that the look does not have, combine it with itself, or combine too many.
 void validate(const Look &look);
 
-/// Whether values alone do not decide about any of the classes: it has steps, or a segment.
+/// The classes with the operands of their steps in place of the names, so that each can be computed
+/// without the others. *Requires*: a valid look.
+std::vector<TissueClass> withOperands(const Look &look);
+/// Whether a class combines, directly or through others, with that of a name.
+bool dependsOn(const Look &look, const TissueClass &tissue, const std::string &name);
+
+/// Removes a class. Steps that name it keep it as their own.
+void removeClass(Look &look, std::size_t index);
+/// Replaces a class; steps that name it follow its new name, which gets a number if another class
+/// has it.
+void replaceClass(Look &look, std::size_t index, TissueClass by);
+/// Adds a class at the end, with a number behind its name if another class has it.
+void addClass(Look &look, TissueClass tissue);
+
+/// Whether values alone do not decide about any of the classes: it has steps or a segment, or is
+/// drawn.
 bool haveRegions(const std::vector<TissueClass> &classes);
 
-/// The classes with a nonzero weight; the others cost nothing.
+/// The classes with a nonzero weight, with the operands of their steps; the others cost nothing.
+/// *Requires*: a valid look.
 std::vector<TissueClass> visibleClasses(const Look &look);
 
 /// The basis of the visible classes' colors, with one entry of amounts per class; white if there

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
-#include "core/system/text.h"
 #include "core/task/error.h"
 
 namespace pellucid::classify {
@@ -39,24 +37,52 @@ const StepParameter &parameterOf(const StepDescription &step, const std::string 
                                       : because::stepHasOtherParameters(name, step.name, names));
 }
 
-// Parses "NAME=NUMBER,..."; `text`: the whole step, for errors.
-std::map<std::string, double> parametersFrom(std::string_view list, const std::string &text) {
-    std::map<std::string, double> parameters;
-    while (!list.empty()) {
-        const std::string_view item = list.substr(0, list.find(','));
-        list.remove_prefix(std::min(item.size() + 1, list.size()));
-        const auto equals = item.find('=');
-        const auto number = equals == std::string_view::npos
-                                ? std::nullopt
-                                : system::numberFrom(item.substr(equals + 1));
-        if (!number)
-            throw Error(ErrorCode::usage, because::stepHasNoNumber(item, text));
-        parameters[std::string(item.substr(0, equals))] = *number;
-    }
-    return parameters;
+bool isFinite(const volume::PatientPoint &point) {
+    return std::isfinite(point.mm.x) && std::isfinite(point.mm.y) && std::isfinite(point.mm.z);
+}
+
+void requirePoints(const std::vector<volume::PatientPoint> &points, std::size_t least) {
+    if (points.size() < least || points.size() > maxPoints)
+        throw Error(ErrorCode::usage, because::pointsOutOfRange(points.size(), least, maxPoints));
+    if (!std::all_of(points.begin(), points.end(), isFinite))
+        throw Error(ErrorCode::usage, because::pointIsNotFinite);
+}
+
+void validateInput(const Step &step, const StepDescription &description) {
+    requirePoints(step.points, 0);
+    const auto requireAtMost = [&](std::size_t count) {
+        if (count > maxStrokes)
+            throw Error(ErrorCode::usage,
+                        because::hasTooManyStrokes(description.name, count, maxStrokes));
+    };
+    requireAtMost(step.strokes.size());
+    requireAtMost(step.cuts.size());
+    for (const Stroke &stroke : step.strokes)
+        validate(stroke);
+    for (const LassoCut &cut : step.cuts)
+        validate(cut);
+    if (description.input == StepInput::otherClass && step.operand.name.empty() &&
+        step.operand.own == nullptr)
+        throw Error(ErrorCode::usage, because::stepNeedsAClass(description.name));
 }
 
 } // namespace
+
+void validate(const Stroke &stroke) {
+    requirePoints(stroke.path, 1);
+    if (!(stroke.radiusMm >= smallestBallMm && stroke.radiusMm <= largestBallMm))
+        throw Error(ErrorCode::usage, because::ballOutOfRange(fmt::format("{:g}", stroke.radiusMm),
+                                                              fmt::format("{:g}", smallestBallMm),
+                                                              fmt::format("{:g}", largestBallMm)));
+}
+
+void validate(const LassoCut &cut) {
+    requirePoints(cut.outline, 3);
+    if (!(std::abs(glm::length(cut.sight) - 1.0) <= 1e-6))
+        throw Error(ErrorCode::usage, because::sightIsNoUnitVector);
+    if (cut.slabMm && !((*cut.slabMm)[0] <= (*cut.slabMm)[1]))
+        throw Error(ErrorCode::usage, because::slabIsEmpty);
+}
 
 const std::vector<StepDescription> &stepDescriptions() {
     static const StepParameter byItk{
@@ -122,6 +148,27 @@ const std::vector<StepDescription> &stepDescriptions() {
          StepEffect::region,
          "Only the largest connected part, and parts of similar size",
          {{"share", "", 0.001, 1.0, 1.0, false, "Minimum size of a part relative to the largest"}}},
+        {StepKind::connected,
+         "connected",
+         StepEffect::region,
+         "Only what is connected with the points",
+         {{"leak_mm", "mm", 0.0, 100.0, 0.0, false, "Not through openings narrower than this"}},
+         StepInput::points},
+        {StepKind::grow,
+         "grow",
+         StepEffect::region,
+         "Adds all that is near",
+         {{"mm", "mm", 0.1, 50.0, 2.0, false, "Distance"}}},
+        {StepKind::shrink,
+         "shrink",
+         StepEffect::region,
+         "Removes what is near the surface",
+         {{"mm", "mm", 0.1, 50.0, 2.0, false, "Depth"}}},
+        {StepKind::fill,
+         "fill",
+         StepEffect::region,
+         "Fills holes: all that has no way out of the volume around the class",
+         {}},
         {StepKind::body,
          "body",
          StepEffect::region,
@@ -132,7 +179,37 @@ const std::vector<StepDescription> &stepDescriptions() {
          StepEffect::region,
          "Only the surface of the patient",
          {{"depth_mm", "mm", 0.5, 30.0, 4.0, false, "Depth below the skin"},
-          {"margin_mm", "mm", 0.0, 30.0, 2.0, false, "Margin outside the skin"}}}};
+          {"margin_mm", "mm", 0.0, 30.0, 2.0, false, "Margin outside the skin"}}},
+        {StepKind::intersection,
+         "and",
+         StepEffect::region,
+         "Only what belongs to another class, too",
+         {},
+         StepInput::otherClass},
+        {StepKind::join,
+         "or",
+         StepEffect::region,
+         "Adds another class",
+         {},
+         StepInput::otherClass},
+        {StepKind::difference,
+         "without",
+         StepEffect::region,
+         "Removes another class",
+         {},
+         StepInput::otherClass},
+        {StepKind::paint,
+         "paint",
+         StepEffect::region,
+         "Adds and erases what a ball covers along strokes",
+         {},
+         StepInput::strokes},
+        {StepKind::scissors,
+         "scissors",
+         StepEffect::region,
+         "Cuts along the line of sight",
+         {},
+         StepInput::cuts}};
     return all;
 }
 
@@ -160,6 +237,7 @@ double Step::at(const std::string &parameter) const {
 
 void validate(const Step &step) {
     const StepDescription &description = describe(step.kind);
+    validateInput(step, description);
     const auto text = [](double n) { return fmt::format("{:g}", n); };
     for (const auto &[name, value] : step.parameters) {
         const StepParameter &p = parameterOf(description, name);
@@ -184,18 +262,8 @@ std::string stepText(const Step &step) {
     return inside.empty() ? description.name : description.name + "(" + inside + ")";
 }
 
-Step stepFromText(const std::string &text) {
-    const auto open = text.find('(');
-    std::map<std::string, double> parameters;
-    if (open != std::string::npos) {
-        if (text.back() != ')')
-            throw Error(ErrorCode::usage, because::stepHasNoBracket(text));
-        parameters =
-            parametersFrom(std::string_view(text).substr(open + 1, text.size() - open - 2), text);
-    }
-    Step step{stepKindNamed(text.substr(0, open)), std::move(parameters)};
-    validate(step);
-    return step;
+bool awaitsPoints(const Step &step) {
+    return describe(step.kind).input == StepInput::points && step.points.empty();
 }
 
 } // namespace pellucid::classify

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/classify/hand_marks.h"
+#include "core/classify/operand.h"
+
 namespace pellucid::classify {
 
 /// The kinds of image processing before classification. *Source*: Cheng 2007, section 3.1.
@@ -20,12 +23,25 @@ enum class StepKind {
     opening,
     closing,
     largestComponent,
+    connected,
+    grow,
+    shrink,
+    fill,
     body,
-    skin
+    skin,
+    intersection,
+    join,
+    difference,
+    paint,
+    scissors
 };
 
 /// Whether a step changes the values that classify samples, or the region of the class.
 enum class StepEffect { values, region };
+
+/// What a step needs besides numbers: points that the user clicks, strokes or cuts that the user
+/// draws, or another class.
+enum class StepInput { none, points, strokes, cuts, otherClass };
 
 /// A numeric parameter of a step.
 struct StepParameter {
@@ -43,6 +59,7 @@ struct StepDescription {
     StepEffect effect;
     std::string text; ///< its effect, for the user
     std::vector<StepParameter> parameters;
+    StepInput input = StepInput::none;
 };
 
 /// The descriptions of all kinds, in the order of the user interface.
@@ -52,10 +69,16 @@ const StepDescription &describe(StepKind kind);
 /// *Throws* Error{usage} listing the valid names.
 StepKind stepKindNamed(const std::string &name);
 
-/// One step of a class: its kind, and the parameters that differ from their defaults.
+/// One step of a class: its kind, the parameters that differ from their defaults, and the input of
+/// its kind.
 struct Step {
     StepKind kind = StepKind::gaussian;
-    std::map<std::string, double> parameters;
+    std::map<std::string, double> parameters{};
+    /// Places in the patient. None: the step waits for the user's click and changes nothing.
+    std::vector<volume::PatientPoint> points{};
+    std::vector<Stroke> strokes{};
+    std::vector<LassoCut> cuts{};
+    Operand operand{};
     bool operator==(const Step &) const = default;
 
     /// The parameter's value, or its default. *Throws* Error{usage} for a parameter that the step
@@ -66,9 +89,10 @@ struct Step {
 /// *Throws* Error{usage} for an unknown parameter or one out of range.
 void validate(const Step &step);
 
-/// A step as "edges(sigma_mm=1.5,low=20)", without defaults; and the reverse. *Throws*
-/// Error{usage}.
+/// A step's name and numbers as "edges(sigma_mm=1.5,low=20)", without defaults.
 std::string stepText(const Step &step);
-Step stepFromText(const std::string &text);
+
+/// Whether the step waits for the user's click.
+bool awaitsPoints(const Step &step);
 
 } // namespace pellucid::classify

@@ -44,6 +44,11 @@ double TissueClass::membership(double value) const {
     return raisedCosine((value - low) / softness) * raisedCosine((high - value) / softness);
 }
 
+bool Operand::operator==(const Operand &other) const {
+    return name == other.name &&
+           (own == other.own || (own != nullptr && other.own != nullptr && *own == *other.own));
+}
+
 bool TissueClass::hasRange() const {
     return low > lowestValue || high < highestValue;
 }
@@ -69,13 +74,18 @@ void validate(const TissueClass &tissue) {
     for (const double c : {tissue.color.red, tissue.color.green, tissue.color.blue})
         if (!(c >= 0.0 && c <= 1.0))
             refuse(because::colorOutOfRange);
+    if (tissue.isDrawn && !tissue.segment.empty())
+        refuse(because::isDrawnAndASegment);
     if (tissue.steps.size() > maxSteps)
         refuse(because::hasTooManySteps(tissue.steps.size(), maxSteps));
     try {
         if (tissue.transferFunction)
             validate(*tissue.transferFunction);
-        for (const Step &step : tissue.steps)
+        for (const Step &step : tissue.steps) {
             validate(step);
+            if (step.operand.own)
+                validate(*step.operand.own);
+        }
     } catch (const task::Error &error) {
         refuse(error.reason());
     }

@@ -37,6 +37,8 @@ struct TissueClass {
     /// Fades the borders of a region that the segment or the steps define, which would ring, as a
     /// Gaussian of this standard deviation does. *Units*: samples, 0 to `softestEdge`.
     double edge = 0.0;
+    /// The class is empty before its steps, which add to it: a region drawn by hand.
+    bool isDrawn = false;
     bool operator==(const TissueClass &) const = default;
 
     /// 0 to 1: a raised cosine around each end of the range.
@@ -44,7 +46,7 @@ struct TissueClass {
     /// Whether some values are outside the range.
     bool hasRange() const;
     /// Whether values alone decide which samples belong to the class.
-    bool isRange() const { return steps.empty() && segment.empty(); }
+    bool isRange() const { return steps.empty() && segment.empty() && !isDrawn; }
 };
 
 /// A range that contains every value, for classes that a segment defines.
@@ -52,10 +54,10 @@ inline constexpr double lowestValue = -1e9, highestValue = 1e9;
 /// The edge of a segment's class unless another is chosen.
 inline constexpr double defaultEdge = 0.5, softestEdge = 4.0;
 
-/// Each step takes seconds; more are of no use.
-inline constexpr std::size_t maxSteps = 16;
+inline constexpr std::size_t maxSteps = 64;
 
-/// *Throws* Error{usage} naming the class and the value that is out of range.
+/// *Throws* Error{usage} naming the class and the value that is out of range. The operands of its
+/// steps may be missing: `validate(const Look &)` finds that.
 void validate(const TissueClass &tissue);
 
 /// The named classes for CT: air, lung, fat, fluid, muscle, organ, contrast, bone, metal, body,

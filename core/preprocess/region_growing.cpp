@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/task/error.h"
@@ -106,6 +109,52 @@ std::vector<VoxelIndex> centresNear(const volume::Lattice &lattice, const Mask &
     return near;
 }
 
+// What is connected with the seeds through openings as wide as the leak.
+Mask connectedThrough(const volume::Lattice &lattice, const Mask &mask,
+                      const std::vector<VoxelIndex> &seeds, double leakMm,
+                      const task::Progress &progress) {
+    if (leakMm <= 0.0)
+        return connected(lattice.size(), mask, seeds, progress);
+    // A ball as wide as the leak rolls through the mask.
+    const double radius = 0.5 * leakMm;
+    const Mask centres = eroded(lattice, mask, radius, progress.part(0.0, 0.3));
+    const auto near = centresNear(lattice, centres, seeds, radius);
+    if (near.empty())
+        return Mask(mask.size());
+    Mask region = dilated(lattice,
+                          connected(lattice.size(), centres, near, progress.part(0.3, 0.7)), radius,
+                          progress.part(0.7, 1.0));
+    for (std::size_t n = 0; n < region.size(); ++n)
+        region[n] = std::uint8_t(region[n] & mask[n]);
+    return region;
+}
+
+bool isAnyIn(const Mask &mask) {
+    return std::any_of(mask.begin(), mask.end(), [](std::uint8_t m) { return m != 0; });
+}
+
+// On a coarse lattice the sample at a point may be outside the mask.
+std::optional<VoxelIndex> nearestIn(const volume::Lattice &lattice, const Mask &mask,
+                                    volume::PatientPoint point) {
+    const glm::dvec3 v = glm::clamp(lattice.voxel(point).v, -1e9, 1e9);
+    const glm::dvec3 middle = glm::round(v);
+    std::optional<VoxelIndex> nearest;
+    double least = 1e30;
+    for (int dk = -1; dk <= 1; ++dk)
+        for (int dj = -1; dj <= 1; ++dj)
+            for (int di = -1; di <= 1; ++di) {
+                const VoxelIndex n{int(middle.x) + di, int(middle.y) + dj, int(middle.z) + dk};
+                const double square = glm::dot(glm::dvec3(n.i, n.j, n.k) - v,
+                                               glm::dvec3(n.i, n.j, n.k) - v);
+                if (square < least && lattice.contains(n) &&
+                    mask[lattice.size().offsetOf(n.i, n.j, n.k)] != 0) {
+                    nearest = n;
+                    least = square;
+                }
+            }
+    return nearest;
+}
+
 } // namespace
 
 Mask connected(const GridSize &size, const Mask &mask, const std::vector<VoxelIndex> &seeds,
@@ -117,6 +166,37 @@ Mask connected(const GridSize &size, const Mask &mask, const std::vector<VoxelIn
                 seed.k < size.k)
                 fill.from(seed, progress);
         return fill.take();
+    });
+}
+
+Mask connectedWith(const volume::Lattice &lattice, const Mask &mask,
+                   const std::vector<volume::PatientPoint> &points, double leakMm,
+                   const task::Progress &progress) {
+    std::vector<VoxelIndex> seeds;
+    for (const volume::PatientPoint &point : points)
+        if (const auto seed = nearestIn(lattice, mask, point))
+            seeds.push_back(*seed);
+    return task::orOutOfMemory(task::because::noMemoryForTheStep("connected"), [&] {
+        return connectedThrough(lattice, mask, seeds, leakMm, progress);
+    });
+}
+
+Mask withoutHoles(const GridSize &size, const Mask &mask, const task::Progress &progress) {
+    return task::orOutOfMemory(task::because::noMemoryForTheStep("fill"), [&] {
+        Mask free(mask.size());
+        std::transform(mask.begin(), mask.end(), free.begin(),
+                       [](std::uint8_t m) { return std::uint8_t(m == 0); });
+        RunFill fill(size, free);
+        for (int k = 0; k < size.k; ++k)
+            for (int j = 0; j < size.j; ++j) {
+                const bool isInside = k > 0 && k + 1 < size.k && j > 0 && j + 1 < size.j;
+                for (int i = 0; i < size.i; i += isInside && size.i > 1 ? size.i - 1 : 1)
+                    fill.from({i, j, k}, progress);
+            }
+        Mask whole = fill.take();
+        for (std::uint8_t &m : whole)
+            m = std::uint8_t(1 - m);
+        return whole;
     });
 }
 
@@ -143,18 +223,9 @@ Mask grownRegion(const volume::Volume &volume, const Growth &growth,
         };
         if (!isAnySeedIn(inRange))
             throw task::Error(task::ErrorCode::usage, task::because::seedOutsideRange);
-        if (growth.leakMm <= 0.0)
-            return connected(size, inRange, growth.seeds, progress);
-        // A ball as wide as the leak rolls through the range.
-        const double radius = 0.5 * growth.leakMm;
-        const Mask centres = eroded(lattice, inRange, radius, progress.part(0.0, 0.3));
-        const auto near = centresNear(lattice, centres, growth.seeds, radius);
-        if (near.empty())
+        Mask region = connectedThrough(lattice, inRange, growth.seeds, growth.leakMm, progress);
+        if (growth.leakMm > 0.0 && !isAnyIn(region))
             throw task::Error(task::ErrorCode::usage, task::because::seedInANarrowPlace);
-        Mask region = dilated(lattice, connected(size, centres, near, progress.part(0.3, 0.7)),
-                              radius, progress.part(0.7, 1.0));
-        for (std::size_t n = 0; n < region.size(); ++n)
-            region[n] = std::uint8_t(region[n] & inRange[n]);
         return region;
     });
 }

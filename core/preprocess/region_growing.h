@@ -14,14 +14,25 @@ namespace pellucid::preprocess {
 Mask connected(const volume::GridSize &size, const Mask &mask,
                const std::vector<volume::VoxelIndex> &seeds, const task::Progress &progress = {});
 
+/// The same for places in the patient, each of which starts from the nearest sample of the mask
+/// within a sample's distance. It does not pass through openings that are narrower than `leakMm`:
+/// to leave a vessel through its wall, for example. 0: it passes through every opening. *Throws* as
+/// above.
+Mask connectedWith(const volume::Lattice &lattice, const Mask &mask,
+                   const std::vector<volume::PatientPoint> &points, double leakMm,
+                   const task::Progress &progress = {});
+
+/// The mask with its holes filled: the samples that are not connected, by faces outside the mask,
+/// with the border of the grid. *Throws* as above.
+Mask withoutHoles(const volume::GridSize &size, const Mask &mask,
+                  const task::Progress &progress = {});
+
 /// A region grown from seeds: the samples with values from `low` to `high` that are connected with
 /// them.
 struct Growth {
     std::vector<volume::VoxelIndex> seeds;
     double low = 0.0, high = 0.0;
-    /// It does not pass through openings that are narrower than this: to leave a vessel through its
-    /// wall, for example. 0: it passes through every opening. *Units*: mm.
-    double leakMm = 0.0;
+    double leakMm = 0.0; ///< as for `connectedWith`
 };
 
 /// *Throws* Error{usage} if no seed has a value in the range, or none is within a ball of the

@@ -2,16 +2,20 @@
 #include "core/preprocess/step_cache.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <list>
 #include <mutex>
+#include <span>
 #include <string>
 #include <variant>
 
 #include <fmt/format.h>
 
+#include "core/preprocess/class_region.h"
 #include "core/preprocess/content_digest.h"
+#include "core/preprocess/coverage_where.h"
 #include "core/preprocess/step_result.h"
 #include "core/segment/coverages.h"
 #include "core/task/error.h"
@@ -104,10 +108,13 @@ class StepCache::ClassRun {
 public:
     ClassRun(Store &store, const segment::SegmentSet *segments, const volume::Volume &volume,
              const TissueClass &tissue)
-        : m_store(store), m_segments(segments), m_tissue(tissue), m_now{volume} {}
+        : m_store(store), m_segments(segments), m_volume(volume), m_tissue(tissue), m_now{volume} {}
 
     ClassSamples result(const task::Progress &progress) {
         takeSegment(progress);
+        if (m_tissue.isDrawn)
+            m_now.regions = std::make_shared<const std::vector<Region>>(
+                m_now.values.lattice().size().count(), Region::outside);
         runSteps(progress.part(0.0, 0.8));
         joinRegions();
         soften(progress);
@@ -141,15 +148,17 @@ private:
     void runSteps(const task::Progress &progress) {
         if (m_tissue.steps.empty())
             return;
-        std::string valuesKey = identity(m_now.values);
+        std::string valuesKey = identity(m_volume);
         for (std::size_t n = 0; n < m_tissue.steps.size(); ++n) {
             const Step &step = m_tissue.steps[n];
+            if (awaitsPoints(step))
+                continue;
             const double count = double(m_tissue.steps.size());
             const task::Progress part = progress.part(double(n) / count, double(n + 1) / count);
-            const std::string text = " | " + classify::stepText(step);
+            const std::string text = " | " + contentText(step);
             const auto make = [&] {
                 return std::visit([](auto made) { return Outcome(std::move(made)); },
-                                  resultOf(step, m_tissue, m_now, part));
+                                  resultOf(step, {m_tissue, m_now, operandOf(step, part)}, part));
             };
             m_now.density = densityAfter(step.kind).value_or(m_now.density);
             if (classify::describe(step.kind).effect == classify::StepEffect::values) {
@@ -159,13 +168,78 @@ private:
             }
             std::string key = valuesKey + text;
             if (dependsOnClass(step.kind))
-                key += fmt::format(" of {} {} {} {} {}", m_tissue.low, m_tissue.high,
-                                   m_tissue.softness, m_coverageKey, m_regionsKey);
+                key += fmt::format(" of {} {} {} {} {} {}", m_tissue.low, m_tissue.high,
+                                   m_tissue.softness, m_tissue.isDrawn, m_coverageKey,
+                                   m_regionsKey);
             const auto found = m_store.find<Regions>(key, make);
             // The result of a step that depends on the class contains the earlier regions already.
             m_now.regions = dependsOnClass(step.kind) ? found : intersection(m_now.regions, found);
             m_regionsKey += text;
         }
+    }
+
+    // The region of a step's other class, found from the volume's own values; null if the step has
+    // none.
+    std::shared_ptr<const volume::Coverage> operandOf(const Step &step,
+                                                      const task::Progress &progress) {
+        if (!step.operand.own)
+            return nullptr;
+        Runner runner(m_store, m_segments);
+        return std::make_shared<const volume::Coverage>(
+            regionOf(m_volume, *step.operand.own, runner, progress));
+    }
+
+    // Runs the classes of operands with the same store.
+    class Runner final : public classify::StepRunner {
+    public:
+        Runner(Store &store, const segment::SegmentSet *segments)
+            : m_store(store), m_segments(segments) {}
+        ClassSamples run(const volume::Volume &volume, const TissueClass &tissue,
+                         const task::Progress &progress) override {
+            return ClassRun(m_store, m_segments, volume, tissue).result(progress);
+        }
+
+    private:
+        Store &m_store;
+        const segment::SegmentSet *m_segments;
+    };
+
+    // All that decides about the result of a step, as far as the step says it.
+    std::string contentText(const Step &step) const {
+        std::string text = classify::stepText(step);
+        const auto add = [&](const volume::PatientPoint &p) {
+            text += fmt::format(" {},{},{}", p.mm.x, p.mm.y, p.mm.z);
+        };
+        std::for_each(step.points.begin(), step.points.end(), add);
+        for (const classify::Stroke &stroke : step.strokes) {
+            text += fmt::format(" stroke {} {}", stroke.radiusMm, stroke.erases);
+            std::for_each(stroke.path.begin(), stroke.path.end(), add);
+        }
+        for (const classify::LassoCut &cut : step.cuts) {
+            text += fmt::format(" cut {},{},{} {}", cut.sight.x, cut.sight.y, cut.sight.z,
+                                cut.keeps);
+            if (cut.slabMm)
+                text += fmt::format(" {} {}", (*cut.slabMm)[0], (*cut.slabMm)[1]);
+            std::for_each(cut.outline.begin(), cut.outline.end(), add);
+        }
+        if (step.points.empty() && step.strokes.empty() && step.cuts.empty() && !step.operand.own)
+            return text;
+        if (step.operand.own)
+            text += " (" + contentText(*step.operand.own) + ")";
+        // Strokes can be long, and the store compares keys one by one.
+        return classify::describe(step.kind).name + " " +
+               contentDigest(std::as_bytes(std::span(text)));
+    }
+
+    std::string contentText(const TissueClass &tissue) const {
+        std::string text = fmt::format("{} {} {} {}", tissue.low, tissue.high, tissue.softness,
+                                       tissue.isDrawn);
+        const segment::Segment *const found =
+            m_segments != nullptr ? m_segments->find(tissue.segment) : nullptr;
+        text += fmt::format(" segment {}", found != nullptr ? found->id : 0);
+        for (const Step &step : tissue.steps)
+            text += " | " + contentText(step);
+        return text;
     }
 
     // Where the edges fade, and within a segment, the region of the steps becomes part of the
@@ -174,30 +248,13 @@ private:
         if (!m_now.regions || (m_tissue.edge == 0.0 && !m_now.coverage))
             return;
         const std::vector<Region> &regions = *m_now.regions;
-        const volume::GridSize size = m_now.values.lattice().size();
-        volume::VoxelBox box;
-        bool hasFilled = false;
-        for (int k = 0; k < size.k; ++k)
-            for (int j = 0; j < size.j; ++j) {
-                int first = size.i, last = -1;
-                for (int i = 0; i < size.i; ++i) {
-                    const Region where = regions[size.offsetOf(i, j, k)];
-                    if (shareOf(where, {i, j, k}) == 0)
-                        continue;
-                    hasFilled = hasFilled || where == Region::filled;
-                    first = std::min(first, i);
-                    last = i;
-                }
-                if (last >= 0)
-                    box = united(box, {{first, j, k}, {last + 1, j + 1, k + 1}});
-            }
-        volume::Coverage joined{box, {}};
-        joined.shares.reserve(box.size().count());
-        for (int k = box.lo.k; k < box.hi.k; ++k)
-            for (int j = box.lo.j; j < box.hi.j; ++j)
-                for (int i = box.lo.i; i < box.hi.i; ++i)
-                    joined.shares.push_back(shareOf(regions[size.offsetOf(i, j, k)], {i, j, k}));
-        m_now.coverage = std::make_shared<const volume::Coverage>(std::move(joined));
+        std::atomic<bool> hasFilled = false;
+        m_now.coverage = std::make_shared<const volume::Coverage>(coverageWhere(
+            m_now.values.lattice().size(), [&](volume::VoxelIndex at, std::size_t n) {
+                if (regions[n] == Region::filled)
+                    hasFilled.store(true, std::memory_order_relaxed);
+                return shareOf(regions[n], at);
+            }));
         m_coverageKey.clear(); // is not kept
         if (!hasFilled) {
             m_now.regions = nullptr;
@@ -234,6 +291,7 @@ private:
 
     Store &m_store;
     const segment::SegmentSet *m_segments;
+    const volume::Volume &m_volume;
     const TissueClass &m_tissue;
     ClassSamples m_now;
     std::string m_coverageKey, m_regionsKey;

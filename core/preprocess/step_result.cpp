@@ -10,6 +10,8 @@
 
 #include "core/preprocess/edges.h"
 #include "core/preprocess/filters.h"
+#include "core/preprocess/hand_regions.h"
+#include "core/preprocess/region_growing.h"
 
 namespace pellucid::preprocess {
 
@@ -113,20 +115,37 @@ volume::Volume smoothGradient(const volume::Volume &values, double sigmaMm,
                              progress.part(0.8, 1.0));
 }
 
-// The regions before a closing, with the gaps that it filled.
-Regions withFilled(const Regions &before, const Mask &now, const Mask &closed) {
-    std::vector<Region> regions =
-        before ? *before : std::vector<Region>(closed.size(), Region::inside);
-    for (std::size_t n = 0; n < closed.size(); ++n)
-        if (closed[n] != 0 && now[n] == 0)
+std::vector<Region> regionsOf(const ClassSamples &samples) {
+    return samples.regions ? *samples.regions
+                           : std::vector<Region>(samples.values.lattice().size().count(),
+                                                 Region::inside);
+}
+
+// The former regions, with the samples that a step added.
+Regions withFilled(const ClassSamples &before, const Mask &now, const Mask &wider) {
+    std::vector<Region> regions = regionsOf(before);
+    for (std::size_t n = 0; n < wider.size(); ++n)
+        if (wider[n] != 0 && now[n] == 0)
             regions[n] = Region::filled;
     return shared(std::move(regions));
 }
 
+// The samples that are mostly in a coverage, or those that are not.
+Mask maskOf(const volume::Coverage &coverage, const volume::GridSize &size, bool isIn) {
+    Mask mask(size.count());
+    tbb::parallel_for(0, size.k, [&](int k) {
+        for (int j = 0; j < size.j; ++j)
+            for (int i = 0; i < size.i; ++i)
+                mask[size.offsetOf(i, j, k)] = isMostlyIn(coverage, {i, j, k}) == isIn;
+    });
+    return mask;
+}
+
 } // namespace
 
-StepResult resultOf(const Step &step, const TissueClass &tissue, const ClassSamples &before,
-                    const task::Progress &progress) {
+StepResult resultOf(const Step &step, const StepStart &start, const task::Progress &progress) {
+    const TissueClass &tissue = start.tissue;
+    const ClassSamples &before = start.before;
     const volume::Volume &values = before.values;
     const volume::Lattice &lattice = values.lattice();
     const auto given = [&](const char *parameter) { return step.at(parameter); };
@@ -164,12 +183,41 @@ StepResult resultOf(const Step &step, const TissueClass &tissue, const ClassSamp
     case StepKind::closing: {
         const Mask all = now();
         const auto close = given("itk") == 1.0 ? closingByItk : closing;
-        return withFilled(before.regions, all, close(lattice, all, given("radius_mm"), progress));
+        return withFilled(before, all, close(lattice, all, given("radius_mm"), progress));
     }
     case StepKind::largestComponent: {
         const Mask all = now();
         return part(all, largestPart(lattice, all, given("share"), progress));
     }
+    case StepKind::connected: {
+        const Mask all = now();
+        return part(all, connectedWith(lattice, all, step.points, given("leak_mm"), progress));
+    }
+    case StepKind::grow: {
+        const Mask all = now();
+        return withFilled(before, all, dilated(lattice, all, given("mm"), progress));
+    }
+    case StepKind::shrink: {
+        const Mask all = now();
+        return part(all, eroded(lattice, all, given("mm"), progress));
+    }
+    case StepKind::fill: {
+        const Mask all = now();
+        return withFilled(before, all, withoutHoles(lattice.size(), all, progress));
+    }
+    case StepKind::intersection:
+        return insideOf(maskOf(*start.operand, lattice.size(), true));
+    case StepKind::difference:
+        return insideOf(maskOf(*start.operand, lattice.size(), false));
+    case StepKind::join:
+        return withFilled(before, now(), maskOf(*start.operand, lattice.size(), true));
+    case StepKind::paint: {
+        std::vector<Region> regions = regionsOf(before);
+        paint(lattice, step.strokes, regions, progress);
+        return shared(std::move(regions));
+    }
+    case StepKind::scissors:
+        return insideOf(remaining(lattice, step.cuts, progress));
     case StepKind::body:
         return insideOf(body(values, given("margin_mm"), progress));
     case StepKind::skin:
@@ -183,6 +231,12 @@ bool dependsOnClass(StepKind kind) {
     case StepKind::opening:
     case StepKind::closing:
     case StepKind::largestComponent:
+    case StepKind::connected:
+    case StepKind::grow:
+    case StepKind::shrink:
+    case StepKind::fill:
+    case StepKind::join:
+    case StepKind::paint:
         return true;
     case StepKind::gaussian:
     case StepKind::median:
@@ -194,6 +248,9 @@ bool dependsOnClass(StepKind kind) {
     case StepKind::binarise:
     case StepKind::body:
     case StepKind::skin:
+    case StepKind::intersection:
+    case StepKind::difference:
+    case StepKind::scissors:
         break;
     }
     return false;
@@ -214,8 +271,17 @@ std::optional<DensityKind> densityAfter(StepKind kind) {
     case StepKind::opening:
     case StepKind::closing:
     case StepKind::largestComponent:
+    case StepKind::connected:
+    case StepKind::grow:
+    case StepKind::shrink:
+    case StepKind::fill:
     case StepKind::body:
     case StepKind::skin:
+    case StepKind::intersection:
+    case StepKind::join:
+    case StepKind::difference:
+    case StepKind::paint:
+    case StepKind::scissors:
         break;
     }
     return std::nullopt;

@@ -15,10 +15,17 @@ using Regions = std::shared_ptr<const std::vector<classify::Region>>;
 /// The result of a step: values or regions, by its effect.
 using StepResult = std::variant<volume::Volume, Regions>;
 
-/// Runs one step of a class. `before`: the samples after the steps before it. *Throws*
-/// Error{outOfMemory}, Cancelled.
-StepResult resultOf(const classify::Step &step, const classify::TissueClass &tissue,
-                    const classify::ClassSamples &before, const task::Progress &progress);
+/// What a step starts from.
+struct StepStart {
+    const classify::TissueClass &tissue;
+    const classify::ClassSamples &before; ///< the samples after the steps before it
+    /// The region of the step's other class; null if it has none.
+    std::shared_ptr<const volume::Coverage> operand;
+};
+
+/// Runs one step of a class. *Throws* Error{outOfMemory}, Cancelled.
+StepResult resultOf(const classify::Step &step, const StepStart &start,
+                    const task::Progress &progress);
 
 /// Whether the result of a step depends on the class, not only on the values.
 bool dependsOnClass(classify::StepKind kind);

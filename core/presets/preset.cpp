@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/presets/preset.h"
 
+#include <memory>
 #include <system_error>
+#include <utility>
 
+#include "core/classify/region_edits.h"
 #include "core/files/atomic_file.h"
 #include "core/files/read_text.h"
 #include "core/task/error.h"
@@ -15,6 +18,7 @@ namespace fs = std::filesystem;
 using classify::FieldWindow;
 using classify::Look;
 using classify::StepKind;
+using classify::TissueClass;
 using task::Error;
 using task::ErrorCode;
 
@@ -23,29 +27,36 @@ using task::ErrorCode;
 enum class Thresholds { given, all };
 
 // Applies `offset` and `scale` to ranges and thresholds of values, and `scale` to those of slopes.
-Look mapped(Look look, double offset, double scale, Thresholds thresholds) {
-    for (classify::TissueClass &tissue : look.classes) {
-        bool isSlope = false; // the class uses a gradient instead of values
-        const auto value = [&](double v) { return (isSlope ? 0.0 : offset) + scale * v; };
-        for (classify::Step &step : tissue.steps) {
-            for (const char *name : {"low", "high"}) {
-                const bool isGiven = step.parameters.contains(name);
-                if (step.kind == StepKind::edges && (isGiven || thresholds == Thresholds::all))
-                    step.parameters[name] = scale * step.at(name);
-                if (step.kind == StepKind::threshold && isGiven)
-                    step.parameters[name] = value(step.at(name));
-            }
-            if (step.kind == StepKind::binarise &&
-                (step.parameters.contains("from") || thresholds == Thresholds::all))
-                step.parameters["from"] = value(step.at("from"));
-            isSlope = isSlope || step.kind == StepKind::gradient;
+TissueClass mapped(TissueClass tissue, double offset, double scale, Thresholds thresholds) {
+    bool isSlope = false; // the class uses a gradient instead of values
+    const auto value = [&](double v) { return (isSlope ? 0.0 : offset) + scale * v; };
+    for (classify::Step &step : tissue.steps) {
+        for (const char *name : {"low", "high"}) {
+            const bool isGiven = step.parameters.contains(name);
+            if (step.kind == StepKind::edges && (isGiven || thresholds == Thresholds::all))
+                step.parameters[name] = scale * step.at(name);
+            if (step.kind == StepKind::threshold && isGiven)
+                step.parameters[name] = value(step.at(name));
         }
-        if (tissue.hasRange()) {
-            tissue.low = value(tissue.low);
-            tissue.high = value(tissue.high);
-        }
-        tissue.softness *= scale;
+        if (step.kind == StepKind::binarise &&
+            (step.parameters.contains("from") || thresholds == Thresholds::all))
+            step.parameters["from"] = value(step.at("from"));
+        if (step.operand.own)
+            step.operand.own = std::make_shared<const TissueClass>(
+                mapped(*step.operand.own, offset, scale, thresholds));
+        isSlope = isSlope || step.kind == StepKind::gradient;
     }
+    if (tissue.hasRange()) {
+        tissue.low = value(tissue.low);
+        tissue.high = value(tissue.high);
+    }
+    tissue.softness *= scale;
+    return tissue;
+}
+
+Look mapped(Look look, double offset, double scale, Thresholds thresholds) {
+    for (TissueClass &tissue : look.classes)
+        tissue = mapped(std::move(tissue), offset, scale, thresholds);
     return look;
 }
 
@@ -75,11 +86,12 @@ Preset presetOf(const std::string &name, const Look &look, const shading::Shadin
     preset.look = look;
     preset.shading = shading;
     const double width = window.high - window.low;
+    const Look plain = classify::withoutMarks(look); // those belong to one study
     if (volume.unit() == volume::ValueUnit::hounsfield) {
         preset.window = window;
     } else if (width > 0.0) {
         preset.unit = RangeUnit::window;
-        preset.look = mapped(look, -window.low / width, 1.0 / width, Thresholds::all);
+        preset.look = mapped(plain, -window.low / width, 1.0 / width, Thresholds::all);
     }
     return preset;
 }

@@ -39,8 +39,8 @@ classify::Look lookFor(const Preset &preset, const classify::FieldWindow &window
 /// Why a preset is not meant for a volume, in one line; empty if it is.
 std::optional<task::Reason> mismatch(const Preset &preset, const volume::Volume &volume);
 
-/// Makes a preset of a look that is shown on a volume: in HU for CT, else in fractions of the
-/// window.
+/// Makes a preset of a look that is shown on a volume, without the points, strokes and cuts that
+/// belong to that: in HU for CT, else in fractions of the window.
 Preset presetOf(const std::string &name, const classify::Look &look,
                 const shading::Shading &shading, const classify::FieldWindow &window,
                 const volume::Volume &volume);

@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "core/system/text.h"
+
 namespace pellucid::segment {
 
 const SegmentSet::Place *SegmentSet::placeOf(const std::string &name) const {
@@ -37,7 +39,7 @@ std::shared_ptr<const SegmentSet> SegmentSet::with(Segmentation added) const {
         taken.insert(place.first);
     for (std::size_t n = 0; n < added.segments.size(); ++n) {
         Segment &segment = added.segments[n];
-        segment.name = uniqueName(segment.name, taken);
+        segment.name = system::uniqueName(segment.name, taken);
         joined->m_places[segment.name] = {m_segmentations.size(), n};
     }
     joined->m_segmentations.push_back(std::move(added));

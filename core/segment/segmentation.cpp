@@ -14,6 +14,7 @@
 #include "core/decoder/read_volume_file.h"
 #include "core/segment/contour_masks.h"
 #include "core/segment/stored_masks.h"
+#include "core/system/text.h"
 #include "core/task/naming.h"
 #include "core/volume/volume_file.h"
 
@@ -69,7 +70,7 @@ public:
             m_outside.push_back(segment.name);
             return;
         }
-        segment.name = uniqueName(segment.name, m_names);
+        segment.name = system::uniqueName(segment.name, m_names);
         segment.volumeMm3 = coverage.total() * m_lattice.cellVolumeMm3();
         static std::atomic<std::uint64_t> next = 1;
         segment.id = next++;
@@ -248,13 +249,6 @@ Segmentation load(const fs::path &path, const Volume &volume, const task::Progre
 }
 
 } // namespace
-
-std::string uniqueName(const std::string &name, std::set<std::string> &taken) {
-    std::string result = name;
-    for (int n = 2; !taken.insert(result).second; ++n)
-        result = fmt::format("{} ({})", name, n);
-    return result;
-}
 
 std::vector<std::string> segmentNames(const fs::path &path, const task::Progress &progress) {
     std::vector<std::string> names;

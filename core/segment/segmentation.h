@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -29,9 +28,6 @@ struct Segment {
     /// Different for every segment that was loaded since the program started.
     std::uint64_t id = 0;
 };
-
-/// The name itself or, if it is taken, with a number: "liver (2)". It is taken then.
-std::string uniqueName(const std::string &name, std::set<std::string> &taken);
 
 /// The segments of a file, on the lattice of a volume.
 struct Segmentation {

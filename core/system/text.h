@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,14 @@ inline std::string lowered(std::string text) {
         if (c >= 'A' && c <= 'Z')
             c = char(c - 'A' + 'a');
     return text;
+}
+
+/// The name itself or, if it is taken, with a number: "liver (2)". It is taken then.
+inline std::string uniqueName(const std::string &name, std::set<std::string> &taken) {
+    std::string result = name;
+    for (int n = 2; !taken.insert(result).second; ++n)
+        result = name + " (" + std::to_string(n) + ")";
+    return result;
 }
 
 /// Parses a decimal number, whatever the locale: with a decimal point, and optionally an exponent;

@@ -40,6 +40,7 @@ struct VoxelPoint {
 /// A position in patient space: DICOM LPS, mm.
 struct PatientPoint {
     glm::dvec3 mm{0.0};
+    bool operator==(const PatientPoint &) const = default;
 };
 
 /// A box of samples, with `lo` inclusive and `hi` exclusive.

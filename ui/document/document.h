@@ -20,6 +20,7 @@
 #include "core/segment/segment_set.h"
 #include "core/volume/volume.h"
 #include "ui/document/pose.h"
+#include "ui/document/region_marking.h"
 #include "ui/studies/study_source.h"
 
 namespace pellucid::ui {
@@ -138,6 +139,9 @@ public:
     /// Whether the planes tint the segments of shown classes.
     bool tintsSegments() const { return m_tintsSegments; }
     void setTintsSegments(bool tints);
+    /// The marking of regions by hand.
+    RegionMarking &marking() { return m_marking; }
+    const RegionMarking &marking() const { return m_marking; }
     /// The names of segments that the classes of a look need but that are not loaded.
     QStringList missingSegments(const classify::Look &look) const;
 
@@ -182,6 +186,7 @@ private:
     std::optional<classify::TissueClass> m_tint;
     std::shared_ptr<const segment::SegmentSet> m_segments;
     bool m_tintsSegments = true;
+    RegionMarking m_marking;
     scene::Scene m_scene;
     Pose m_pose;
     QSizeF m_projectionSize{2.0, 2.0};

@@ -46,6 +46,9 @@ public:
     void setHeld(bool held) { m_have.isHeld = held; }
     bool isHeld() const { return m_have.isHeld; }
 
+    /// The results of classes' steps.
+    const std::shared_ptr<preprocess::StepCache> &steps() const { return m_steps; }
+
     /// Forgets the engines, as a new volume comes. Returns what the engine of that is made for.
     PreparedFor forgetVolume();
     /// The last full engine and what it was made for, if there is one.

@@ -9,6 +9,7 @@
 #include "core/preprocess/segment_class.h"
 #include "core/preprocess/step_cache.h"
 #include "core/segment/write_segmentation.h"
+#include "core/system/text.h"
 #include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/export/capture_labels.h"
@@ -43,7 +44,7 @@ QStringList Writing::run(const task::Progress &progress) const {
         segment::Segment segment =
             preprocess::segmentOf(volume, classes[n], loaded.get(), runner,
                                   progress.part(done, done + 0.8 / double(classes.size())));
-        segment.name = segment::uniqueName(segment.name, taken);
+        segment.name = system::uniqueName(segment.name, taken);
         if (segment.coverage->isEmpty())
             empty << QString::fromStdString(segment.name);
         else

@@ -4,6 +4,7 @@
 #include "ui/document/document.h"
 #include "ui/engine/card_copier.h"
 #include "ui/engine/look_preparer.h"
+#include "ui/engine/region_finder.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/opening/phases.h"
 #include "ui/opening/segment_opener.h"
@@ -29,6 +30,7 @@ struct OpenStudy {
     StudyOpener opener;
     SegmentOpener segments;
     Phases phases;
+    RegionFinder regions;
 };
 
 } // namespace pellucid::ui

@@ -5,17 +5,20 @@
 
 #include "core/classify/tissue_class.h"
 
+class QComboBox;
 class QDoubleSpinBox;
+class QFormLayout;
 class QLabel;
 class QLineEdit;
-class QListWidget;
 class QPushButton;
 
 namespace pellucid::ui {
 
+class ClassSteps;
 class Document;
+class LimitBox;
 
-/// Edits one class. While the dialog is open, the planes are tinted where values belong to the
+/// Edits one class: its source, its steps and its edge. While the dialog is open, the planes are tinted where values belong to the
 /// class.
 class ClassDialog : public QDialog {
     Q_OBJECT
@@ -25,23 +28,27 @@ public:
     /// class.
     classify::TissueClass typed(const classify::TissueClass &now) const;
 
+    /// The class as it was when the dialog opened.
+    const classify::TissueClass &original() const { return m_original; }
+
     void accept() override;
     void done(int result) override;
 
 private:
-    double valueOf(const QDoubleSpinBox &box, double shown, double former) const;
+    void addSource(QFormLayout &form);
     void showTint();
     void chooseColor();
     void showColor();
-    void addStep();
 
     Document &m_document;
+    const classify::TissueClass m_original;
     classify::TissueClass m_tissue;
-    QLineEdit *m_name, *m_step;
-    QDoubleSpinBox *m_low, *m_high, *m_softness;
-    double m_shownLow, m_shownHigh, m_shownSoftness; ///< as rounded by the boxes
+    QLineEdit *m_name;
+    QComboBox *m_source;
+    LimitBox *m_low, *m_high, *m_softness;
+    QDoubleSpinBox *m_edge;
     QPushButton *m_color;
-    QListWidget *m_steps;
+    ClassSteps *m_steps;
     QLabel *m_message;
 };
 

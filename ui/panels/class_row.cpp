@@ -9,6 +9,7 @@
 #include <QToolButton>
 
 #include "ui/language/names.h"
+#include "ui/language/step_text.h"
 #include "ui/panels/value_slider.h"
 
 namespace pellucid::ui {
@@ -33,17 +34,16 @@ QIcon dotIcon(const QColor &color, bool isShown) {
     return QIcon(pixmap);
 }
 
-// The size of the segment, and the range unless it contains every value.
+// The size of the segment, the range unless it contains every value, and the steps.
 QString rangeText(const classify::TissueClass &tissue, const segment::Segment *segment) {
     QStringList parts;
     if (segment != nullptr)
         parts << ClassRow::tr("%1 ml").arg(segment->volumeMm3 / 1000.0, 0, 'f', 1);
-    if (tissue.hasRange())
-        parts << QString("%1 .. %2").arg(tissue.low, 0, 'g', 4).arg(tissue.high, 0, 'g', 5);
-    QString text = parts.join(", ");
+    if (tissue.hasRange() || segment == nullptr)
+        parts << sourceWords(tissue);
     for (const classify::Step &step : tissue.steps)
-        text += ", " + QString::fromStdString(classify::stepText(step));
-    return text;
+        parts << stepWords(step);
+    return parts.join(", ");
 }
 
 } // namespace

@@ -14,6 +14,7 @@
 
 #include "core/preprocess/segment_class.h"
 #include "ui/document/document.h"
+#include "ui/document/region_commands.h"
 #include "ui/language/names.h"
 #include "ui/panels/class_dialog.h"
 #include "ui/panels/class_group.h"
@@ -101,8 +102,11 @@ QWidget *ClassesPanel::corner() {
 void ClassesPanel::showScene() {
     const auto &classes = m_document.scene().look.classes;
     m_empty->setVisible(classes.empty());
-    // The dialog refers to its class by index, which may have changed.
-    if (m_dialog && m_shown.size() != classes.size())
+    // The dialog refers to its class by index, which may have changed. A region tool may have added
+    // steps, which the dialog would remove again.
+    const bool isSame = m_dialog && m_shown.size() == classes.size() &&
+                        classes[std::size_t(m_edited)].steps == m_dialog->original().steps;
+    if (m_dialog && !isSame)
         m_dialog->close();
     makeRows(classes.size());
     for (std::size_t n = 0; n < classes.size(); ++n) {
@@ -279,7 +283,7 @@ void ClassesPanel::toggle(int index) {
 }
 
 void ClassesPanel::add(const classify::TissueClass &tissue) {
-    change(tr("Add class"), [&](classify::Look &look) { look.classes.push_back(tissue); });
+    change(tr("Add class"), [&](classify::Look &look) { classify::addClass(look, tissue); });
     m_document.selectClass(int(m_document.scene().look.classes.size()) - 1);
 }
 
@@ -356,7 +360,7 @@ void ClassesPanel::showMenu(int index, const QPoint &globalAt) {
     menu.addAction(tr("Remove"), this, [this, index] {
         change(tr("Remove class"), [&](classify::Look &look) {
             if (index < int(look.classes.size()))
-                look.classes.erase(look.classes.begin() + index);
+                classify::removeClass(look, std::size_t(index));
         });
     });
     menu.exec(globalAt);
@@ -370,9 +374,14 @@ void ClassesPanel::edit(int index) {
         m_dialog->close();
     m_dialog = new ClassDialog(m_document, classes[std::size_t(index)], window());
     connect(m_dialog, &QDialog::accepted, this, [this, index, dialog = m_dialog.data()] {
-        changeClass(index, tr("Edit class"),
-                    [&](classify::TissueClass &now) { now = dialog->typed(now); });
+        change(tr("Edit class"), [&](classify::Look &look) {
+            if (index < int(look.classes.size()))
+                classify::replaceClass(look, std::size_t(index),
+                                       dialog->typed(look.classes[std::size_t(index)]));
+        });
+        askForPoints(m_document);
     });
+    m_edited = index;
     m_dialog->show();
 }
 

@@ -78,6 +78,7 @@ private:
     std::vector<ClassRow *> m_shown;
     std::vector<ClassGroup *> m_groups;
     QPointer<ClassDialog> m_dialog;
+    int m_edited = -1; ///< index of the class in the dialog
     /// The former weights of hidden classes, by name.
     QHash<QString, double> m_hiddenWeight;
 };

@@ -18,6 +18,7 @@
 #include "core/task/error.h"
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
+#include "ui/document/region_commands.h"
 #include "ui/engine/look_previewer.h"
 #include "ui/language/names.h"
 #include "ui/language/reasons.h"
@@ -215,6 +216,7 @@ void PresetsPanel::apply(QListWidgetItem *item) {
                                       scene.fieldWindow.value_or(m_document.defaultFieldWindow()));
         scene.shading = entry->preset.shading;
     });
+    askForPoints(m_document);
 }
 
 void PresetsPanel::askForName() {
@@ -246,6 +248,12 @@ void PresetsPanel::saveLook() {
         list();
         if (QListWidgetItem *const item = itemOf(name))
             m_gallery->scrollToItem(item);
+        const classify::Look &look = m_document.scene().look;
+        if (!(classify::withoutMarks(look) == look)) {
+            m_message->setText(tr("Points, strokes and cuts belong to this study: the preset asks "
+                                  "for new points, and has no strokes and cuts"));
+            m_message->show();
+        }
     });
 }
 

@@ -80,6 +80,7 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
         connect(&document, changed, this, &MprView::refresh);
     for (const auto changed : {&Document::sceneChanged, &Document::segmentsChanged})
         connect(&document, changed, this, &MprView::refreshTints);
+    connect(&document.marking(), &RegionMarking::tintChanged, this, &MprView::refreshTints);
     for (const auto changed : {&Document::measurementsChanged,
                                &Document::selectedMeasurementChanged, &Document::sceneChanged})
         connect(&document, changed, this, qOverload<>(&QWidget::update));
@@ -264,7 +265,8 @@ void MprView::mouseReleaseEvent(QMouseEvent *event) {
 
 void MprView::mouseDoubleClickEvent(QMouseEvent *event) {
     // A fast click for an angle's third point may arrive as a double-click.
-    if (event->button() == Qt::LeftButton && !m_tools.isMeasuring())
+    const bool marksRegions = m_document.marking().tool() != RegionTool::none;
+    if (event->button() == Qt::LeftButton && !m_tools.isMeasuring() && !marksRegions)
         emit maximizeRequested(this);
     else
         mousePressEvent(event);
@@ -312,7 +314,16 @@ void MprView::resetView() {
 
 void MprView::wheelEvent(QWheelEvent *event) {
     const int steps = event->angleDelta().y() > 0 ? 1 : event->angleDelta().y() < 0 ? -1 : 0;
-    if ((event->modifiers() & Qt::ControlModifier) != 0)
+    const bool isPainting = m_document.marking().tool() == RegionTool::paint;
+    if (isPainting && (event->modifiers() & Qt::ShiftModifier) != 0) {
+        RegionOptions options = m_document.marking().options();
+        options.ballMm = std::clamp(options.ballMm * (steps > 0   ? 1.15
+                                                      : steps < 0 ? 1.0 / 1.15
+                                                                  : 1.0),
+                                    classify::smallestBallMm, classify::largestBallMm);
+        m_document.marking().setOptions(options);
+        update();
+    } else if ((event->modifiers() & Qt::ControlModifier) != 0)
         zoomBy(steps > 0 ? 1.15 : steps < 0 ? 1.0 / 1.15 : 1.0);
     else
         scroll(steps);
@@ -353,6 +364,8 @@ void MprView::keyPressEvent(QKeyEvent *event) {
 }
 
 void MprView::leaveEvent(QEvent *) {
+    m_tools.leave();
+    update();
     emit readoutChanged({});
 }
 

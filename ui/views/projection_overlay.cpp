@@ -8,12 +8,13 @@
 
 #include "ui/document/document.h"
 #include "ui/views/overlay.h"
+#include "ui/views/tools/projection_tools.h"
 
 namespace pellucid::ui {
 
-ProjectionOverlay::ProjectionOverlay(const Document &document, const PaneTool &measure,
+ProjectionOverlay::ProjectionOverlay(const Document &document, const ProjectionTools &tools,
                                      QWidget *parent)
-    : QWidget(parent), m_document(document), m_measure(measure) {
+    : QWidget(parent), m_document(document), m_tools(tools) {
     setObjectName("projectionOverlay");
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setAttribute(Qt::WA_NoSystemBackground);
@@ -135,7 +136,7 @@ void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mappi
         return; // two pictures have no common positions
     if (m_showsCrosshair && marks != Marks::plain)
         paintCrosshair(painter, mapping);
-    m_measure.paint(painter, {mapping, rect(), colors}, marks);
+    m_tools.paint(painter, {mapping, rect(), colors}, marks);
 }
 
 } // namespace pellucid::ui

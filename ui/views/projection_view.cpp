@@ -33,7 +33,7 @@ constexpr double pixelsPerVoxel = 4.0, pixelsAcross = 4096.0;
 
 ProjectionView::ProjectionView(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_canvas(makeProjectionCanvas(this)),
-      m_tools(document, *this), m_overlay(new ProjectionOverlay(document, m_tools.measure(), this)),
+      m_tools(document, *this), m_overlay(new ProjectionOverlay(document, m_tools, this)),
       m_comparison(document) {
     setObjectName("projectionView");
     setAccessibleName(tr("Projection"));

@@ -26,10 +26,10 @@ void ProjectionView::showCursor() {
 
 void ProjectionView::mousePressEvent(QMouseEvent *event) {
     setFocus();
-    if (m_tools.isMeasuring())
+    if (m_tools.isMarking())
         return;
     m_tools.press(event->button(), event->position());
-    if (m_tools.isMeasuring())
+    if (m_tools.isMarking())
         m_overlay->update();
     else
         setCursor(m_tools.heldCursor());
@@ -37,7 +37,8 @@ void ProjectionView::mousePressEvent(QMouseEvent *event) {
 
 void ProjectionView::mouseMoveEvent(QMouseEvent *event) {
     m_tools.move(event->position());
-    if (m_tools.isMeasuring())
+    const bool isHovering = event->buttons() == Qt::NoButton && m_tools.hover(event->position());
+    if (m_tools.isMarking() || isHovering)
         m_overlay->update();
 }
 
@@ -48,8 +49,11 @@ void ProjectionView::mouseReleaseEvent(QMouseEvent *event) {
 }
 
 void ProjectionView::mouseDoubleClickEvent(QMouseEvent *event) {
-    if (event->button() == Qt::LeftButton)
+    // With a tool for regions, two fast clicks are two regions.
+    if (event->button() == Qt::LeftButton && !m_tools.marksRegions())
         emit maximizeRequested(this);
+    else
+        mousePressEvent(event);
 }
 
 void ProjectionView::orbitBy(const QPoint &delta) {
@@ -96,10 +100,17 @@ void ProjectionView::keyPressEvent(QKeyEvent *event) {
         orbitBy({event->key() == Qt::Key_Left ? -11 : 11, 0}); // about five degrees
     else if (event->key() == Qt::Key_Up || event->key() == Qt::Key_Down)
         orbitBy({0, event->key() == Qt::Key_Up ? -11 : 11});
-    else if (event->key() == Qt::Key_Escape && m_tools.isMeasuring())
+    else if (event->key() == Qt::Key_Escape && m_tools.isMarking()) {
         m_tools.cancel();
+        m_overlay->update();
+    }
     else
         QWidget::keyPressEvent(event);
+}
+
+void ProjectionView::leaveEvent(QEvent * /*event*/) {
+    m_tools.leave();
+    m_overlay->update();
 }
 
 } // namespace pellucid::ui

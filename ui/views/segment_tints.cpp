@@ -25,6 +25,11 @@ QRgb mixed(QRgb below, QRgb color, int share) {
                 mix(qBlue(below), qBlue(color)));
 }
 
+QRgb rgbOf(const classify::Color &color) {
+    const auto byte = [](double c) { return int(std::lround(255.0 * c)); };
+    return qRgb(byte(color.red), byte(color.green), byte(color.blue));
+}
+
 // The samples of the lattice at the pixels of a plane.
 class PixelGrid {
 public:
@@ -77,16 +82,13 @@ private:
 
 std::vector<SegmentTint> segmentTints(const Document &document) {
     std::vector<SegmentTint> tints;
-    if (!document.segments() || !document.tintsSegments())
-        return tints;
-    for (const classify::TissueClass &tissue : document.scene().look.classes)
-        if (const segment::Segment *const segment = document.segments()->find(tissue.segment);
-            segment != nullptr && tissue.weight > 0.0) {
-            const auto byte = [](double c) { return int(std::lround(255.0 * c)); };
-            tints.push_back(
-                {segment->coverage,
-                 qRgb(byte(tissue.color.red), byte(tissue.color.green), byte(tissue.color.blue))});
-        }
+    if (document.segments() && document.tintsSegments())
+        for (const classify::TissueClass &tissue : document.scene().look.classes)
+            if (const segment::Segment *const segment = document.segments()->find(tissue.segment);
+                segment != nullptr && tissue.weight > 0.0)
+                tints.push_back({segment->coverage, rgbOf(tissue.color)});
+    if (const auto &marked = document.marking().tint())
+        tints.push_back({marked->coverage, rgbOf(marked->color)});
     return tints;
 }
 

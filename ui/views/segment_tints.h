@@ -20,7 +20,8 @@ struct SegmentTint {
     bool operator==(const SegmentTint &) const = default;
 };
 
-/// The segments of the shown classes, or nothing if the planes do not show them.
+/// The segments of the shown classes, unless the planes do not show them, and the region that is
+/// being marked.
 std::vector<SegmentTint> segmentTints(const Document &document);
 
 /// Tints a picture of a plane where its pixels are in segments, the later ones over the earlier.

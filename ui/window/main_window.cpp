@@ -25,6 +25,7 @@
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/phase_bar.h"
 #include "ui/panels/presets_panel.h"
+#include "ui/panels/region_bar.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/study_panel.h"
 #include "ui/settings/shortcuts.h"
@@ -125,6 +126,7 @@ void MainWindow::createPanes() {
     column->setSpacing(0);
     m_pair = new StudyPair({m_bench.study.document, m_mpr, m_projection, m_panes}, m_bench.card);
     connect(m_pair, &StudyPair::failed, this, &MainWindow::report);
+    column->addWidget(new RegionBar(m_bench.study.document));
     column->addWidget(m_pair, 1);
     column->addWidget(new PhaseBar(m_bench.study.phases));
     m_stack->addWidget(viewing);

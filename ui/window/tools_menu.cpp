@@ -13,6 +13,7 @@
 #include "ui/document/add_command.h"
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
+#include "ui/document/region_commands.h"
 #include "ui/opening/phases.h"
 #include "ui/views/cine.h"
 #include "ui/views/mpr_view.h"
@@ -21,6 +22,8 @@
 namespace pellucid::ui {
 
 namespace {
+
+using classify::StepKind;
 
 // Off, and the usual thicknesses for chest, vessels and joints.
 constexpr double thicknessesMm[] = {0.0, 2.0, 3.0, 5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 100.0};
@@ -35,6 +38,7 @@ ToolsMenu::ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *
       m_thicknesses(new QActionGroup(this)), m_modes(new QActionGroup(this)),
       m_interpolations(new QActionGroup(this)) {
     addTools(menu);
+    addRegion(menu);
     menu.addSeparator();
     addSlab(menu);
     addInterpolation(menu);
@@ -87,7 +91,13 @@ void ToolsMenu::addTools(QMenu &menu) {
         {tr("Rectangle"), tr("drag from corner to corner"), "rectangleToolAction", Tool::rectangle,
          "B"},
         {tr("Crop"), tr("drag the sides of the box in the planes"), "cropToolAction", Tool::crop,
-         "K"}};
+         "K"},
+        {tr("Connected"), tr("click what has similar values and is connected, also in the projection"),
+         "connectedToolAction", Tool::connected, "G"},
+        {tr("Paint"), tr("paint a region with a ball; Shift erases"), "paintToolAction",
+         Tool::paint, "T"},
+        {tr("Scissors"), tr("draw around what to cut along the line of sight"),
+         "scissorsToolAction", Tool::scissors, "X"}};
     for (const auto &t : tools) {
         QAction *action = addCommand(menu, t.text, t.name, QKeySequence(t.key), this,
                                      [this, tool = t.tool] { chooseTool(tool); });
@@ -102,8 +112,66 @@ void ToolsMenu::chooseTool(Tool tool) {
     for (MprView *plane : m_planes)
         plane->setTool(tool);
     m_projection.setTool(tool);
+    m_document.marking().setTool(regionToolOf(tool));
     m_tool = tool;
     emit toolChosen(tool);
+}
+
+void ToolsMenu::addRegion(QMenu &menu) {
+    QMenu *region = menu.addMenu(tr("&Region"));
+    region->setObjectName("regionMenu");
+    const auto askForMm = [this](const QString &title, const QString &label, StepKind kind) {
+        const classify::StepParameter &mm = classify::describe(kind).parameters.front();
+        bool isGiven = false;
+        const double value =
+            QInputDialog::getDouble(m_planes.front()->window(), title, label, mm.defaultValue,
+                                    mm.minimum, mm.maximum, 1, &isGiven);
+        if (isGiven)
+            useStep(m_document, {kind, {{mm.name, value}}}, title);
+    };
+    const auto add = [&](const QString &text, const char *name, const auto &run) {
+        m_regionActions << addCommand(*region, text, name, {}, this, run);
+    };
+    add(tr("&Grow..."), "growRegionAction",
+        [askForMm] { askForMm(tr("Grow"), tr("Grow the class by, mm"), StepKind::grow); });
+    add(tr("&Shrink..."), "shrinkRegionAction",
+        [askForMm] { askForMm(tr("Shrink"), tr("Shrink the class by, mm"), StepKind::shrink); });
+    add(tr("&Fill holes"), "fillRegionAction",
+        [this] { useStep(m_document, {StepKind::fill}, tr("Fill holes")); });
+    add(tr("&Largest part"), "largestRegionAction",
+        [this] { useStep(m_document, {StepKind::largestComponent}, tr("Largest part")); });
+    region->addSeparator();
+    m_removeBone = addCommand(*region, tr("Remove connected &bone"), "removeBoneAction", {}, this,
+                              [this] { removeBone(); });
+    RegionMarking &marking = m_document.marking();
+    connect(&marking, &RegionMarking::toolRequested, this, [this](RegionTool wanted) {
+        const auto tools = m_tools->actions();
+        for (qsizetype n = 0; n < tools.size(); ++n)
+            if (regionToolOf(Tool(n)) == wanted) {
+                tools[n]->setChecked(true);
+                chooseTool(Tool(n));
+            }
+    });
+    connect(&m_document, &Document::sceneChanged, this, &ToolsMenu::showRegion);
+    connect(&m_document, &Document::volumeChanged, this, &ToolsMenu::showRegion);
+    showRegion();
+}
+
+void ToolsMenu::showRegion() {
+    for (QAction *action : m_regionActions)
+        action->setEnabled(m_document.volume() && m_document.selectedClass() >= 0);
+    m_removeBone->setEnabled(m_document.volume() && !m_document.isPreview());
+}
+
+// The next click names the bone.
+void ToolsMenu::removeBone() {
+    RegionOptions options = m_document.marking().options();
+    options.use = classify::RegionUse::remove;
+    options.addsPoints = false;
+    options.ofEveryClass = true;
+    options.isBone = true;
+    m_document.marking().setOptions(options);
+    m_document.marking().requestTool(RegionTool::connected);
 }
 
 void ToolsMenu::addSlab(QMenu &menu) {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include <QList>
 #include <QObject>
 
 #include "core/mpr/reslice.h"
@@ -21,7 +22,7 @@ class MprView;
 class Phases;
 class ProjectionView;
 
-/// The Tools menu: mouse tools, slab, interpolation, turned planes, cine. The tool bar also has the
+/// The Tools menu: mouse tools, regions, slab, interpolation, turned planes, cine. The tool bar also has the
 /// tools and the slab.
 class ToolsMenu : public QObject {
     Q_OBJECT
@@ -37,6 +38,9 @@ signals:
 
 private:
     void addTools(QMenu &menu);
+    void addRegion(QMenu &menu);
+    void showRegion();
+    void removeBone();
     void addSlab(QMenu &menu);
     void addInterpolation(QMenu &menu);
     void addCine(QMenu &menu);
@@ -57,7 +61,8 @@ private:
     QActionGroup *m_tools, *m_thicknesses, *m_modes, *m_interpolations;
     QMenu *m_slabMenu = nullptr;
     QAction *m_slab = nullptr, *m_alongScan = nullptr, *m_straighten = nullptr,
-            *m_wholeVolume = nullptr;
+            *m_wholeVolume = nullptr, *m_removeBone = nullptr;
+    QList<QAction *> m_regionActions; ///< for the selected class
     double m_lastThicknessMm = 10.0;
 };
 

@@ -55,6 +55,11 @@ public:
     /// Ends the drag and keeps its result.
     virtual void release(const QPointF & /*at*/) {}
 
+    /// The mouse moves over the pane without a button, or leaves it. `hover` returns whether the
+    /// pane has to repaint.
+    virtual bool hover(const QPointF & /*at*/) { return false; }
+    virtual void leave() {}
+
     /// Whether something is unfinished that `cancel` would drop.
     virtual bool isBusy() const { return false; }
     /// Drops an unfinished figure; a dragged one stays where it is.

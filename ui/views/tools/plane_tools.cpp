@@ -5,7 +5,10 @@
 
 #include "ui/views/tools/crop_tool.h"
 #include "ui/views/tools/crosshair_tool.h"
+#include "ui/views/tools/grow_tool.h"
+#include "ui/views/tools/lasso_tool.h"
 #include "ui/views/tools/measure_tool.h"
+#include "ui/views/tools/paint_tool.h"
 #include "ui/views/tools/pan_tool.h"
 #include "ui/views/tools/window_tool.h"
 #include "ui/views/tools/zoom_tool.h"
@@ -23,6 +26,9 @@ PlaneTools::PlaneTools(Document &document, mpr::Orientation orientation, ToolPan
     add(Tool::pan, std::make_unique<PanTool>(pane, Qt::OpenHandCursor));
     add(Tool::zoom, std::make_unique<ZoomTool>(pane));
     add(Tool::distance, std::move(measure)); // and all other kinds of measurements
+    add(Tool::connected, std::make_unique<GrowTool>(document, pane, PaneView::plane));
+    add(Tool::paint, std::make_unique<PaintTool>(document, pane, PaneView::plane));
+    add(Tool::scissors, std::make_unique<LassoTool>(document, pane));
     m_chosen = find(Tool::window);
 }
 
@@ -72,8 +78,12 @@ bool PlaneTools::move(const QPointF &at) {
     if (m_measure->isBusy())
         return m_measure->move(mouse);
     if (m_button == Qt::NoButton)
-        return false;
+        return m_chosen->hover(at);
     return m_activeTool == nullptr || m_activeTool->move(mouse);
+}
+
+void PlaneTools::leave() {
+    m_chosen->leave();
 }
 
 void PlaneTools::release(Qt::MouseButton button, const QPointF &at) {

@@ -34,6 +34,8 @@ public:
     void press(Qt::MouseButton button, const QPointF &at);
     /// Returns false if no tool uses the move.
     bool move(const QPointF &at);
+    /// The mouse leaves the pane.
+    void leave();
     void release(Qt::MouseButton button, const QPointF &at);
 
     /// Whether something is unfinished that `cancel` would drop.

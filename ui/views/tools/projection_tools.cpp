@@ -5,15 +5,23 @@ namespace pellucid::ui {
 
 ProjectionTools::ProjectionTools(Document &document, ProjectionPane &pane)
     : m_pane(pane), m_measure(document, pane, MeasureTool::Figures::inPicture), m_orbit(pane),
-      m_pan(pane, Qt::SizeAllCursor), m_tone(document, pane) {}
+      m_pan(pane, Qt::SizeAllCursor), m_tone(document, pane),
+      m_grow(document, pane, PaneView::projection), m_paint(document, pane, PaneView::projection),
+      m_lasso(document, pane) {}
 
 void ProjectionTools::choose(Tool tool) {
+    cancel();
     m_measures = tool == Tool::distance;
-    m_measure.cancel();
+    m_region = tool == Tool::connected  ? static_cast<PaneTool *>(&m_grow)
+               : tool == Tool::paint    ? static_cast<PaneTool *>(&m_paint)
+               : tool == Tool::scissors ? static_cast<PaneTool *>(&m_lasso)
+                                        : nullptr;
     m_measure.setKind(m_measures ? std::optional(measure::Kind::projectedDistance) : std::nullopt);
 }
 
 std::optional<Qt::CursorShape> ProjectionTools::cursor() const {
+    if (m_region != nullptr)
+        return m_region->cursor();
     return m_measures ? std::optional(m_measure.cursor()) : std::nullopt;
 }
 
@@ -35,12 +43,18 @@ PaneTool *ProjectionTools::toolOf(Qt::MouseButton button) {
 }
 
 void ProjectionTools::press(Qt::MouseButton button, const QPointF &at) {
-    if (m_measure.isBusy())
+    if (isMarking())
         return;
     m_activeTool = nullptr;
     m_last = at.toPoint();
-    if (button == Qt::LeftButton && m_pane.showsPicture() && m_measure.press(at))
-        return;
+    if (button == Qt::LeftButton && m_pane.showsPicture()) {
+        if (m_region != nullptr) {
+            m_region->press(at);
+            return; // a click beside the patient does not turn the view
+        }
+        if (m_measure.press(at))
+            return;
+    }
     m_activeTool = toolOf(button);
     if (m_activeTool != nullptr)
         m_activeTool->press(at);
@@ -49,16 +63,45 @@ void ProjectionTools::press(Qt::MouseButton button, const QPointF &at) {
 void ProjectionTools::move(const QPointF &at) {
     const MouseMove mouse{at, at.toPoint() - m_last};
     m_last = at.toPoint();
-    if (m_measure.isBusy())
+    if (m_region != nullptr && m_region->isBusy())
+        m_region->move(mouse);
+    else if (m_measure.isBusy())
         m_measure.move(mouse);
     else if (m_activeTool != nullptr && m_pane.canMove() && !mouse.delta.isNull())
         m_activeTool->move(mouse);
 }
 
 void ProjectionTools::release(Qt::MouseButton button, const QPointF &at) {
-    if (m_measure.isBusy() && button == Qt::LeftButton)
+    if (button == Qt::LeftButton && m_region != nullptr && m_region->isBusy())
+        m_region->release(at);
+    else if (m_measure.isBusy() && button == Qt::LeftButton)
         m_measure.release(at);
     m_activeTool = nullptr;
+}
+
+bool ProjectionTools::hover(const QPointF &at) {
+    return m_region != nullptr && m_activeTool == nullptr && m_region->hover(at);
+}
+
+void ProjectionTools::leave() {
+    if (m_region != nullptr)
+        m_region->leave();
+}
+
+bool ProjectionTools::isMarking() const {
+    return m_measure.isBusy() || (m_region != nullptr && m_region->isBusy());
+}
+
+void ProjectionTools::cancel() {
+    m_measure.cancel();
+    if (m_region != nullptr)
+        m_region->cancel();
+}
+
+void ProjectionTools::paint(QPainter &painter, const ToolSurface &surface, Marks marks) const {
+    m_measure.paint(painter, surface, marks);
+    if (m_region != nullptr && marks != Marks::plain)
+        m_region->paint(painter, surface, Marks::chosen);
 }
 
 } // namespace pellucid::ui

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "ui/views/tools/grow_tool.h"
+#include "ui/views/tools/lasso_tool.h"
 #include "ui/views/tools/measure_tool.h"
 #include "ui/views/tools/orbit_tool.h"
+#include "ui/views/tools/paint_tool.h"
 #include "ui/views/tools/pan_tool.h"
 #include "ui/views/tools/tone_tool.h"
 #include "ui/views/tools/tool.h"
@@ -10,13 +13,13 @@
 namespace pellucid::ui {
 
 /// The tools of the projection and the current drag. The left button orbits, the middle one pans,
-/// the right one sets the brightness. Of the selectable tools, only the distance tool has an effect
-/// here. Measurements can be dragged with any tool.
+/// the right one sets the brightness. Of the selectable tools, those for distances and regions have
+/// an effect here. Measurements can be dragged with any tool.
 class ProjectionTools {
 public:
     ProjectionTools(Document &document, ProjectionPane &pane);
 
-    /// Selects a tool and drops an unfinished measurement.
+    /// Selects a tool and drops what is unfinished.
     void choose(Tool tool);
     /// The cursor of the selected tool; none: the pane's own.
     std::optional<Qt::CursorShape> cursor() const;
@@ -26,15 +29,21 @@ public:
     /// A second button takes over the drag, unless a measurement is unfinished.
     void press(Qt::MouseButton button, const QPointF &at);
     void move(const QPointF &at);
-    /// Any button ends the drag; only the left one ends a measurement.
+    /// The mouse moves without a button. Returns whether the pane has to repaint.
+    bool hover(const QPointF &at);
+    void leave();
+    /// Any button ends the drag; only the left one ends a measurement or a region.
     void release(Qt::MouseButton button, const QPointF &at);
 
-    bool isMeasuring() const { return m_measure.isBusy(); }
-    /// Drops an unfinished measurement.
-    void cancel() { m_measure.cancel(); }
+    /// Whether the selected tool marks regions.
+    bool marksRegions() const { return m_region != nullptr; }
+    /// Whether the left button marks something that is unfinished.
+    bool isMarking() const;
+    /// Drops what is unfinished.
+    void cancel();
 
-    /// The tool that draws the measurements.
-    const PaneTool &measure() const { return m_measure; }
+    /// Draws the measurements, and what is being marked.
+    void paint(QPainter &painter, const ToolSurface &surface, Marks marks) const;
 
 private:
     PaneTool *toolOf(Qt::MouseButton button);
@@ -44,6 +53,10 @@ private:
     OrbitTool m_orbit;
     PanTool m_pan;
     ToneTool m_tone;
+    GrowTool m_grow;
+    PaintTool m_paint;
+    LassoTool m_lasso;
+    PaneTool *m_region = nullptr; ///< the selected tool for regions
     bool m_measures = false;
     PaneTool *m_activeTool = nullptr; ///< gets the moves of the drag
     QPoint m_last;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/classify/density_field.h"
+#include "core/classify/look.h"
+
+namespace pellucid::classify {
+
+/// What a region that the user marks does to the classes of a look.
+enum class RegionUse {
+    newClass, ///< it becomes a class
+    add,      ///< a class gets it, too
+    keep,     ///< classes keep only what is in it
+    remove    ///< classes lose what is in it
+};
+
+/// The class that an edit changes; not set: every class of the look.
+using EditedClass = std::optional<std::size_t>;
+
+/// What has values from `low` to `high` and is connected with a point, as a class without a color
+/// of its own. `leakMm`: as for the step `connected`.
+TissueClass connectedRegion(volume::PatientPoint point, double low, double high, double leakMm);
+
+/// Bone that is connected with a point, with its marrow, and with the rim in which its values mix
+/// with those of its surroundings. `low`: the value from which it is bone.
+TissueClass boneRegion(volume::PatientPoint point, double low);
+
+/// What a cut encloses, whatever its values.
+TissueClass cutRegion(const LassoCut &cut);
+
+/// The whole volume as a class, for a look without classes.
+TissueClass volumeClass(const TransferFunction &curve, const FieldWindow &window);
+
+// In all edits, a look without classes first becomes one class, the whole volume. Classes that get
+// a border by an edit get the default edge with it, unless they have one.
+
+/// *Requires*: `edited` is set to `add`. Returns the index of the class that shows the region: the
+/// new one, or `edited`.
+EditedClass useRegion(Look &look, const TissueClass &region, RegionUse use, EditedClass edited,
+                      const FieldWindow &window);
+
+/// Cuts classes along the line of sight.
+void cutClasses(Look &look, const LassoCut &cut, EditedClass edited, const FieldWindow &window);
+
+/// Adds a stroke to a class, or erases it from one; not set: paints a new class, or erases from
+/// every class. Returns the class that was painted, as `useRegion`.
+EditedClass paintClass(Look &look, const Stroke &stroke, EditedClass edited,
+                       const FieldWindow &window);
+
+/// Adds a step to a class.
+void addStep(Look &look, const Step &step, std::size_t edited);
+
+/// The first class with a step that waits for points.
+std::optional<std::size_t> awaitingClass(const Look &look);
+/// Adds a point to the last step of a class that takes points; false if it has none.
+bool addPoint(TissueClass &tissue, volume::PatientPoint point);
+
+/// The look without what belongs to one patient: points, strokes and cuts. Steps that take points
+/// wait for new ones. Classes of which nothing remains are removed.
+Look withoutMarks(const Look &look);
+
+} // namespace pellucid::classify

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "core/volume/volume.h"
+
+namespace pellucid::mpr {
+
+/// The sample with the highest value on a line through a point, among the samples of a box that are
+/// nearest to the line at steps of half a sample. None if the line misses the box. `direction`: a
+/// unit vector, LPS.
+std::optional<volume::PatientPoint> highestAlong(const volume::Volume &volume,
+                                                 const volume::VoxelBox &box,
+                                                 volume::PatientPoint point,
+                                                 const glm::dvec3 &direction);
+
+} // namespace pellucid::mpr

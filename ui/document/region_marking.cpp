@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/document/region_marking.h"
+
+namespace pellucid::ui {
+
+void RegionMarking::setTool(RegionTool tool) {
+    if (tool == m_tool)
+        return;
+    m_tool = tool;
+    m_sought.reset();
+    emit toolChanged();
+}
+
+void RegionMarking::setOptions(const RegionOptions &options) {
+    if (options == m_options)
+        return;
+    m_options = options;
+    emit optionsChanged();
+}
+
+void RegionMarking::setSought(const std::optional<classify::TissueClass> &sought) {
+    if (sought == m_sought)
+        return;
+    m_sought = sought;
+    emit soughtChanged();
+}
+
+void RegionMarking::setTint(const std::optional<RegionTint> &tint) {
+    if (tint == m_tint)
+        return;
+    m_tint = tint;
+    emit tintChanged();
+}
+
+void RegionMarking::setSearching(bool isSearching) {
+    if (isSearching == m_isSearching)
+        return;
+    m_isSearching = isSearching;
+    emit tintChanged();
+}
+
+} // namespace pellucid::ui

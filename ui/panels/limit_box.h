@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDoubleSpinBox>
+
+namespace pellucid::ui {
+
+/// A number box that says so where a number is no limit, because no value is beyond it. A number
+/// that the user does not edit is not rounded.
+class LimitBox : public QDoubleSpinBox {
+    Q_OBJECT
+public:
+    /// `scale`: a typical range of the values; the decimals resolve a thousandth of it.
+    LimitBox(const char *name, double low, double high, double scale, QWidget *parent = nullptr);
+
+    void give(double value);
+    /// The value as typed, or as given if it was not edited.
+    double exact() const;
+
+protected:
+    QString textFromValue(double value) const override;
+    double valueFromText(const QString &text) const override;
+    QValidator::State validate(QString &text, int &at) const override;
+
+private:
+    bool isNoLimit(double value) const;
+    static QString noLimit();
+    double m_given = 0.0, m_shown = 0.0;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QPolygonF>
+
+#include "ui/views/tools/pane_tool.h"
+#include "ui/views/tools/tool_pane.h"
+
+namespace pellucid::ui {
+
+class Document;
+
+/// Cuts along the line of sight what the drawn line encloses.
+class LassoTool : public PaneTool {
+public:
+    LassoTool(Document &document, const ToolPane &pane) : m_document(document), m_pane(pane) {}
+
+    Qt::CursorShape cursor() const override { return Qt::CrossCursor; }
+    bool press(const QPointF &at) override;
+    bool move(const MouseMove &mouse) override;
+    void release(const QPointF &at) override;
+    bool isBusy() const override { return !m_outline.isEmpty(); }
+    void cancel() override { m_outline.clear(); }
+    void paint(QPainter &painter, const ToolSurface &surface, Marks marks) const override;
+
+private:
+    void add(const QPointF &at);
+
+    Document &m_document;
+    const ToolPane &m_pane;
+    QPolygonF m_outline; ///< while it is drawn
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include <QPointF>
+
+#include "core/volume/lattice.h"
+
+namespace pellucid::ui {
+
+class Document;
+class ToolPane;
+
+/// What a pane shows: a plane of the volume, or a projection of all of it.
+enum class PaneView { plane, projection };
+
+/// The place of the patient that the user means by a click: in a plane the point itself, in a
+/// projection the highest value on the line of sight within the crop box. None outside the volume.
+std::optional<volume::PatientPoint> regionPoint(const Document &document, const ToolPane &pane,
+                                                PaneView view, const QPointF &at);
+
+} // namespace pellucid::ui
