@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/preprocess/belonging.h"
+#include "core/preprocess/box_around.h"
 #include "core/preprocess/coverage_where.h"
 #include "core/task/error.h"
 
@@ -16,6 +18,10 @@ using volume::GridSize;
 
 } // namespace
 
+volume::VoxelBox boxAround(const GridSize &size, const Mask &mask) {
+    return boxWhere(size, [&](volume::VoxelIndex, std::size_t n) { return mask[n] != 0; });
+}
+
 Coverage regionOf(const GridSize &size, const Mask &mask) {
     return coverageWhere(size, [&](volume::VoxelIndex, std::size_t n) {
         return mask[n] != 0 ? std::uint8_t(Coverage::whole) : std::uint8_t(0);
@@ -26,6 +32,7 @@ Coverage regionOf(const volume::Volume &volume, classify::TissueClass tissue,
                   classify::StepRunner &runner, const task::Progress &progress) {
     tissue.edge = 0.0;
     const classify::ClassSamples samples = samplesOf(volume, tissue, &runner, progress);
+    const Belonging belongs(tissue);
     return task::orOutOfMemory(task::because::noMemoryForTheSteps(tissue.name), [&] {
         return samples.values.visit([&](auto values) {
             return coverageWhere(
@@ -33,7 +40,7 @@ Coverage regionOf(const volume::Volume &volume, classify::TissueClass tissue,
                     const Region where = samples.regions ? (*samples.regions)[n] : Region::inside;
                     if (where == Region::filled)
                         return Coverage::whole;
-                    if (where == Region::outside || tissue.membership(double(values[n])) < 0.5)
+                    if (where == Region::outside || !belongs(values[n]))
                         return 0;
                     return samples.coverage ? samples.coverage->at(at)
                                             : std::uint8_t(Coverage::whole);

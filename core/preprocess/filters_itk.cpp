@@ -2,7 +2,9 @@
 #include "core/preprocess/filters.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include <itkBinaryFillholeImageFilter.h>
@@ -19,6 +21,7 @@
 #include <itkSliceBySliceImageFilter.h>
 #include <tbb/parallel_for.h>
 
+#include "core/preprocess/box_around.h"
 #include "core/preprocess/itk_images_itk.inc"
 #include "core/volume/statistics.h"
 
@@ -48,68 +51,118 @@ bool isUniform(const Mask &mask) {
     return std::all_of(mask.begin(), mask.end(), [&](std::uint8_t m) { return m == mask.front(); });
 }
 
-// The samples within a distance of those that have a value in the mask. Squared distances are
-// accumulated axis by axis, no farther than the distance. ITK's distance map has no such limit and
-// takes ten times as long for anatomical radii. *Requires*: the mask contains both values.
-Mask within(const volume::Lattice &lattice, const Mask &mask, std::uint8_t value, double radiusMm,
-            const task::Progress &progress) {
-    const volume::GridSize size = lattice.size();
-    // A distance equal to the radius counts in spite of rounding.
-    const auto limit = float(radiusMm * radiusMm * (1.0 + 1e-5));
-    constexpr float far = 1e30F;
-    const auto row = [&](int j, int k) { return size.offsetOf(0, j, k); };
-    std::vector<float> alongRows(mask.size()), inSlices(mask.size());
-    tbb::parallel_for(0, size.k, [&](int k) {
-        progress.check();
-        const auto step = float(lattice.spacingMm(0));
-        for (int j = 0; j < size.j; ++j) {
-            const std::uint8_t *const in = mask.data() + row(j, k);
-            float *const out = alongRows.data() + row(j, k);
-            float last = far;
-            for (int i = 0; i < size.i; ++i)
-                out[i] = last = in[i] == value ? 0.0F : last + step;
-            last = far;
-            for (int i = size.i - 1; i >= 0; --i) {
-                last = in[i] == value ? 0.0F : last + step;
-                const float least = std::min(out[i], last);
-                out[i] = least < far ? least * least : far;
-            }
-        }
-    });
-    progress.report(0.3);
-    const auto gather = [&](const std::vector<float> &from, float *to, int j, int k, int axis) {
-        const double step = lattice.spacingMm(axis);
-        const int reach = int(std::min(radiusMm / step * (1.0 + 1e-5), double(size[axis])));
-        const int at = axis == 1 ? j : k;
-        for (int d = std::max(-reach, -at); d <= std::min(reach, size[axis] - 1 - at); ++d) {
-            const float *const source = from.data() + (axis == 1 ? row(j + d, k) : row(j, k + d));
-            const auto square = float(d * step * d * step);
-            for (int i = 0; i < size.i; ++i)
-                to[i] = std::min(to[i], source[i] + square);
-        }
-    };
-    tbb::parallel_for(0, size.k, [&](int k) {
-        progress.check();
-        for (int j = 0; j < size.j; ++j) {
-            std::fill_n(inSlices.data() + row(j, k), size.i, far);
-            gather(alongRows, inSlices.data() + row(j, k), j, k, 1);
-        }
-    });
-    progress.report(0.7);
-    Mask near(mask.size());
-    tbb::parallel_for(0, size.k, [&](int k) {
-        progress.check();
-        std::vector<float> squares(std::size_t(size.i));
-        for (int j = 0; j < size.j; ++j) {
-            std::fill(squares.begin(), squares.end(), far);
-            gather(inSlices, squares.data(), j, k, 2);
-            for (int i = 0; i < size.i; ++i)
-                near[row(j, k) + std::size_t(i)] = squares[std::size_t(i)] <= limit;
-        }
-    });
-    progress.report(1.0);
-    return near;
+// A box with more samples on each side, within the grid.
+volume::VoxelBox widened(const volume::VoxelBox &box, const int (&by)[3],
+                         const volume::GridSize &size) {
+    const auto from = [&](int lo, int axis) { return std::max(lo - by[axis], 0); };
+    const auto to = [&](int hi, int axis) { return std::min(hi + by[axis], size[axis]); };
+    return {{from(box.lo.i, 0), from(box.lo.j, 1), from(box.lo.k, 2)},
+            {to(box.hi.i, 0), to(box.hi.j, 1), to(box.hi.k, 2)}};
 }
+
+// Finds the samples within a distance of those that have a value in a mask. Squared distances are
+// accumulated axis by axis, no farther than the distance. ITK's distance map has no such limit and
+// takes ten times as long for anatomical radii.
+class Nearness {
+public:
+    Nearness(const volume::Lattice &lattice, const Mask &mask, std::uint8_t value, double radiusMm)
+        : m_size(lattice.size()), m_mask(mask), m_value(value),
+          // A distance equal to the radius counts in spite of rounding.
+          m_limit(float(radiusMm * radiusMm * (1.0 + 1e-5))) {
+        for (int d = 0; d < 3; ++d) {
+            m_step[d] = lattice.spacingMm(d);
+            m_reach[d] =
+                int(std::min(radiusMm / m_step[d] * (1.0 + 1e-5), double(m_size[d])));
+        }
+    }
+
+    // *Requires*: the mask contains both values.
+    Mask find(const task::Progress &progress) const {
+        // What is far from the samples of the mask has no such neighbour, and only such neighbours.
+        const int one[3] = {1, 1, 1};
+        const volume::VoxelBox box =
+            widened(boxAround(m_size, m_mask), m_value == 1 ? m_reach : one, m_size);
+        Mask near(m_mask.size(), std::uint8_t(1 - m_value));
+        // A part of the slices at a time, with those that it reaches, stays in the caches.
+        const int chunk = std::max(8, m_reach[2]);
+        const int chunks = (box.hi.k - box.lo.k + chunk - 1) / chunk;
+        std::atomic<int> done = 0;
+        tbb::parallel_for(0, chunks, [&](int n) {
+            progress.check();
+            const int first = box.lo.k + n * chunk;
+            slices(box, first, std::min(first + chunk, box.hi.k), near);
+            progress.report(double(++done) / chunks);
+        });
+        return near;
+    }
+
+private:
+    static constexpr float far = 1e30F;
+
+    // The slices from `first` to before `end`.
+    void slices(const volume::VoxelBox &box, int first, int end, Mask &near) const {
+        const volume::GridSize in = box.size();
+        const int from = std::max(first - m_reach[2], box.lo.k),
+                  to = std::min(end + m_reach[2], box.hi.k);
+        const auto plane = std::size_t(in.i) * std::size_t(in.j);
+        const auto alongRows = std::make_unique_for_overwrite<float[]>(plane);
+        const auto inSlices = std::make_unique_for_overwrite<float[]>(plane * std::size_t(to - from));
+        for (int k = from; k < to; ++k) {
+            for (int j = 0; j < in.j; ++j)
+                measureRow(m_mask.data() + m_size.offsetOf(box.lo.i, box.lo.j + j, k), in.i,
+                           alongRows.get() + std::size_t(j) * std::size_t(in.i));
+            gatherRows(alongRows.get(), in, inSlices.get() + std::size_t(k - from) * plane);
+        }
+        std::vector<float> squares(std::size_t(in.i));
+        for (int k = first; k < end; ++k)
+            for (int j = 0; j < in.j; ++j) {
+                std::fill(squares.begin(), squares.end(), far);
+                for (int d = std::max(-m_reach[2], from - k); d <= m_reach[2] && k + d < to; ++d)
+                    nearer(inSlices.get() + std::size_t(k + d - from) * plane +
+                               std::size_t(j) * std::size_t(in.i),
+                           in.i, float(d * m_step[2] * d * m_step[2]), squares.data());
+                std::uint8_t *const out = near.data() + m_size.offsetOf(box.lo.i, box.lo.j + j, k);
+                for (int i = 0; i < in.i; ++i)
+                    out[i] = squares[std::size_t(i)] <= m_limit;
+            }
+    }
+
+    void measureRow(const std::uint8_t *in, int count, float *out) const {
+        const auto step = float(m_step[0]);
+        float last = far;
+        for (int i = 0; i < count; ++i)
+            out[i] = last = in[i] == m_value ? 0.0F : last + step;
+        last = far;
+        for (int i = count - 1; i >= 0; --i) {
+            last = in[i] == m_value ? 0.0F : last + step;
+            const float least = std::min(out[i], last);
+            out[i] = least < far ? least * least : far;
+        }
+    }
+
+    static void nearer(const float *from, int count, float square, float *to) {
+        for (int i = 0; i < count; ++i)
+            to[i] = std::min(to[i], from[i] + square);
+    }
+
+    // From the rows of a slice to its rows and columns.
+    void gatherRows(const float *from, const volume::GridSize &in, float *to) const {
+        for (int j = 0; j < in.j; ++j) {
+            float *const row = to + std::size_t(j) * std::size_t(in.i);
+            std::fill_n(row, in.i, far);
+            for (int d = std::max(-m_reach[1], -j); d <= m_reach[1] && j + d < in.j; ++d)
+                nearer(from + std::size_t(j + d) * std::size_t(in.i), in.i,
+                       float(d * m_step[1] * d * m_step[1]), row);
+        }
+    }
+
+    volume::GridSize m_size;
+    const Mask &m_mask;
+    std::uint8_t m_value;
+    float m_limit;
+    double m_step[3];
+    int m_reach[3];
+};
 
 Mask inverted(Mask mask) {
     for (std::uint8_t &m : mask)
@@ -119,7 +172,7 @@ Mask inverted(Mask mask) {
 
 Mask grown(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
            const task::Progress &progress) {
-    return isUniform(mask) ? mask : within(lattice, mask, 1, radiusMm, progress);
+    return isUniform(mask) ? mask : Nearness(lattice, mask, 1, radiusMm).find(progress);
 }
 
 double airThreshold(const volume::Volume &volume) {
@@ -232,7 +285,7 @@ Mask filledSlices(const volume::Lattice &lattice, const Mask &mask,
 
 Mask eroded(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
             const task::Progress &progress) {
-    return isUniform(mask) ? mask : inverted(within(lattice, mask, 0, radiusMm, progress));
+    return isUniform(mask) ? mask : inverted(Nearness(lattice, mask, 0, radiusMm).find(progress));
 }
 
 volume::Volume gaussian(const volume::Volume &volume, double sigmaMm,

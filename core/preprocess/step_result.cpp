@@ -8,6 +8,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/preprocess/belonging.h"
 #include "core/preprocess/edges.h"
 #include "core/preprocess/filters.h"
 #include "core/preprocess/hand_regions.h"
@@ -31,43 +32,62 @@ bool isMostlyIn(const volume::Coverage &coverage, volume::VoxelIndex n) {
 // The samples whose membership of a class is at least a half after the steps so far.
 Mask belonging(const TissueClass &tissue, const ClassSamples &now) {
     const volume::GridSize size = now.values.lattice().size();
+    const Belonging belongs(tissue);
     Mask mask(size.count());
     now.values.visit([&](auto samples) {
         tbb::parallel_for(0, size.k, [&](int k) {
-            for (int j = 0; j < size.j; ++j)
-                for (int i = 0; i < size.i; ++i) {
-                    const std::size_t n = size.offsetOf(i, j, k);
-                    const Region where = now.regions ? (*now.regions)[n] : Region::inside;
-                    const bool isCovered = !now.coverage || isMostlyIn(*now.coverage, {i, j, k});
-                    mask[n] =
-                        where == Region::filled || (where == Region::inside && isCovered &&
-                                                    tissue.membership(double(samples[n])) >= 0.5);
+            const std::size_t first = size.offsetOf(0, 0, k), end = size.offsetOf(0, 0, k + 1);
+            for (std::size_t n = first; n < end; ++n)
+                mask[n] = belongs(samples[n]);
+            if (now.coverage)
+                for (int j = 0; j < size.j; ++j)
+                    for (int i = 0; i < size.i; ++i)
+                        if (!isMostlyIn(*now.coverage, {i, j, k}))
+                            mask[size.offsetOf(i, j, k)] = 0;
+            if (now.regions)
+                for (std::size_t n = first; n < end; ++n) {
+                    const Region where = (*now.regions)[n];
+                    mask[n] = where == Region::filled || (where == Region::inside && mask[n] != 0);
                 }
         });
     });
     return mask;
 }
 
+// The samples of a mask and all their neighbours.
+Mask withNeighbours(const volume::GridSize &size, const Mask &mask) {
+    Mask wider(mask.size());
+    tbb::parallel_for(0, size.k, [&](int k) {
+        std::vector<std::uint8_t> across(std::size_t(size.i) + 2);
+        for (int j = 0; j < size.j; ++j) {
+            std::fill(across.begin(), across.end(), std::uint8_t(0));
+            for (int z = std::max(k - 1, 0); z <= std::min(k + 1, size.k - 1); ++z)
+                for (int y = std::max(j - 1, 0); y <= std::min(j + 1, size.j - 1); ++y) {
+                    const std::uint8_t *const row = mask.data() + size.offsetOf(0, y, z);
+                    for (int i = 0; i < size.i; ++i)
+                        across[std::size_t(i) + 1] |= row[i];
+                }
+            std::uint8_t *const out = wider.data() + size.offsetOf(0, j, k);
+            for (std::size_t i = 0; i < std::size_t(size.i); ++i)
+                out[i] = across[i] | across[i + 1] | across[i + 2];
+        }
+    });
+    return wider;
+}
+
 // The regions after a step has kept a part of the class: the part, and the rim around it in which
-// membership fades. Samples that were outside stay outside, and filled gaps stay filled.
-std::vector<Region> partOf(const volume::Lattice &lattice, const Mask &before, const Mask &kept,
-                           const Regions &former) {
-    const volume::GridSize size = lattice.size();
+// membership fades, if it does. Samples that were outside stay outside, and filled gaps stay
+// filled.
+std::vector<Region> partOf(const StepStart &start, const Mask &before, const Mask &kept) {
+    const volume::GridSize size = start.before.values.lattice().size();
+    const bool fades = start.tissue.softness > 0.0 || start.before.coverage;
+    const Mask rim = fades ? withNeighbours(size, kept) : Mask();
+    const Regions &former = start.before.regions;
     std::vector<Region> regions(kept.size(), Region::outside);
     tbb::parallel_for(0, size.k, [&](int k) {
-        for (int j = 0; j < size.j; ++j)
-            for (int i = 0; i < size.i; ++i) {
-                const std::size_t n = size.offsetOf(i, j, k);
-                const Region was = former ? (*former)[n] : Region::inside;
-                bool touches = kept[n] != 0;
-                if (!touches && before[n] == 0 && was != Region::outside)
-                    for (int z = std::max(k - 1, 0); z <= std::min(k + 1, size.k - 1); ++z)
-                        for (int y = std::max(j - 1, 0); y <= std::min(j + 1, size.j - 1); ++y)
-                            for (int x = std::max(i - 1, 0); x <= std::min(i + 1, size.i - 1); ++x)
-                                touches = touches || kept[size.offsetOf(x, y, z)] != 0;
-                if (touches)
-                    regions[n] = was;
-            }
+        for (std::size_t n = size.offsetOf(0, 0, k), end = size.offsetOf(0, 0, k + 1); n < end; ++n)
+            if (kept[n] != 0 || (fades && before[n] == 0 && rim[n] != 0))
+                regions[n] = former ? (*former)[n] : Region::inside;
     });
     return regions;
 }
@@ -151,7 +171,7 @@ StepResult resultOf(const Step &step, const StepStart &start, const task::Progre
     const auto given = [&](const char *parameter) { return step.at(parameter); };
     const auto now = [&] { return belonging(tissue, before); };
     const auto part = [&](const Mask &all, const Mask &kept) {
-        return shared(partOf(lattice, all, kept, before.regions));
+        return shared(partOf(start, all, kept));
     };
     switch (step.kind) {
     case StepKind::gaussian:
