@@ -83,15 +83,14 @@ Preset presetOf(const std::string &name, const Look &look, const shading::Shadin
     Preset preset;
     preset.name = name;
     preset.modality = volume.notes().modality;
-    preset.look = look;
+    preset.look = classify::withoutMarks(look); // those belong to one study
     preset.shading = shading;
     const double width = window.high - window.low;
-    const Look plain = classify::withoutMarks(look); // those belong to one study
     if (volume.unit() == volume::ValueUnit::hounsfield) {
         preset.window = window;
     } else if (width > 0.0) {
         preset.unit = RangeUnit::window;
-        preset.look = mapped(plain, -window.low / width, 1.0 / width, Thresholds::all);
+        preset.look = mapped(preset.look, -window.low / width, 1.0 / width, Thresholds::all);
     }
     return preset;
 }
