@@ -10,6 +10,7 @@
 #include "app/cli/input.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/segment_options.h"
+#include "core/classify/region_edits.h"
 #include "core/presets/preset_library.h"
 #include "core/task/error.h"
 
@@ -70,6 +71,34 @@ void changeLook(classify::Look &look, const SceneOptions &options) {
     for (const std::string &text : options.classes)
         look.classes.push_back(classFromText(text, options));
     classify::validate(look);
+}
+
+void addPoints(classify::Look &look, const std::vector<std::string> &points) {
+    for (const std::string &text : points) {
+        const auto equals = text.rfind('=');
+        if (equals == std::string::npos || equals == 0)
+            throw Error(ErrorCode::usage,
+                        because::inWords("--point: '" + text + "' is not NAME=x,y,z"));
+        const auto mm = parseNumbers("--point", text.substr(equals + 1), ',', 3);
+        const std::string name = text.substr(0, equals);
+        const auto tissue = std::find_if(look.classes.begin(), look.classes.end(),
+                                         [&](const auto &one) { return one.name == name; });
+        if (tissue == look.classes.end() ||
+            !classify::addPoint(*tissue, {{mm[0], mm[1], mm[2]}}))
+            throw Error(ErrorCode::usage,
+                        because::inWords("--point: no class '" + name + "' takes points"));
+    }
+    classify::validate(look);
+    if (const auto awaiting = classify::awaitingClass(look))
+        throw Error(ErrorCode::usage, because::classAwaitsPoints(look.classes[*awaiting].name));
+}
+
+void addPointOption(CLI::App &command, std::vector<std::string> &points) {
+    command
+        .add_option("--point", points,
+                    "NAME=x,y,z: a point in patient space (LPS, mm) of a class that shows what is "
+                    "connected with points; may be repeated")
+        ->allow_extra_args(false);
 }
 
 classify::Look lookFor(const SceneOptions &options, const std::optional<presets::Preset> &preset) {

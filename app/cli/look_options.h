@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/presets/preset.h"
 #include "core/shading/shading.h"
@@ -25,6 +26,12 @@ std::optional<presets::Preset> presetFor(const SceneOptions &options);
 /// Applies --bezier, a curve for the whole volume, or --class, which show only these classes, to a
 /// look. *Throws* Error{usage}.
 void changeLook(classify::Look &look, const SceneOptions &options);
+
+/// Adds the points of --point to the steps that take them. *Throws* Error{usage} for a class that
+/// the look does not have or that takes no points, and if a class still waits for a point.
+void addPoints(classify::Look &look, const std::vector<std::string> &points);
+/// The option --point. *Requires*: `points` outlives the command.
+void addPointOption(CLI::App &command, std::vector<std::string> &points);
 
 /// The look of the preset, or else the default look, changed by --bezier and --class; in the
 /// preset's own units. *Throws* Error{usage}.

@@ -135,6 +135,7 @@ void addLookOptions(CLI::App &command, SceneOptions &options) {
                     "from 0 to 2; '*' in NAME stands for any characters; may be repeated")
         ->allow_extra_args(false)
         ->needs(segmentation);
+    addPointOption(command, options.points);
 }
 
 void addShadingOptions(CLI::App &command, SceneOptions &options) {
@@ -278,6 +279,7 @@ void setLook(scene::Scene &scene, const SceneOptions &o, const CLI::App &command
     changeLook(scene.look, o);
     if (segments != nullptr)
         showSegments(scene.look, o, *segments);
+    addPoints(scene.look, o.points);
 }
 
 void setShading(scene::Scene &scene, const SceneOptions &o, const CLI::App &command,

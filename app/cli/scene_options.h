@@ -20,7 +20,7 @@ struct SceneOptions {
     std::string scene, preset, view, orientation, size, window, bezier, reconstruction, quality,
         kernel, storage, depthCue, lightFrame, crop;
     bool isUniform = false, weightsAreOptional = false; ///< the latter: of --class
-    std::vector<std::string> classes, lights, segmentations, segments;
+    std::vector<std::string> classes, lights, segmentations, segments, points;
     double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0, pixelMm = 0.0, rollOff = -1.0,
            tolerance = 0.0, padding = 0.0, ambient = 1.0;
 };

@@ -38,7 +38,7 @@ constexpr std::size_t budgetOfSteps = std::size_t(1) << 30;
 
 struct Options {
     InputOptions input;
-    SceneOptions scene; ///< only --class, --preset, --segmentation and --segment
+    SceneOptions scene; ///< only --class, --preset, --segmentation, --segment and --point
     std::vector<std::string> seeds;
     std::string out, between, name = "region";
     double leakMm = 0.0;
@@ -72,9 +72,10 @@ public:
         changeLook(look, m_options.scene);
         if (loaded)
             showSegments(look, m_options.scene, *loaded);
+        addPoints(look, m_options.scene.points);
         preprocess::StepCache steps(budgetOfSteps);
         preprocess::ClassRunner runner(steps, loaded);
-        for (const classify::TissueClass &tissue : look.classes)
+        for (const classify::TissueClass &tissue : classify::withOperands(look))
             add(preprocess::segmentOf(volume(), tissue, loaded.get(), runner, m_progress));
         if (!m_options.seeds.empty())
             addGrown();
@@ -174,6 +175,7 @@ void addSegmentCommand(CLI::App &app, const Context &context) {
                   "characters; may be repeated")
         ->allow_extra_args(false)
         ->needs(segmentation);
+    addPointOption(*c, o->scene.points);
     CLI::Option *grow =
         c->add_option("--grow", o->seeds,
                       "x,y,z: write what is connected with this point in patient space (LPS, mm) "

@@ -36,6 +36,9 @@ constexpr double couchRadiusMm = 4.0;
 // belong to it.
 constexpr double longestThinPartMm = 130.0, roughnessMm = 2.0;
 constexpr double airBelowHu = -400.0;
+// The shell of a head rest is denser than an ear that is pressed against it, and longer than an ear
+// or a row of teeth. Around it, values mix.
+constexpr double shellHu = 250.0, shortestShellMm = 90.0, shellRimMm = 1.5;
 
 template <class Filter>
 volume::Volume filtered(const volume::Volume &volume, Filter &filter, const std::string &name,
@@ -225,45 +228,91 @@ Parts partsOf(const volume::Lattice &lattice, const Mask &mask, const char *step
     return {{labels, labels + mask.size()}, std::size_t(filter->GetObjectCount())};
 }
 
+// The extent of each part along the axes.
+std::vector<volume::VoxelBox> boxesOf(const Parts &parts, const volume::GridSize &size) {
+    std::vector<volume::VoxelBox> boxes(parts.count + 1);
+    std::size_t n = 0;
+    for (int k = 0; k < size.k; ++k)
+        for (int j = 0; j < size.j; ++j)
+            for (int i = 0; i < size.i; ++i, ++n)
+                if (parts.labels[n] != 0) {
+                    volume::VoxelBox &box = boxes[parts.labels[n]];
+                    box = united(box, {{i, j, k}, {i + 1, j + 1, k + 1}});
+                }
+    return boxes;
+}
+
+double diagonalMm(const volume::VoxelBox &box, const volume::Lattice &lattice) {
+    const volume::GridSize size = box.size();
+    return glm::length(glm::dvec3(size.i * lattice.spacingMm(0), size.j * lattice.spacingMm(1),
+                                  size.k * lattice.spacingMm(2)));
+}
+
+// The tissue outside the core.
+Mask thinParts(const Mask &tissue, const Mask &core) {
+    Mask thin(tissue.size());
+    for (std::size_t n = 0; n < thin.size(); ++n)
+        thin[n] = std::uint8_t(tissue[n] & ~core[n] & 1);
+    return thin;
+}
+
+// The dense shells of head rests and couches, with the rim in which their values mix with those
+// around: dense parts that are long, and mostly too thin for the core. Empty: there are none. For
+// values in HU.
+Mask shellsOf(const volume::Volume &volume, const Mask &core, const task::Progress &progress) {
+    const volume::Lattice &lattice = volume.lattice();
+    Mask dense(core.size());
+    volume.visit([&](auto samples) {
+        for (std::size_t n = 0; n < dense.size(); ++n)
+            dense[n] = double(samples[n]) > shellHu;
+    });
+    const Parts parts = partsOf(lattice, dense, "body", progress.part(0.0, 0.5));
+    const auto boxes = boxesOf(parts, lattice.size());
+    std::vector<std::size_t> counts(parts.count + 1), inCore(parts.count + 1);
+    for (std::size_t n = 0; n < dense.size(); ++n) {
+        ++counts[parts.labels[n]];
+        inCore[parts.labels[n]] += core[n];
+    }
+    std::vector<std::uint8_t> isShell(parts.count + 1);
+    bool isAny = false;
+    for (std::size_t label = 1; label < isShell.size(); ++label) {
+        isShell[label] = diagonalMm(boxes[label], lattice) >= shortestShellMm &&
+                         2 * inCore[label] < counts[label];
+        isAny = isAny || isShell[label] != 0;
+    }
+    if (!isAny)
+        return {};
+    for (std::size_t n = 0; n < dense.size(); ++n)
+        dense[n] = isShell[parts.labels[n]];
+    return dilated(lattice, dense, shellRimMm, progress.part(0.5, 1.0));
+}
+
+void remove(const Mask &removed, Mask &from) {
+    for (std::size_t n = 0; n < removed.size(); ++n)
+        from[n] = std::uint8_t(from[n] & ~removed[n] & 1);
+}
+
 // The core with thin, short parts of the tissue that touch it: an ear, but not a couch.
 Mask withShortParts(const volume::Lattice &lattice, Mask core, const Mask &tissue,
                     const task::Progress &progress) {
     const volume::GridSize size = lattice.size();
-    Mask thin(tissue.size());
-    for (std::size_t n = 0; n < thin.size(); ++n)
-        thin[n] = std::uint8_t(tissue[n] & ~core[n] & 1);
-    const Parts parts = partsOf(lattice, thin, "body", progress);
-    struct Part {
-        volume::VoxelIndex lo{1 << 30, 1 << 30, 1 << 30}, hi{-1, -1, -1};
-        bool touches = false;
-    };
-    std::vector<Part> found(parts.count + 1);
+    const Parts parts = partsOf(lattice, thinParts(tissue, core), "body", progress);
+    const auto boxes = boxesOf(parts, size);
+    std::vector<std::uint8_t> touches(parts.count + 1);
     const std::size_t row = std::size_t(size.i), plane = row * std::size_t(size.j);
     std::size_t n = 0;
     for (int k = 0; k < size.k; ++k)
         for (int j = 0; j < size.j; ++j)
-            for (int i = 0; i < size.i; ++i, ++n) {
-                if (parts.labels[n] == 0)
-                    continue;
-                Part &part = found[parts.labels[n]];
-                part.lo = {std::min(part.lo.i, i), std::min(part.lo.j, j), std::min(part.lo.k, k)};
-                part.hi = {std::max(part.hi.i, i), std::max(part.hi.j, j), std::max(part.hi.k, k)};
-                part.touches =
-                    part.touches || (i > 0 && core[n - 1] != 0) ||
-                    (i + 1 < size.i && core[n + 1] != 0) || (j > 0 && core[n - row] != 0) ||
-                    (j + 1 < size.j && core[n + row] != 0) || (k > 0 && core[n - plane] != 0) ||
-                    (k + 1 < size.k && core[n + plane] != 0);
-            }
-    std::vector<std::uint8_t> isKept(found.size());
-    for (std::size_t label = 1; label < found.size(); ++label) {
-        const Part &part = found[label];
-        const glm::dvec3 mm((part.hi.i - part.lo.i + 1) * lattice.spacingMm(0),
-                            (part.hi.j - part.lo.j + 1) * lattice.spacingMm(1),
-                            (part.hi.k - part.lo.k + 1) * lattice.spacingMm(2));
-        isKept[label] = part.touches && glm::length(mm) <= longestThinPartMm;
-    }
+            for (int i = 0; i < size.i; ++i, ++n)
+                if (parts.labels[n] != 0 &&
+                    ((i > 0 && core[n - 1] != 0) || (i + 1 < size.i && core[n + 1] != 0) ||
+                     (j > 0 && core[n - row] != 0) || (j + 1 < size.j && core[n + row] != 0) ||
+                     (k > 0 && core[n - plane] != 0) || (k + 1 < size.k && core[n + plane] != 0)))
+                    touches[parts.labels[n]] = 1;
+    for (std::size_t label = 1; label < touches.size(); ++label)
+        touches[label] &= diagonalMm(boxes[label], lattice) <= longestThinPartMm ? 1 : 0;
     for (std::size_t at = 0; at < core.size(); ++at)
-        core[at] = std::uint8_t(core[at] | isKept[parts.labels[at]]);
+        core[at] = std::uint8_t(core[at] | touches[parts.labels[at]]);
     return core;
 }
 
@@ -367,13 +416,20 @@ Mask body(const volume::Volume &volume, double marginMm, const task::Progress &p
     // Slices are filled first, because an opening would connect the lungs to the surrounding air.
     const Mask opened = opening(lattice, filledSlices(lattice, tissue, progress.part(0.0, 0.2)),
                                 couchRadiusMm, progress.part(0.2, 0.6));
-    const Mask core = largestPart(lattice, opened, 1.0, progress.part(0.6, 0.7));
-    Mask patient = dilated(lattice, core, roughnessMm, progress.part(0.7, 0.75));
+    Mask core = largestPart(lattice, opened, 1.0, progress.part(0.6, 0.7));
+    const Mask shells = volume.unit() == volume::ValueUnit::hounsfield
+                            ? shellsOf(volume, core, progress.part(0.7, 0.72))
+                            : Mask();
+    remove(shells, tissue);
+    remove(shells, core);
+    Mask patient = dilated(lattice, core, roughnessMm, progress.part(0.72, 0.75));
     for (std::size_t n = 0; n < patient.size(); ++n)
         patient[n] = std::uint8_t((patient[n] & tissue[n]) | core[n]);
     patient = withShortParts(lattice, std::move(patient), tissue, progress.part(0.75, 0.8));
-    return dilated(lattice, filledSlices(lattice, patient, progress.part(0.8, 0.9)), marginMm,
-                   progress.part(0.9, 1.0));
+    Mask all = dilated(lattice, filledSlices(lattice, patient, progress.part(0.8, 0.9)), marginMm,
+                       progress.part(0.9, 1.0));
+    remove(shells, all); // the margin reaches those that touch the skin
+    return all;
 }
 
 Mask skin(const volume::Volume &volume, double depthMm, double marginMm,

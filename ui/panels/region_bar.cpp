@@ -164,11 +164,12 @@ void RegionBar::showMarking() {
     m_erases->setChecked(options.erases);
     m_isBone->setChecked(options.isBone);
     const int selected = m_document.selectedClass();
+    const QString selectedName =
+        selected < 0
+            ? QString()
+            : translatedName(m_document.scene().look.classes[std::size_t(selected)].name);
     if (addsPoints && selected >= 0)
-        m_text->setText(
-            tr("Click a point of %1 in a plane or the projection")
-                .arg(translatedName(
-                    m_document.scene().look.classes[std::size_t(selected)].name)));
+        m_text->setText(tr("Click a point of %1 in a plane or the projection").arg(selectedName));
     else if (grows)
         m_text->setText(options.isBone
                             ? tr("Click bone in a plane or the projection")
@@ -177,9 +178,14 @@ void RegionBar::showMarking() {
         m_text->setText(tr("Drag in a plane or the projection"));
     else
         m_text->setText(tr("Draw around what is meant, in a plane or the projection"));
-    m_found->setText(marking.isSearching() ? tr("Searching...")
-                     : marking.tint()      ? tr("%1 ml").arg(marking.tint()->volumeMl, 0, 'f', 1)
-                                           : QString());
+    QString found;
+    if (marking.isSearching())
+        found = tr("Searching...");
+    else if (marking.tint())
+        found = tr("%1 ml").arg(marking.tint()->volumeMl, 0, 'f', 1);
+    if (marking.tint() && !marking.sought() && selected >= 0)
+        found = selectedName + ": " + found;
+    m_found->setText(found);
 }
 
 } // namespace pellucid::ui

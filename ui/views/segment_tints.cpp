@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <QColor>
+
 #include <glm/common.hpp>
 
 #include "ui/document/document.h"
@@ -17,6 +19,9 @@ namespace {
 
 // Weak enough that the grey values stay readable.
 constexpr int strength = 90, most = 255;
+// Enough to see what is left out, and what it is.
+constexpr int dimming = 165;
+constexpr int leastSaturation = 40;
 
 QRgb mixed(QRgb below, QRgb color, int share) {
     const int alpha = strength * share / most;
@@ -78,6 +83,17 @@ private:
     glm::dvec3 m_origin, m_columnStep, m_rowStep;
 };
 
+void dimRow(QRgb *pixels, int row, int width, const volume::Coverage &coverage,
+            const PixelGrid &grid) {
+    for (int column = 0; column < width; ++column)
+        if (const int share = coverage.at(grid.at(column, row)); share < most) {
+            const int kept = most - dimming * (most - share) / most;
+            const QRgb was = pixels[column];
+            pixels[column] = qRgb(qRed(was) * kept / most, qGreen(was) * kept / most,
+                                  qBlue(was) * kept / most);
+        }
+}
+
 } // namespace
 
 std::vector<SegmentTint> segmentTints(const Document &document) {
@@ -87,8 +103,11 @@ std::vector<SegmentTint> segmentTints(const Document &document) {
             if (const segment::Segment *const segment = document.segments()->find(tissue.segment);
                 segment != nullptr && tissue.weight > 0.0)
                 tints.push_back({segment->coverage, rgbOf(tissue.color)});
-    if (const auto &marked = document.marking().tint())
-        tints.push_back({marked->coverage, rgbOf(marked->color)});
+    if (const auto &marked = document.marking().tint()) {
+        // Grey over grey would not be seen.
+        const QRgb color = rgbOf(marked->color);
+        tints.push_back({marked->coverage, color, QColor(color).saturation() < leastSaturation});
+    }
     return tints;
 }
 
@@ -106,6 +125,10 @@ void tintSegments(QImage &picture, const mpr::Plane &plane, const volume::Lattic
         auto *const pixels = reinterpret_cast<QRgb *>(bits + row * stride);
         for (std::size_t n = 0; n < tints.size(); ++n) {
             const QRect &area = areas[n];
+            if (tints[n].dimsOutside) {
+                dimRow(pixels, row, plane.width, *tints[n].coverage, grid);
+                continue;
+            }
             if (area.isEmpty() || row < area.top() || row > area.bottom())
                 continue;
             for (int column = area.left(); column <= area.right(); ++column)

@@ -17,6 +17,7 @@ class Document;
 struct SegmentTint {
     std::shared_ptr<const volume::Coverage> coverage;
     QRgb color = 0;
+    bool dimsOutside = false; ///< darkens what is not in it, instead of coloring what is
     bool operator==(const SegmentTint &) const = default;
 };
 

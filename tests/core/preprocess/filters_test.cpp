@@ -233,5 +233,48 @@ TEST(Body, KeepsEarsAndLeavesTheHeadRest) {
     EXPECT_LT(left, ofRest / 5);
 }
 
+// Both ears are pressed against the dense walls of a head rest.
+TEST(Body, LosesADenseShellThatTouchesIt) {
+    const auto lattice = volume::Lattice::centred({110, 120, 60}, {2.0, 2.0, 3.0});
+    const auto head = [](glm::dvec3 p) {
+        return glm::length(p / glm::dvec3(75.0, 95.0, 110.0)) < 1.0;
+    };
+    const auto ear = [](glm::dvec3 p) {
+        return std::abs(p.x) > 70.0 && std::abs(p.x) < 98.0 && std::abs(p.y - 10.0) < 5.0 &&
+               std::abs(p.z) < 30.0;
+    };
+    const auto skull = [](glm::dvec3 p) {
+        const double r = glm::length(p / glm::dvec3(75.0, 95.0, 110.0));
+        return r > 0.85 && r < 0.92;
+    };
+    const auto wall = [](glm::dvec3 p) {
+        return std::abs(p.x) >= 98.0 && std::abs(p.x) < 102.0 && std::abs(p.y) < 60.0;
+    };
+    std::vector<std::int16_t> samples(lattice.size().count(), -1000);
+    std::vector<std::uint8_t> isPatient(samples.size()), isWall(samples.size());
+    for (int k = 0, n = 0; k < lattice.size().k; ++k)
+        for (int j = 0; j < lattice.size().j; ++j)
+            for (int i = 0; i < lattice.size().i; ++i, ++n) {
+                const glm::dvec3 p = lattice.patient(volume::VoxelIndex{i, j, k}).mm;
+                isPatient[std::size_t(n)] = head(p) || ear(p);
+                isWall[std::size_t(n)] = wall(p);
+                if (isPatient[std::size_t(n)] != 0)
+                    samples[std::size_t(n)] = skull(p) ? 900 : 40;
+                if (isWall[std::size_t(n)] != 0)
+                    samples[std::size_t(n)] = 400;
+            }
+    for (const double margin : {0.0, 2.0}) {
+        const Mask body = preprocess::body(
+            {lattice, samples, volume::ValueUnit::hounsfield}, margin);
+        std::size_t lost = 0, left = 0;
+        for (std::size_t n = 0; n < body.size(); ++n) {
+            lost += isPatient[n] != 0 && body[n] == 0;
+            left += isWall[n] != 0 && body[n] != 0;
+        }
+        EXPECT_EQ(lost, 0U) << margin;
+        EXPECT_EQ(left, 0U) << margin;
+    }
+}
+
 } // namespace
 } // namespace pellucid
