@@ -260,13 +260,23 @@ void subtractFrom(Input &input, const InputOptions &options,
     other.fillGaps = options.fillGaps;
     other.large = options.large;
     const task::Progress progress(context.stop);
+    subtraction::Weights weights;
+    if (!options.weights.empty()) {
+        const auto given = parseNumbers("--weights", options.weights, ',', 2);
+        weights = {given[0], given[1]};
+        for (const double weight : given)
+            if (!(std::abs(weight) <= subtraction::Weights::largest))
+                throw Error(ErrorCode::usage,
+                            because::inWords("--weights: '" + options.weights +
+                                             "' has a weight that is not between -2 and 2"));
+    }
     try {
         const Input subtrahend = openOne(other, outs, context);
         const volume::Volume &a = input.loaded.volume, &b = subtrahend.loaded.volume;
         if (input.labels.patientId != subtrahend.labels.patientId)
             warn("--subtract: the two volumes have different patient IDs");
         const subtraction::Subtraction made =
-            subtraction::subtract(a, b, options.alignment == "rigid", progress);
+            subtraction::subtract(a, b, options.alignment == "rigid", weights, progress);
         if (made.needsAlignment)
             warn("--subtract: the two volumes have different frames of reference; --register rigid "
                  "aligns them");
@@ -306,6 +316,12 @@ void addSubtractionOptions(CLI::App &command, InputOptions &options) {
         .add_option("--register", options.alignment,
                     "Align that volume first: rigid (rotation and shift, by mutual information)")
         ->check(CLI::IsMember({"rigid"}))
+        ->needs(subtract);
+    command
+        .add_option("--weights", options.weights,
+                    "A,B: show A times the volume plus B times the other, each from -2 to 2; "
+                    "default 1,-1")
+        ->check(notEmpty())
         ->needs(subtract);
 }
 

@@ -34,7 +34,8 @@ struct InputOptions {
     std::string path, series;
     int volume = 0; ///< number within the series, from 1; 0 selects the default
     bool fillGaps = false, large = false;
-    std::string subtract, subtractSeries, alignment; ///< of a volume that is subtracted
+    std::string subtract, subtractSeries, alignment, ///< of a volume that is subtracted
+        weights;                                     ///< of both
 };
 
 /// Adds --large.
@@ -42,7 +43,7 @@ void addLargeOption(CLI::App &command, bool &large);
 
 /// Adds PATH, --series, --volume, --fill-gaps and --large.
 void addInputOptions(CLI::App &command, InputOptions &options);
-/// Adds --subtract, --subtract-series and --register.
+/// Adds --subtract, --subtract-series, --register and --weights.
 void addSubtractionOptions(CLI::App &command, InputOptions &options);
 
 /// Scans a path and loads one volume: that of the given series, or the one with the most voxels;

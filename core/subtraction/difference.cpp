@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
@@ -14,6 +15,7 @@
 
 #include "core/mpr/linear_samples.h"
 #include "core/task/error.h"
+#include "core/volume/statistics.h"
 
 namespace pellucid::subtraction {
 
@@ -38,10 +40,14 @@ Volume labelled(const Lattice &lattice, auto samples, const Volume &minuend,
     return Volume(lattice, std::move(samples), volume::ValueUnit::none, std::move(notes));
 }
 
-// Exact differences of whole numbers on one lattice; nothing if one does not fit.
+// Exact sums of whole numbers on one lattice; nothing if one does not fit or a weight is not whole.
 std::optional<std::vector<std::int16_t>> wholeDifference(const Volume &a, const Volume &b,
+                                                         const Weights &weights,
                                                          const task::Progress &progress) {
     std::optional<std::vector<std::int16_t>> result;
+    const int ofA = int(weights.minuend), ofB = int(weights.subtrahend);
+    if (ofA != weights.minuend || ofB != weights.subtrahend)
+        return result;
     a.visit([&](auto from) {
         b.visit([&](auto with) {
             using Shorts = std::span<const std::int16_t>;
@@ -54,7 +60,7 @@ std::optional<std::vector<std::int16_t>> wholeDifference(const Volume &a, const 
                 tbb::parallel_for(0, size.k, [&](int k) {
                     progress.check();
                     for (std::size_t n = k * plane; n < (k + 1) * plane; ++n) {
-                        const int d = int(from[n]) - int(with[n]);
+                        const int d = ofA * int(from[n]) + ofB * int(with[n]);
                         if (d != std::int16_t(d))
                             fits = false;
                         values[n] = std::int16_t(d);
@@ -110,11 +116,18 @@ std::vector<float> resampledOnto(const Lattice &lattice, const Volume &volume,
 }
 
 Volume difference(const Volume &minuend, const Volume &subtrahend,
-                  const RigidTransform &toSubtrahend, const task::Progress &progress) {
+                  const RigidTransform &toSubtrahend, const Weights &weights,
+                  const task::Progress &progress) {
+    for (const double weight : {weights.minuend, weights.subtrahend})
+        if (!(std::abs(weight) <= Weights::largest))
+            throw task::Error(task::ErrorCode::usage,
+                              because::subtractionWeightOutOfRange(
+                                  fmt::format("{:g}", weight), fmt::format("{:g}", -Weights::largest),
+                                  fmt::format("{:g}", Weights::largest)));
     return task::orOutOfMemory(because::noMemoryForTheDifference, [&] {
         const Lattice &lattice = minuend.lattice();
         if (toSubtrahend.isIdentity() && lattice == subtrahend.lattice())
-            if (auto whole = wholeDifference(minuend, subtrahend, progress))
+            if (auto whole = wholeDifference(minuend, subtrahend, weights, progress))
                 return labelled(lattice, std::move(*whole), minuend, subtrahend);
         std::vector<float> values =
             resampledOnto(lattice, subtrahend, toSubtrahend, progress.part(0.0, 0.8));
@@ -125,7 +138,8 @@ Volume difference(const Volume &minuend, const Volume &subtrahend,
                 progress.check();
                 for (std::size_t n = size.offsetOf(0, 0, k), end = size.offsetOf(0, 0, k + 1);
                      n < end; ++n) {
-                    const float d = float(samples[n]) - values[n];
+                    const auto d = float(weights.minuend * double(samples[n]) +
+                                         weights.subtrahend * double(values[n]));
                     if (std::isfinite(d))
                         overlaps = true;
                     values[n] = std::isfinite(d) ? d : 0.0F;
@@ -138,13 +152,33 @@ Volume difference(const Volume &minuend, const Volume &subtrahend,
     });
 }
 
+Volume onLatticeOf(const Volume &minuend, const Volume &subtrahend,
+                   const RigidTransform &toSubtrahend, const task::Progress &progress) {
+    return task::orOutOfMemory(because::noMemoryForTheDifference, [&] {
+        std::vector<float> values =
+            resampledOnto(minuend.lattice(), subtrahend, toSubtrahend, progress);
+        const double lowest = volume::quantiles(subtrahend, {0.0}).front();
+        bool overlaps = false;
+        for (float &value : values) {
+            overlaps = overlaps || std::isfinite(value);
+            value = std::isfinite(value) ? value : float(lowest);
+        }
+        if (!overlaps)
+            throw task::Error(task::ErrorCode::unusable, because::volumesDoNotOverlap);
+        volume::VolumeNotes notes = subtrahend.notes();
+        notes.frameOfReferenceUid = minuend.notes().frameOfReferenceUid;
+        return Volume(minuend.lattice(), std::move(values), subtrahend.unit(), std::move(notes));
+    });
+}
+
 Subtraction subtract(const Volume &minuend, const Volume &subtrahend, bool isAligned,
-                     const task::Progress &progress) {
+                     const Weights &weights, const task::Progress &progress) {
     if (!isAligned)
-        return {difference(minuend, subtrahend, {}, progress), std::nullopt,
+        return {difference(minuend, subtrahend, {}, weights, progress), std::nullopt,
                 minuend.notes().frameOfReferenceUid != subtrahend.notes().frameOfReferenceUid};
     const Registration found = registerRigidly(minuend, subtrahend, progress.part(0.0, 0.8));
-    return {difference(minuend, subtrahend, found.toMoving, progress.part(0.8, 1.0)), found, false};
+    return {difference(minuend, subtrahend, found.toMoving, weights, progress.part(0.8, 1.0)), found,
+            false};
 }
 
 } // namespace pellucid::subtraction

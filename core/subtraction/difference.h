@@ -14,13 +14,25 @@ std::vector<float> resampledOnto(const volume::Lattice &lattice, const volume::V
                                  const RigidTransform &toVolume,
                                  const task::Progress &progress = {});
 
-/// `minuend - subtrahend` on the minuend's lattice; 0 where the subtrahend is not. Values have no
-/// unit: a difference of 0 HU is not water. Volumes of 16 bits on one lattice give 16 bits if every
-/// difference fits. *Throws* Error{unusable} if the volumes do not overlap, Error{outOfMemory},
-/// Cancelled.
+/// What two volumes are multiplied with before they are added.
+struct Weights {
+    static constexpr double largest = 2.0; ///< of the magnitudes
+    double minuend = 1.0, subtrahend = -1.0;
+    bool operator==(const Weights &) const = default;
+};
+
+/// `minuend - subtrahend`, or another weighted sum, on the minuend's lattice; 0 where the subtrahend
+/// is not. Values have no unit: a difference of 0 HU is not water. Volumes of 16 bits on one lattice
+/// give 16 bits if the weights are whole and every value fits. *Throws* Error{usage} for weights out
+/// of range, Error{unusable} if the volumes do not overlap, Error{outOfMemory}, Cancelled.
 volume::Volume difference(const volume::Volume &minuend, const volume::Volume &subtrahend,
-                          const RigidTransform &toSubtrahend = {},
+                          const RigidTransform &toSubtrahend = {}, const Weights &weights = {},
                           const task::Progress &progress = {});
+
+/// A volume on the lattice of another, to check an alignment: its lowest value where it is not.
+/// *Throws* as `difference`.
+volume::Volume onLatticeOf(const volume::Volume &minuend, const volume::Volume &subtrahend,
+                           const RigidTransform &toSubtrahend, const task::Progress &progress = {});
 
 /// A difference and how it was made.
 struct Subtraction {
@@ -32,6 +44,7 @@ struct Subtraction {
 
 /// `difference`, after `registerRigidly` if the subtrahend is to be aligned. *Throws* as both.
 Subtraction subtract(const volume::Volume &minuend, const volume::Volume &subtrahend,
-                     bool isAligned, const task::Progress &progress = {});
+                     bool isAligned, const Weights &weights = {},
+                     const task::Progress &progress = {});
 
 } // namespace pellucid::subtraction

@@ -12,6 +12,37 @@
     </message>
 </context>
 <context>
+    <name>StepTexts</name>
+    <message numerus="yes">
+        <source>connected with %n point(s), not through less than %1 mm</source>
+        <translation>
+            <numerusform>connected with %n point, not through less than %1 mm</numerusform>
+            <numerusform>connected with %n points, not through less than %1 mm</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>connected with %n point(s)</source>
+        <translation>
+            <numerusform>connected with %n point</numerusform>
+            <numerusform>connected with %n points</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n stroke(s)</source>
+        <translation>
+            <numerusform>%n stroke</numerusform>
+            <numerusform>%n strokes</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n cut(s)</source>
+        <translation>
+            <numerusform>%n cut</numerusform>
+            <numerusform>%n cuts</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>StudyFactsTexts</name>
     <message numerus="yes">
         <source>%n phases</source>

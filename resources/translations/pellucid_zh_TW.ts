@@ -29,6 +29,10 @@
         <source>%1 minus %2</source>
         <translation>%1 減 %2</translation>
     </message>
+    <message>
+        <source>%1 aligned with %2</source>
+        <translation>%1 對齊 %2</translation>
+    </message>
 </context>
 <context>
     <name>Dock</name>
@@ -409,6 +413,14 @@
     <message>
         <source>Loss</source>
         <translation>減少</translation>
+    </message>
+    <message>
+        <source>Volume</source>
+        <translation>體積</translation>
+    </message>
+    <message>
+        <source>Region</source>
+        <translation>區域</translation>
     </message>
 </context>
 <context>
@@ -2065,14 +2077,6 @@
         <translation>步驟「%1」的 low 高於 high</translation>
     </message>
     <message>
-        <source>the step &apos;%1&apos; has no closing bracket</source>
-        <translation>步驟「%1」缺少右括號</translation>
-    </message>
-    <message>
-        <source>&apos;%1&apos; in the step &apos;%2&apos; is not NAME=NUMBER</source>
-        <translation>步驟「%2」中的「%1」不是 名稱=數字</translation>
-    </message>
-    <message>
         <source>edges by ITK need at least four samples along each axis; the fast method does not</source>
         <translation>以 ITK 求邊緣時，每軸至少需要四個取樣；快速方法則不需要</translation>
     </message>
@@ -2516,6 +2520,360 @@
         <source>segments are left out: a look has at most %1 classes</source>
         <translation>有分割區未列入：外觀最多有 %1 個類別</translation>
     </message>
+    <message>
+        <source>the weight %1 is not between %2 and %3</source>
+        <translation>權重 %1 不在 %2 與 %3 之間</translation>
+    </message>
+    <message>
+        <source>is drawn and cannot be a segment, too</source>
+        <translation>是手繪的，不能同時是分割區</translation>
+    </message>
+    <message>
+        <source>classes within classes are nested too deep</source>
+        <translation>類別中的類別層數過多</translation>
+    </message>
+    <message>
+        <source>the step &apos;%1&apos; needs another class</source>
+        <translation>步驟「%1」需要另一個類別</translation>
+    </message>
+    <message>
+        <source>the steps of the class &apos;%1&apos; need the class &apos;%2&apos;, which the look does not have</source>
+        <translation>類別「%1」的步驟需要類別「%2」，但外觀中沒有</translation>
+    </message>
+    <message>
+        <source>the steps of the class &apos;%1&apos; combine it with itself</source>
+        <translation>類別「%1」的步驟將它與自己組合</translation>
+    </message>
+    <message>
+        <source>the steps of the class &apos;%1&apos; combine more than %2 classes</source>
+        <translation>類別「%1」的步驟組合了超過 %2 個類別</translation>
+    </message>
+    <message>
+        <source>there are %1 points; %2 to %3 are allowed</source>
+        <translation>有 %1 個點；允許 %2 至 %3 個</translation>
+    </message>
+    <message>
+        <source>a point is not finite</source>
+        <translation>有一個點不是有限的數</translation>
+    </message>
+    <message>
+        <source>the step &apos;%1&apos; has %2 strokes or cuts; at most %3 are allowed</source>
+        <translation>步驟「%1」有 %2 個筆畫或剪裁；最多 %3 個</translation>
+    </message>
+    <message>
+        <source>the radius of %1 mm is not between %2 and %3 mm</source>
+        <translation>半徑 %1 mm 不在 %2 與 %3 mm 之間</translation>
+    </message>
+    <message>
+        <source>the line of sight of a cut is not a unit vector</source>
+        <translation>剪裁的視線不是單位向量</translation>
+    </message>
+    <message>
+        <source>the slab of a cut is empty</source>
+        <translation>剪裁的厚切是空的</translation>
+    </message>
+    <message>
+        <source>the class &apos;%1&apos; needs a point in the patient; name one by --point &apos;%1=x,y,z&apos;</source>
+        <translation>類別「%1」需要病患中的一點；請以 --point &apos;%1=x,y,z&apos; 指定</translation>
+    </message>
+</context>
+<context>
+    <name>RegionTexts</name>
+    <message>
+        <source>New region</source>
+        <translation>新區域</translation>
+    </message>
+    <message>
+        <source>Add region</source>
+        <translation>加入區域</translation>
+    </message>
+    <message>
+        <source>Keep region</source>
+        <translation>保留區域</translation>
+    </message>
+    <message>
+        <source>Remove region</source>
+        <translation>移除區域</translation>
+    </message>
+    <message>
+        <source>Scissors</source>
+        <translation>剪刀</translation>
+    </message>
+    <message>
+        <source>Erase</source>
+        <translation>擦除</translation>
+    </message>
+    <message>
+        <source>Paint</source>
+        <translation>塗畫</translation>
+    </message>
+    <message>
+        <source>Point</source>
+        <translation>點</translation>
+    </message>
+</context>
+<context>
+    <name>StepTexts</name>
+    <message>
+        <source>Standard deviation</source>
+        <translation>標準差</translation>
+    </message>
+    <message>
+        <source>Half the side of the neighbourhood</source>
+        <translation>鄰域邊長的一半</translation>
+    </message>
+    <message>
+        <source>Number of iterations</source>
+        <translation>迭代次數</translation>
+    </message>
+    <message>
+        <source>Lower values preserve more edges</source>
+        <translation>數值越低，保留的邊緣越多</translation>
+    </message>
+    <message>
+        <source>Standard deviation of prior smoothing</source>
+        <translation>先行平滑的標準差</translation>
+    </message>
+    <message>
+        <source>Minimum</source>
+        <translation>最小值</translation>
+    </message>
+    <message>
+        <source>Maximum</source>
+        <translation>最大值</translation>
+    </message>
+    <message>
+        <source>An edge continues above this</source>
+        <translation>邊緣在此值以上延續</translation>
+    </message>
+    <message>
+        <source>An edge starts above this</source>
+        <translation>邊緣在此值以上開始</translation>
+    </message>
+    <message>
+        <source>1: use ITK&apos;s filters, slower</source>
+        <translation>1：使用 ITK 濾波器，較慢</translation>
+    </message>
+    <message>
+        <source>Radius of the ball</source>
+        <translation>球的半徑</translation>
+    </message>
+    <message>
+        <source>Minimum size of a part relative to the largest</source>
+        <translation>相對於最大部分的最小大小</translation>
+    </message>
+    <message>
+        <source>Not through openings narrower than this</source>
+        <translation>不穿過比此更窄的開口</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>距離</translation>
+    </message>
+    <message>
+        <source>Depth</source>
+        <translation>深度</translation>
+    </message>
+    <message>
+        <source>Margin around the skin</source>
+        <translation>皮膚外的邊緣</translation>
+    </message>
+    <message>
+        <source>Depth below the skin</source>
+        <translation>皮膚下的深度</translation>
+    </message>
+    <message>
+        <source>Margin outside the skin</source>
+        <translation>皮膚外的邊緣</translation>
+    </message>
+    <message>
+        <source>connected with a point to be clicked</source>
+        <translation>與待點按的點相連</translation>
+    </message>
+    <message numerus="yes">
+        <source>connected with %n point(s), not through less than %1 mm</source>
+        <translation>
+            <numerusform>與 %n 個點相連，不穿過窄於 %1 mm 處</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>connected with %n point(s)</source>
+        <translation>
+            <numerusform>與 %n 個點相連</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Smooth with a Gaussian</source>
+        <translation>高斯平滑</translation>
+    </message>
+    <message>
+        <source>Median</source>
+        <translation>中值</translation>
+    </message>
+    <message>
+        <source>Smooth along edges</source>
+        <translation>沿邊緣平滑</translation>
+    </message>
+    <message>
+        <source>Gradient</source>
+        <translation>梯度</translation>
+    </message>
+    <message>
+        <source>Change the sign</source>
+        <translation>改變正負號</translation>
+    </message>
+    <message>
+        <source>Hard range of values</source>
+        <translation>硬性數值範圍</translation>
+    </message>
+    <message>
+        <source>Edges</source>
+        <translation>邊緣</translation>
+    </message>
+    <message>
+        <source>One density above a value</source>
+        <translation>高於某值則密度為一</translation>
+    </message>
+    <message>
+        <source>Remove what is thin</source>
+        <translation>去除細薄部分</translation>
+    </message>
+    <message>
+        <source>Close narrow gaps</source>
+        <translation>閉合窄縫</translation>
+    </message>
+    <message>
+        <source>Largest part</source>
+        <translation>最大部分</translation>
+    </message>
+    <message>
+        <source>Connected with points</source>
+        <translation>與點相連</translation>
+    </message>
+    <message>
+        <source>Grow</source>
+        <translation>擴張</translation>
+    </message>
+    <message>
+        <source>Shrink</source>
+        <translation>收縮</translation>
+    </message>
+    <message>
+        <source>Fill holes</source>
+        <translation>填滿孔洞</translation>
+    </message>
+    <message>
+        <source>The patient without the couch</source>
+        <translation>不含檢查床的病患</translation>
+    </message>
+    <message>
+        <source>The skin</source>
+        <translation>皮膚</translation>
+    </message>
+    <message>
+        <source>And another class</source>
+        <translation>且另一類別</translation>
+    </message>
+    <message>
+        <source>Or another class</source>
+        <translation>或另一類別</translation>
+    </message>
+    <message>
+        <source>Without another class</source>
+        <translation>去除另一類別</translation>
+    </message>
+    <message>
+        <source>Painted</source>
+        <translation>塗畫</translation>
+    </message>
+    <message>
+        <source>Scissors</source>
+        <translation>剪刀</translation>
+    </message>
+    <message>
+        <source>smoothed by %1 mm</source>
+        <translation>平滑 %1 mm</translation>
+    </message>
+    <message>
+        <source>median within %1 mm</source>
+        <translation>%1 mm 內的中值</translation>
+    </message>
+    <message>
+        <source>without parts thinner than %1 mm</source>
+        <translation>去除薄於 %1 mm 的部分</translation>
+    </message>
+    <message>
+        <source>gaps up to %1 mm closed</source>
+        <translation>閉合 %1 mm 以內的縫隙</translation>
+    </message>
+    <message>
+        <source>grown by %1 mm</source>
+        <translation>擴張 %1 mm</translation>
+    </message>
+    <message>
+        <source>shrunk by %1 mm</source>
+        <translation>收縮 %1 mm</translation>
+    </message>
+    <message>
+        <source>holes filled</source>
+        <translation>孔洞已填滿</translation>
+    </message>
+    <message>
+        <source>within the patient</source>
+        <translation>在病患之內</translation>
+    </message>
+    <message>
+        <source>the skin only</source>
+        <translation>僅皮膚</translation>
+    </message>
+    <message>
+        <source>and %1</source>
+        <translation>且 %1</translation>
+    </message>
+    <message>
+        <source>or %1</source>
+        <translation>或 %1</translation>
+    </message>
+    <message>
+        <source>without %1</source>
+        <translation>去除 %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n stroke(s)</source>
+        <translation>
+            <numerusform>%n 筆</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n cut(s)</source>
+        <translation>
+            <numerusform>%n 刀</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>parts of at least %1 of the largest</source>
+        <translation>至少為最大部分 %1 倍的部分</translation>
+    </message>
+    <message>
+        <source>largest part</source>
+        <translation>最大部分</translation>
+    </message>
+    <message>
+        <source>drawn</source>
+        <translation>手繪</translation>
+    </message>
+    <message>
+        <source>from %1</source>
+        <translation>自 %1</translation>
+    </message>
+    <message>
+        <source>up to %1</source>
+        <translation>至 %1</translation>
+    </message>
+    <message>
+        <source>all values</source>
+        <translation>所有數值</translation>
+    </message>
 </context>
 <context>
     <name>StudyDetailsTexts</name>
@@ -2699,18 +3057,6 @@
         <translation>範圍兩端柔和邊緣的寬度</translation>
     </message>
     <message>
-        <source>a step, such as median(radius_mm=1.5)</source>
-        <translation>一個步驟，例如 median(radius_mm=1.5)</translation>
-    </message>
-    <message>
-        <source>Add</source>
-        <translation>新增</translation>
-    </message>
-    <message>
-        <source>Remove</source>
-        <translation>移除</translation>
-    </message>
-    <message>
         <source> HU</source>
         <translation> HU</translation>
     </message>
@@ -2737,6 +3083,34 @@
     <message>
         <source>Steps</source>
         <translation>步驟</translation>
+    </message>
+    <message>
+        <source> samples</source>
+        <translation> 個取樣</translation>
+    </message>
+    <message>
+        <source>Fades the borders of a region, which would ring otherwise</source>
+        <translation>使區域的邊界漸淡，否則會產生波紋</translation>
+    </message>
+    <message>
+        <source>Soft edge</source>
+        <translation>柔和邊緣</translation>
+    </message>
+    <message>
+        <source>The values of the volume</source>
+        <translation>體積的數值</translation>
+    </message>
+    <message>
+        <source>Nothing: strokes and other classes are added</source>
+        <translation>空白：加入筆畫與其他類別</translation>
+    </message>
+    <message>
+        <source>Segment %1</source>
+        <translation>分割區 %1</translation>
+    </message>
+    <message>
+        <source>Source</source>
+        <translation>來源</translation>
     </message>
 </context>
 <context>
@@ -2783,6 +3157,29 @@
     <message>
         <source>%1 ml</source>
         <translation>%1 毫升</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ClassSteps</name>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Up</source>
+        <translation>上移</translation>
+    </message>
+    <message>
+        <source>Down</source>
+        <translation>下移</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>步驟</translation>
+    </message>
+    <message>
+        <source>Add step</source>
+        <translation>新增步驟</translation>
     </message>
 </context>
 <context>
@@ -3259,6 +3656,13 @@
     </message>
 </context>
 <context>
+    <name>pellucid::ui::LimitBox</name>
+    <message>
+        <source>no limit</source>
+        <translation>不限</translation>
+    </message>
+</context>
+<context>
     <name>pellucid::ui::LookDocks</name>
     <message>
         <source>PRESETS</source>
@@ -3683,6 +4087,10 @@
         <source>Delete</source>
         <translation>刪除</translation>
     </message>
+    <message>
+        <source>Points, strokes and cuts belong to this study: the preset asks for new points, and has no strokes and cuts</source>
+        <translation>點、筆畫與剪裁屬於此檢查：預設集會要求新的點，且不含筆畫與剪裁</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::ProblemList</name>
@@ -3995,6 +4403,132 @@
     <message>
         <source>not read: %1</source>
         <translation>不讀取：%1</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::RegionBar</name>
+    <message>
+        <source>Erase</source>
+        <translation>擦除</translation>
+    </message>
+    <message>
+        <source>Bone</source>
+        <translation>骨骼</translation>
+    </message>
+    <message>
+        <source>Use of the region</source>
+        <translation>區域的用途</translation>
+    </message>
+    <message>
+        <source>Classes that the region changes</source>
+        <translation>區域所改變的類別</translation>
+    </message>
+    <message>
+        <source>The ball erases; with Shift it does the other</source>
+        <translation>以球擦除；按住 Shift 則相反</translation>
+    </message>
+    <message>
+        <source>All bone that is connected with the click, with its marrow and rim; drag up for less dense bone</source>
+        <translation>與點按處相連的所有骨骼，包含骨髓與邊緣；向上拖曳可納入較疏鬆的骨骼</translation>
+    </message>
+    <message>
+        <source>Leak limit</source>
+        <translation>滲漏限度</translation>
+    </message>
+    <message>
+        <source>The region does not pass through openings narrower than this</source>
+        <translation>區域不會穿過比此更窄的開口</translation>
+    </message>
+    <message>
+        <source>Radius</source>
+        <translation>半徑</translation>
+    </message>
+    <message>
+        <source>Radius of the ball (Shift+wheel over a plane)</source>
+        <translation>球的半徑（在切面上 Shift+滾輪）</translation>
+    </message>
+    <message>
+        <source>Slab</source>
+        <translation>厚切</translation>
+    </message>
+    <message>
+        <source>Thickness of the cut, about the crosshair</source>
+        <translation>十字線附近剪裁的厚度</translation>
+    </message>
+    <message>
+        <source>Whole depth</source>
+        <translation>整個深度</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>in the whole volume</source>
+        <translation>於整個體積</translation>
+    </message>
+    <message>
+        <source>in %1</source>
+        <translation>於 %1</translation>
+    </message>
+    <message>
+        <source>in every class</source>
+        <translation>於所有類別</translation>
+    </message>
+    <message>
+        <source>New class</source>
+        <translation>新類別</translation>
+    </message>
+    <message>
+        <source>Add to the class</source>
+        <translation>加入類別</translation>
+    </message>
+    <message>
+        <source>Keep only this</source>
+        <translation>僅保留此部分</translation>
+    </message>
+    <message>
+        <source>Remove this</source>
+        <translation>移除此部分</translation>
+    </message>
+    <message>
+        <source>Add a point</source>
+        <translation>加入一點</translation>
+    </message>
+    <message>
+        <source>Click a point of %1 in a plane or the projection</source>
+        <translation>在切面或投影中點按%1的一點</translation>
+    </message>
+    <message>
+        <source>Click bone in a plane or the projection</source>
+        <translation>在切面或投影中點按骨骼</translation>
+    </message>
+    <message>
+        <source>Click in a plane or the projection; drag up for more values</source>
+        <translation>在切面或投影中點按；向上拖曳接受更多數值</translation>
+    </message>
+    <message>
+        <source>Drag in a plane or the projection</source>
+        <translation>在切面或投影中拖曳</translation>
+    </message>
+    <message>
+        <source>Draw around what is meant, in a plane or the projection</source>
+        <translation>在切面或投影中圍出所要的部分</translation>
+    </message>
+    <message>
+        <source>Searching...</source>
+        <translation>尋找中…</translation>
+    </message>
+    <message>
+        <source>%1 ml</source>
+        <translation>%1 ml</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::RegionFinder</name>
+    <message>
+        <source>Finding the region</source>
+        <translation>正在尋找區域</translation>
     </message>
 </context>
 <context>
@@ -4430,10 +4964,6 @@
         <translation>先對齊（旋轉與位移）(&amp;A)</translation>
     </message>
     <message>
-        <source>&amp;Show the open volume beside the difference</source>
-        <translation>在差異旁顯示開啟的體積(&amp;S)</translation>
-    </message>
-    <message>
         <source>Subtract a volume</source>
         <translation>減去體積</translation>
     </message>
@@ -4456,6 +4986,38 @@
     <message>
         <source>No other volume of this patient is open or in the library.</source>
         <translation>此病患沒有其他開啟的體積，資料庫中也沒有。</translation>
+    </message>
+    <message>
+        <source>Nothing</source>
+        <translation>無</translation>
+    </message>
+    <message>
+        <source>The open volume</source>
+        <translation>開啟的體積</translation>
+    </message>
+    <message>
+        <source>Beside the difference</source>
+        <translation>差異旁</translation>
+    </message>
+    <message>
+        <source>Weights</source>
+        <translation>權重</translation>
+    </message>
+    <message>
+        <source>Weight of %1</source>
+        <translation>%1的權重</translation>
+    </message>
+    <message>
+        <source>the open volume</source>
+        <translation>開啟的體積</translation>
+    </message>
+    <message>
+        <source>the other</source>
+        <translation>另一體積</translation>
+    </message>
+    <message>
+        <source>The aligned volume, to check the alignment</source>
+        <translation>已對齊的體積，以檢查對齊</translation>
     </message>
 </context>
 <context>
@@ -4635,6 +5197,78 @@
     <message>
         <source>A&amp;lign the planes with the scan</source>
         <translation>使切面與掃描對齊(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Connected</source>
+        <translation>相連</translation>
+    </message>
+    <message>
+        <source>click what has similar values and is connected, also in the projection</source>
+        <translation>點按數值相近且相連的部分，投影中亦可</translation>
+    </message>
+    <message>
+        <source>Paint</source>
+        <translation>塗畫</translation>
+    </message>
+    <message>
+        <source>paint a region with a ball; Shift erases</source>
+        <translation>以球塗畫區域；Shift 擦除</translation>
+    </message>
+    <message>
+        <source>Scissors</source>
+        <translation>剪刀</translation>
+    </message>
+    <message>
+        <source>draw around what to cut along the line of sight</source>
+        <translation>圍出沿視線剪去的部分</translation>
+    </message>
+    <message>
+        <source>&amp;Region</source>
+        <translation>區域(&amp;R)</translation>
+    </message>
+    <message>
+        <source>&amp;Grow...</source>
+        <translation>擴張(&amp;G)…</translation>
+    </message>
+    <message>
+        <source>Grow</source>
+        <translation>擴張</translation>
+    </message>
+    <message>
+        <source>Grow the class by, mm</source>
+        <translation>類別擴張，mm</translation>
+    </message>
+    <message>
+        <source>&amp;Shrink...</source>
+        <translation>收縮(&amp;S)…</translation>
+    </message>
+    <message>
+        <source>Shrink</source>
+        <translation>收縮</translation>
+    </message>
+    <message>
+        <source>Shrink the class by, mm</source>
+        <translation>類別收縮，mm</translation>
+    </message>
+    <message>
+        <source>&amp;Fill holes</source>
+        <translation>填滿孔洞(&amp;F)</translation>
+    </message>
+    <message>
+        <source>Fill holes</source>
+        <translation>填滿孔洞</translation>
+    </message>
+    <message>
+        <source>&amp;Largest part</source>
+        <translation>最大部分(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Largest part</source>
+        <translation>最大部分</translation>
+    </message>
+    <message>
+        <source>Remove connected &amp;bone</source>
+        <translation>移除相連的骨骼(&amp;B)</translation>
     </message>
 </context>
 <context>

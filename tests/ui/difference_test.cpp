@@ -3,6 +3,8 @@
 #include "tests/ui/studies_window.h"
 
 #include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QLabel>
 
 #include "ui/beside/study_beside.h"
@@ -100,6 +102,43 @@ private slots:
         save("difference_beside");
     }
 
+    void theAlignedVolumeIsShownBesideToCheckIt() {
+        open(path("native"));
+        const volume::Volume before = *document().volume();
+        open(path("moved"));
+        find<QAction>("subtractAction")->trigger();
+        auto *const beside = find<QComboBox>("besideBox");
+        QCOMPARE(beside->count(), 2); // nothing to check unless it is aligned
+        find<QCheckBox>("alignBox")->setChecked(true);
+        QCOMPARE(beside->count(), 3);
+        beside->setCurrentIndex(2);
+        find<QDoubleSpinBox>("subtrahendWeightBox")->setValue(-0.5);
+        find<QPushButton>("subtractNowButton")->click();
+        waitForVolume();
+        settle();
+        const QString &name =
+            document().sources()[std::size_t(document().currentSource())].volume.description;
+        QVERIFY2(name.startsWith("1 × moved - 0.5 × 1 native; aligned"), qPrintable(name));
+        auto *const shown = mainWindow().findChild<ui::StudyBeside *>("studyBeside");
+        QTRY_VERIFY_WITH_TIMEOUT(shown->document().volume() && !shown->document().isPreview() &&
+                                     !shown->jobs().isRunning(),
+                                 patienceMs);
+        // It is the native head on the lattice of the moved one, with its unit.
+        const volume::Volume &aligned = *shown->document().volume();
+        QVERIFY(aligned.lattice() == document().volume()->lattice());
+        QVERIFY(aligned.unit() == volume::ValueUnit::hounsfield);
+        QVERIFY(!aligned.notes().isDifference);
+        double sum = 0.0, size = 0.0;
+        for (int k = 20; k < 60; ++k)
+            for (int j = 20; j < 76; ++j)
+                for (int i = 20; i < 76; ++i) {
+                    sum += std::abs(aligned.value({i, j, k}) - before.value({i, j, k}));
+                    size += std::abs(before.value({i, j, k}));
+                }
+        QVERIFY2(sum < 0.05 * size, qPrintable(QString::number(sum / size)));
+        save("difference_check");
+    }
+
     void aVolumeElsewhereCannotBeSubtracted() {
         const volume::Volume before = head();
         write("elsewhere", withContrast(before, shifted(before.lattice(), {5000.0, 0.0, 0.0})), 4);
@@ -147,7 +186,7 @@ private:
         QCOMPARE(found.size(), 1);
         list->setCurrentItem(found.front());
         find<QCheckBox>("alignBox")->setChecked(isAligned);
-        find<QCheckBox>("minuendBesideBox")->setChecked(isAligned);
+        find<QComboBox>("besideBox")->setCurrentIndex(isAligned ? 1 : 0);
         find<QPushButton>("subtractNowButton")->click();
     }
     void subtract(const QString &name, bool isAligned) {

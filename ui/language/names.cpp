@@ -44,6 +44,8 @@ namespace {
     QT_TRANSLATE_NOOP("Names", "Soft tissue"),
     QT_TRANSLATE_NOOP("Names", "Signal"),
     QT_TRANSLATE_NOOP("Names", "Patient"),
+    QT_TRANSLATE_NOOP("Names", "Volume"),
+    QT_TRANSLATE_NOOP("Names", "Region"),
     QT_TRANSLATE_NOOP("Names", "Lung"),
     QT_TRANSLATE_NOOP("Names", "Head"),
     QT_TRANSLATE_NOOP("Names", "Density"),

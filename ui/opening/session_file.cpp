@@ -91,6 +91,13 @@ std::optional<picture::ToneRange> brightnessFrom(const QJsonValue &value) {
     return range.low < range.high ? std::optional(range) : std::nullopt; // older versions: none
 }
 
+// Older versions kept none: they only subtracted.
+subtraction::Weights weightsFrom(const QJsonValue &value) {
+    const QJsonArray in = value.toArray();
+    return in.size() == 2 ? subtraction::Weights{in[0].toDouble(), in[1].toDouble()}
+                          : subtraction::Weights();
+}
+
 QJsonObject objectOf(const Session &s) {
     const mpr::ResliceOptions &cut = s.shown.cut.options;
     QJsonArray leftOut;
@@ -104,7 +111,9 @@ QJsonObject objectOf(const Session &s) {
     if (s.difference)
         difference = {{"minuend", s.difference->minuend},
                       {"subtrahend", s.difference->subtrahend},
-                      {"aligned", s.difference->isAligned}};
+                      {"aligned", s.difference->isAligned},
+                      {"weights", QJsonArray{s.difference->weights.minuend,
+                                             s.difference->weights.subtrahend}}};
     return {
         {"schema", schema},
         {"difference", difference},
@@ -139,7 +148,7 @@ Session fromJson(const QJsonObject &in) {
         s.segmentations << file.toString();
     if (const QJsonObject of = in["difference"].toObject(); !of.isEmpty())
         s.difference = {of["minuend"].toString(), of["subtrahend"].toString(),
-                        of["aligned"].toBool()};
+                        of["aligned"].toBool(), weightsFrom(of["weights"])};
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
     s.hasEnded = in["ended"].toBool(true); // older versions wrote at the end only

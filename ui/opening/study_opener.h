@@ -11,6 +11,7 @@
 #include "ui/document/document.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/opening/kept_studies.h"
+#include "ui/studies/difference_source.h"
 #include "ui/studies/study_source.h"
 
 namespace pellucid::ui {
@@ -52,7 +53,7 @@ public:
     void openSource(int index, JobRunner::OnEnd onEnd = {});
     /// Opens the difference between the open volume and another one, which becomes a source of its
     /// own. Does nothing if no volume is open.
-    void openDifference(const StudySource &subtrahend, bool isAligned);
+    void openDifference(const StudySource &subtrahend, const DifferenceMethod &method);
     /// Opens another volume of the same series: look, view, window, crosshair and planes stay, and
     /// so does the former volume until the new one is loaded. `onEnd`: as in `openSource`.
     void openPhase(int index, JobRunner::OnEnd onEnd = {});
@@ -84,7 +85,8 @@ private:
     void endScan();
     /// The source among them that is to be resumed, or their difference.
     std::optional<int> resumedOf(const std::vector<int> &indices);
-    int addDifference(const StudySource &minuend, const StudySource &subtrahend, bool isAligned);
+    int addDifference(const StudySource &minuend, const StudySource &subtrahend,
+                      const DifferenceMethod &method);
     void applyResumption();
     void keepCurrent();
     /// Reopens the previous study after a load that failed or was cancelled.

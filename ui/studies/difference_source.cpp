@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/studies/difference_source.h"
 
+#include <chrono>
+#include <cmath>
 #include <utility>
 
 #include <QCoreApplication>
@@ -19,17 +21,12 @@ struct DifferenceTexts {
     Q_DECLARE_TR_FUNCTIONS(DifferenceTexts)
 };
 
-// What the alignment found, or why one is needed.
-QString noteOn(const subtraction::Subtraction &made) {
-    if (made.needsAlignment)
-        return DifferenceTexts::tr("not aligned, although the frames of reference differ");
-    if (!made.registration)
-        return {};
+// What the alignment found.
+QString noteOn(const subtraction::Registration &r) {
     constexpr double radToDeg = 180.0 / 3.14159265358979323846;
     const auto number = [](double value, int digits) {
         return QString::number(value, 'f', digits);
     };
-    const subtraction::Registration &r = *made.registration;
     return DifferenceTexts::tr(
                "aligned: turned by %1°, moved by %2 mm; RMS difference %3, before %4")
         .arg(number(r.toMoving.angleRad() * radToDeg, 2),
@@ -37,50 +34,134 @@ QString noteOn(const subtraction::Subtraction &made) {
              number(r.residualBefore, 1));
 }
 
+QString nameOf(const StudySource &minuend) {
+    const VolumeFacts &facts = minuend.volume;
+    const QString name = facts.description.isEmpty() ? facts.modality : facts.description;
+    return facts.label.empty() ? name : name + ", " + translated(facts.label);
+}
+
+QString weightedName(const QString &minuend, const QString &subtrahend,
+                     const subtraction::Weights &weights) {
+    if (weights == subtraction::Weights())
+        return DifferenceTexts::tr("%1 minus %2").arg(minuend, subtrahend);
+    return QString("%1 × %2 %3 %4 × %5")
+        .arg(QString::number(weights.minuend, 'g', 3), minuend,
+             weights.subtrahend < 0.0 ? "-" : "+",
+             QString::number(std::abs(weights.subtrahend), 'g', 3), subtrahend);
+}
+
 // Errors without a file are those of the source.
 dicom::LoadedVolume loadNaming(const StudySource &source, const task::Progress &progress) {
     return task::naming(source.place().toStdString(), [&] { return source.load(progress, {}); });
 }
 
-} // namespace
-
-StudySource differenceSource(const StudySource &minuend, const StudySource &subtrahend,
-                             bool isAligned, RenameSource onLoaded) {
+// A source that is made of two others, as a volume of the first one's study. `uid`: in place of the
+// series, to which it does not belong.
+StudySource pairSource(const StudySource &minuend, const StudySource &subtrahend,
+                       const QString &uid) {
     StudySource source;
     source.study = minuend.study;
     source.study.libraryId = 0;
     source.volume = minuend.volume;
     VolumeFacts &facts = source.volume;
-    // It belongs to no series and is in no library.
-    facts.seriesUid = QString("difference %1 %2%3")
-                          .arg(minuend.digest().left(16), subtrahend.digest().left(16),
-                               isAligned ? " aligned" : "");
+    facts.seriesUid = uid;
     facts.file.clear();
     facts.label.clear();
-    facts.libraryId = 0;
+    facts.libraryId = 0; // it is in no library
     facts.isCopied = false;
-    QString name = facts.description.isEmpty() ? facts.modality : facts.description;
-    if (!minuend.volume.label.empty())
-        name += ", " + translated(minuend.volume.label);
-    facts.description = DifferenceTexts::tr("%1 minus %2").arg(name, seriesText(subtrahend.volume));
     source.files = minuend.files + subtrahend.files;
     source.files.removeDuplicates();
     facts.files = int(source.files.size());
     source.lasting = minuend.lasting + subtrahend.lasting;
     source.lasting.removeDuplicates();
-    source.difference = {minuend.digest(), subtrahend.digest(), isAligned};
     source.makeThumbnail = minuend.makeThumbnail;
-    source.load = [minuend, subtrahend, isAligned, key = source.key(), name = facts.description,
+    return source;
+}
+
+// Both volumes of such a source, in the first part of a load's progress.
+struct LoadedPair {
+    dicom::LoadedVolume first, second;
+
+    LoadedPair(const StudySource &minuend, const StudySource &subtrahend,
+               const task::Progress &progress)
+        : first(loadNaming(minuend, progress.part(0.0, 0.3))),
+          second(loadNaming(subtrahend, progress.part(0.3, 0.6))) {}
+
+    // What was made of them, with the files of both that were left out.
+    dicom::LoadedVolume with(volume::Volume made) {
+        first.skipped.insert(first.skipped.end(), second.skipped.begin(), second.skipped.end());
+        return {std::move(made), std::move(first.skipped)};
+    }
+};
+
+} // namespace
+
+subtraction::Registration Alignment::of(const volume::Volume &minuend,
+                                        const volume::Volume &subtrahend,
+                                        const task::Progress &progress) {
+    constexpr std::chrono::milliseconds betweenChecks(50);
+    std::unique_lock lock(m_mutex, std::defer_lock);
+    while (!lock.try_lock_for(betweenChecks)) // another source finds it
+        progress.check();
+    if (!m_found)
+        m_found = subtraction::registerRigidly(minuend, subtrahend, progress);
+    return *m_found;
+}
+
+StudySource differenceSource(const StudySource &minuend, const StudySource &subtrahend,
+                             const DifferenceMethod &method, RenameSource onLoaded) {
+    const subtraction::Weights weights = method.weights;
+    StudySource source = pairSource(
+        minuend, subtrahend,
+        QString("difference %1 %2 %3%4")
+            .arg(weights.minuend)
+            .arg(weights.subtrahend)
+            .arg(minuend.digest().left(16) + " " + subtrahend.digest().left(16),
+                 method.alignment ? " aligned" : ""));
+    QString &name = source.volume.description;
+    name = weightedName(nameOf(minuend), seriesText(subtrahend.volume), weights);
+    source.difference = {minuend.digest(), subtrahend.digest(), method.alignment != nullptr,
+                         weights};
+    source.load = [minuend, subtrahend, method, key = source.key(), name,
                    onLoaded = std::move(onLoaded)](const task::Progress &progress,
                                                    const dicom::LoadObserver &) {
-        dicom::LoadedVolume from = loadNaming(minuend, progress.part(0.0, 0.3));
-        const dicom::LoadedVolume with = loadNaming(subtrahend, progress.part(0.3, 0.6));
-        subtraction::Subtraction made =
-            subtraction::subtract(from.volume, with.volume, isAligned, progress.part(0.6, 1.0));
-        if (const QString note = noteOn(made); onLoaded && !note.isEmpty())
-            onLoaded(key, name + "; " + note);
-        from.skipped.insert(from.skipped.end(), with.skipped.begin(), with.skipped.end());
-        return dicom::LoadedVolume{std::move(made.difference), std::move(from.skipped)};
+        LoadedPair pair(minuend, subtrahend, progress);
+        const volume::Volume &a = pair.first.volume, &b = pair.second.volume;
+        const task::Progress rest = progress.part(0.6, 1.0);
+        if (!method.alignment) {
+            subtraction::Subtraction made =
+                subtraction::subtract(a, b, false, method.weights, rest);
+            if (made.needsAlignment && onLoaded)
+                onLoaded(key,
+                         name + "; " +
+                             DifferenceTexts::tr(
+                                 "not aligned, although the frames of reference differ"));
+            return pair.with(std::move(made.difference));
+        }
+        const auto found = method.alignment->of(a, b, rest.part(0.0, 0.8));
+        if (onLoaded)
+            onLoaded(key, name + "; " + noteOn(found));
+        return pair.with(subtraction::difference(a, b, found.toMoving, method.weights,
+                                                 rest.part(0.8, 1.0)));
+    };
+    return source;
+}
+
+StudySource alignedSource(const StudySource &minuend, const StudySource &subtrahend,
+                          const std::shared_ptr<Alignment> &alignment) {
+    StudySource source =
+        pairSource(minuend, subtrahend,
+                   QString("aligned %1 %2")
+                       .arg(minuend.digest().left(16), subtrahend.digest().left(16)));
+    source.volume.description = DifferenceTexts::tr("%1 aligned with %2")
+                                    .arg(seriesText(subtrahend.volume), nameOf(minuend));
+    source.load = [minuend, subtrahend, alignment](const task::Progress &progress,
+                                                   const dicom::LoadObserver &) {
+        LoadedPair pair(minuend, subtrahend, progress);
+        const volume::Volume &a = pair.first.volume, &b = pair.second.volume;
+        const auto found = alignment->of(a, b, progress.part(0.6, 0.9));
+        return pair.with(
+            subtraction::onLatticeOf(a, b, found.toMoving, progress.part(0.9, 1.0)));
     };
     return source;
 }

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
 
 #include "ui/studies/study_source.h"
 
@@ -10,12 +13,34 @@ namespace pellucid::ui {
 /// Gives the source of this key another description.
 using RenameSource = std::function<void(const QString &key, const QString &description)>;
 
+/// The registration of a pair of volumes, which several sources share. Thread-safe.
+class Alignment {
+public:
+    /// Registers the volumes the first time. *Throws* as subtraction::registerRigidly.
+    subtraction::Registration of(const volume::Volume &minuend, const volume::Volume &subtrahend,
+                                 const task::Progress &progress);
+
+private:
+    std::timed_mutex m_mutex;
+    std::optional<subtraction::Registration> m_found;
+};
+
+/// How a difference is made.
+struct DifferenceMethod {
+    std::shared_ptr<Alignment> alignment; ///< null: the second volume is not aligned
+    subtraction::Weights weights;
+};
+
 /// The difference of two volumes on the lattice of the first, as a volume of the first one's study.
-/// Loading it loads both. `isAligned`: the second is registered first, by rotation and shift.
-/// `onLoaded` is called from the thread that loads, with a description that says what the alignment
+/// Loading it loads both, and aligns the second if that is the method. `onLoaded` is called from the thread that loads, with a description that says what the alignment
 /// found or why one is needed; it may be empty. *Errors* of the load: those of both loads, of
 /// subtraction::registerRigidly, and of subtraction::difference.
 StudySource differenceSource(const StudySource &minuend, const StudySource &subtrahend,
-                             bool isAligned, RenameSource onLoaded);
+                             const DifferenceMethod &method, RenameSource onLoaded);
+
+/// The second volume aligned with the first, on its lattice, to check the alignment. Loading it
+/// loads both.
+StudySource alignedSource(const StudySource &minuend, const StudySource &subtrahend,
+                          const std::shared_ptr<Alignment> &alignment);
 
 } // namespace pellucid::ui

@@ -11,6 +11,7 @@
 
 #include "core/dicom/catalogue.h"
 #include "core/dicom/load_volume.h"
+#include "core/subtraction/difference.h"
 #include "ui/studies/study_facts.h"
 
 namespace pellucid::ui {
@@ -19,6 +20,7 @@ namespace pellucid::ui {
 struct DifferenceOf {
     QString minuend, subtrahend;
     bool isAligned = false;
+    subtraction::Weights weights;
 };
 
 /// A volume that can be shown: its facts and how to load it. A value.

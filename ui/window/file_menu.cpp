@@ -95,10 +95,13 @@ void FileMenu::chooseSubtrahend() {
     auto *dialog =
         new SubtractionDialog(minuend, subtrahends(document, m_bench.library), &m_window);
     connect(dialog, &SubtractionDialog::chosen, this,
-            [this, minuend](const StudySource &subtrahend, bool isAligned, bool showsMinuend) {
-                m_bench.study.opener.openDifference(subtrahend, isAligned);
-                if (showsMinuend)
+            [this, minuend](const StudySource &subtrahend, const DifferenceMethod &method,
+                            BesideDifference beside) {
+                m_bench.study.opener.openDifference(subtrahend, method);
+                if (beside == BesideDifference::minuend)
                     emit besideRequested(minuend);
+                else if (beside == BesideDifference::alignedSubtrahend)
+                    emit besideRequested(alignedSource(minuend, subtrahend, method.alignment));
             });
     dialog->open();
 }

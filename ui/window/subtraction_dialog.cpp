@@ -4,7 +4,11 @@
 #include <utility>
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
@@ -53,7 +57,7 @@ SubtractionDialog::SubtractionDialog(const StudySource &minuend,
                                      std::vector<StudySource> subtrahends, QWidget *parent)
     : QDialog(parent), m_subtrahends(std::move(subtrahends)), m_list(new QListWidget),
       m_align(new QCheckBox(tr("&Align it first (rotation and shift)"))),
-      m_beside(new QCheckBox(tr("&Show the open volume beside the difference"))) {
+      m_beside(new QComboBox), m_weight(new QDoubleSpinBox), m_otherWeight(new QDoubleSpinBox) {
     setObjectName("subtractionDialog");
     setWindowTitle(tr("Subtract a volume"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -72,7 +76,11 @@ SubtractionDialog::SubtractionDialog(const StudySource &minuend,
     }
     m_align->setObjectName("alignBox");
     m_align->setToolTip(tr("By mutual information; takes several seconds"));
-    m_beside->setObjectName("minuendBesideBox");
+    m_beside->setObjectName("besideBox");
+    m_beside->addItem(tr("Nothing"));
+    m_beside->addItem(tr("The open volume"));
+    m_beside->setAccessibleName(tr("Beside the difference"));
+    connect(m_align, &QCheckBox::toggled, this, &SubtractionDialog::showAlignment);
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
     m_subtract = buttons->addButton(tr("Subtract"), QDialogButtonBox::AcceptRole);
     m_subtract->setObjectName("subtractNowButton");
@@ -92,16 +100,55 @@ SubtractionDialog::SubtractionDialog(const StudySource &minuend,
     } else {
         m_list->setCurrentRow(0);
     }
-    layout->addWidget(m_align);
-    layout->addWidget(m_beside);
+    auto *form = new QFormLayout;
+    form->addRow(m_align);
+    form->addRow(tr("Weights"), makeWeights());
+    form->addRow(tr("Beside the difference"), m_beside);
+    layout->addLayout(form);
     layout->addWidget(buttons);
+}
+
+QWidget *SubtractionDialog::makeWeights() {
+    auto *row = new QWidget;
+    auto *layout = new QHBoxLayout(row);
+    layout->setContentsMargins(0, 0, 0, 0);
+    const subtraction::Weights usual;
+    const auto add = [&](QDoubleSpinBox *box, const char *name, double value,
+                         const QString &meaning) {
+        box->setObjectName(name);
+        box->setRange(-subtraction::Weights::largest, subtraction::Weights::largest);
+        box->setSingleStep(0.1);
+        box->setValue(value);
+        box->setAccessibleName(tr("Weight of %1").arg(meaning));
+        layout->addWidget(box);
+        layout->addWidget(new QLabel("× " + meaning));
+    };
+    add(m_weight, "minuendWeightBox", usual.minuend, tr("the open volume"));
+    layout->addSpacing(8);
+    add(m_otherWeight, "subtrahendWeightBox", usual.subtrahend, tr("the other"));
+    layout->addStretch();
+    return row;
+}
+
+// Only an aligned volume is worth checking.
+void SubtractionDialog::showAlignment() {
+    const int aligned = int(BesideDifference::alignedSubtrahend);
+    if (!m_align->isChecked())
+        m_beside->removeItem(aligned);
+    else if (m_beside->count() == aligned)
+        m_beside->addItem(tr("The aligned volume, to check the alignment"));
 }
 
 void SubtractionDialog::accept() {
     const int row = m_list->currentRow();
     if (row < 0)
         return;
-    emit chosen(m_subtrahends[std::size_t(row)], m_align->isChecked(), m_beside->isChecked());
+    DifferenceMethod method;
+    if (m_align->isChecked())
+        method.alignment = std::make_shared<Alignment>();
+    method.weights = {m_weight->value(), m_otherWeight->value()};
+    emit chosen(m_subtrahends[std::size_t(row)], method,
+                BesideDifference(m_beside->currentIndex()));
     QDialog::accept();
 }
 

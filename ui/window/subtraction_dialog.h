@@ -5,9 +5,11 @@
 
 #include <QDialog>
 
-#include "ui/studies/study_source.h"
+#include "ui/studies/difference_source.h"
 
 class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
 class QListWidget;
 class QPushButton;
 
@@ -20,7 +22,10 @@ class StudyLibrary;
 /// phases included, then those of the library.
 std::vector<StudySource> subtrahends(const Document &document, StudyLibrary &library);
 
-/// Selects the volume to subtract, whether it is aligned first, and whether the open volume is
+/// What is shown beside a difference.
+enum class BesideDifference { nothing, minuend, alignedSubtrahend };
+
+/// Selects the volume to subtract, whether it is aligned first, the weights of both, and what is
 /// shown beside the difference.
 class SubtractionDialog : public QDialog {
     Q_OBJECT
@@ -29,14 +34,20 @@ public:
                       QWidget *parent = nullptr);
 
 signals:
-    void chosen(const pellucid::ui::StudySource &subtrahend, bool isAligned, bool showsMinuend);
+    void chosen(const pellucid::ui::StudySource &subtrahend,
+                const pellucid::ui::DifferenceMethod &method,
+                pellucid::ui::BesideDifference beside);
 
 private:
     void accept() override;
+    QWidget *makeWeights();
+    void showAlignment();
 
     std::vector<StudySource> m_subtrahends;
     QListWidget *m_list;
-    QCheckBox *m_align, *m_beside;
+    QCheckBox *m_align;
+    QComboBox *m_beside;
+    QDoubleSpinBox *m_weight, *m_otherWeight;
     QPushButton *m_subtract;
 };
 
