@@ -98,7 +98,7 @@ void runRegionsSuite(const Report &report) {
     rows.whole("connected, -200..300", soft);
     rows.whole("connected, every value", classify::connectedRegion(at, -1e4, 1e4, 0.0));
     rows.whole("connected, leak limit 5 mm", classify::connectedRegion(at, -200.0, 300.0, 5.0));
-    rows.whole("bone with marrow", classify::boneRegion(onBone, 200.0));
+    rows.whole("bone with marrow", classify::boneRegion(lattice, onBone, 200.0));
     Step stroke{StepKind::paint}, cut{StepKind::scissors}, without{StepKind::difference};
     stroke.strokes = {{{at, onBone}, 10.0, false}};
     classify::LassoCut lasso{{}, {0.0, 0.8, 0.6}, {}, false};

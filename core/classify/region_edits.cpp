@@ -132,9 +132,10 @@ TissueClass cutRegion(const LassoCut &cut) {
     return region;
 }
 
-TissueClass boneRegion(volume::PatientPoint point, double low) {
+TissueClass boneRegion(const volume::Lattice &lattice, volume::PatientPoint point, double low) {
     // Wider than the pores of spongy bone, narrower than the gaps between bones and vessels.
-    constexpr double marrowMm = 3.0, rimMm = 1.0;
+    constexpr double marrowMm = 3.0, leastRimMm = 1.0, slightlyMore = 1.01;
+    const double rimMm = std::max(leastRimMm, slightlyMore * lattice.shortestStepMm());
     TissueClass bone = connectedRegion(point, low, highestValue, 0.0);
     bone.name = "Bone";
     bone.steps.push_back({StepKind::closing, {{"radius_mm", marrowMm}}});

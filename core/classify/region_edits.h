@@ -25,8 +25,9 @@ using EditedClass = std::optional<std::size_t>;
 TissueClass connectedRegion(volume::PatientPoint point, double low, double high, double leakMm);
 
 /// Bone that is connected with a point, with its marrow, and with the rim in which its values mix
-/// with those of its surroundings. `low`: the value from which it is bone.
-TissueClass boneRegion(volume::PatientPoint point, double low);
+/// with those of its surroundings: a millimetre, or a sample if that is more. `low`: the value from
+/// which it is bone.
+TissueClass boneRegion(const volume::Lattice &lattice, volume::PatientPoint point, double low);
 
 /// What a cut encloses, whatever its values.
 TissueClass cutRegion(const LassoCut &cut);

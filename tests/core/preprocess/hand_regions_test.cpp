@@ -278,7 +278,7 @@ TEST(RegionSteps, BoneIsTakenWithItsMarrow) {
             densest = n;
     });
     const Mask bone =
-        maskOf(head, classify::boneRegion(head.lattice().patient(densest), 200.0));
+        maskOf(head, classify::boneRegion(head.lattice(), head.lattice().patient(densest), 200.0));
     const Mask dense = maskOf(head, range(200.0, classify::highestValue));
     std::size_t count = 0, kept = 0;
     for (std::size_t n = 0; n < bone.size(); ++n) {

@@ -70,7 +70,8 @@ classify::TissueClass GrowTool::region() const {
     if (options.isBone) {
         const bool isHu = m_document.volume()->unit() == volume::ValueUnit::hounsfield;
         const double least = isHu ? std::min(boneHu, m_value) : m_value - m_spread;
-        return classify::boneRegion(m_point, least - m_spread * (factor - 1.0));
+        return classify::boneRegion(m_document.volume()->lattice(), m_point,
+                                    least - m_spread * (factor - 1.0));
     }
     return classify::connectedRegion(m_point, m_value - factor * m_spread,
                                      m_value + factor * m_spread, options.leakMm);
