@@ -64,8 +64,8 @@ private:
         row.name = name;
         row.size = m_volume.lattice().size();
         row.prepareMs = median(times);
-        row.note = fmt::format("{:.1f} % of the samples",
-                               100.0 * m_samples / double(row.size.count()));
+        row.note =
+            fmt::format("{:.1f} % of the samples", 100.0 * m_samples / double(row.size.count()));
         m_report(row);
     }
 
@@ -104,8 +104,8 @@ void runRegionsSuite(const Report &report) {
     classify::LassoCut lasso{{}, {0.0, 0.8, 0.6}, {}, false};
     for (int corner = 0; corner < 200; ++corner) {
         const double angle = corner * 3.14159265358979 / 100.0;
-        lasso.outline.push_back(
-            {lattice.center().mm + glm::dvec3(90.0 * std::cos(angle), 60.0 * std::sin(angle), 0.0)});
+        lasso.outline.push_back({lattice.center().mm +
+                                 glm::dvec3(90.0 * std::cos(angle), 60.0 * std::sin(angle), 0.0)});
     }
     cut.cuts = {lasso};
     without.operand.own =

@@ -264,11 +264,7 @@ void subtractFrom(Input &input, const InputOptions &options,
     if (!options.weights.empty()) {
         const auto given = parseNumbers("--weights", options.weights, ',', 2);
         weights = {given[0], given[1]};
-        for (const double weight : given)
-            if (!(std::abs(weight) <= subtraction::Weights::largest))
-                throw Error(ErrorCode::usage,
-                            because::inWords("--weights: '" + options.weights +
-                                             "' has a weight that is not between -2 and 2"));
+        subtraction::validate(weights);
     }
     try {
         const Input subtrahend = openOne(other, outs, context);

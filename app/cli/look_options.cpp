@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "app/cli/input.h"
 #include "app/cli/scene_options.h"
@@ -73,7 +74,8 @@ void changeLook(classify::Look &look, const SceneOptions &options) {
     classify::validate(look);
 }
 
-void addPoints(classify::Look &look, const std::vector<std::string> &points) {
+void addPoints(classify::Look &look, const std::vector<std::string> &points,
+               const volume::Lattice &lattice) {
     for (const std::string &text : points) {
         const auto equals = text.rfind('=');
         if (equals == std::string::npos || equals == 0)
@@ -81,10 +83,14 @@ void addPoints(classify::Look &look, const std::vector<std::string> &points) {
                         because::inWords("--point: '" + text + "' is not NAME=x,y,z"));
         const auto mm = parseNumbers("--point", text.substr(equals + 1), ',', 3);
         const std::string name = text.substr(0, equals);
+        const glm::dvec3 v = glm::round(lattice.voxel({glm::dvec3(mm[0], mm[1], mm[2])}).v);
+        const volume::GridSize n = lattice.size();
+        if (!(v.x >= 0.0 && v.y >= 0.0 && v.z >= 0.0 && v.x < n.i && v.y < n.j && v.z < n.k))
+            throw Error(ErrorCode::usage,
+                        because::inWords("--point: '" + text + "' is outside the volume"));
         const auto tissue = std::find_if(look.classes.begin(), look.classes.end(),
                                          [&](const auto &one) { return one.name == name; });
-        if (tissue == look.classes.end() ||
-            !classify::addPoint(*tissue, {{mm[0], mm[1], mm[2]}}))
+        if (tissue == look.classes.end() || !classify::addPoint(*tissue, {{mm[0], mm[1], mm[2]}}))
             throw Error(ErrorCode::usage,
                         because::inWords("--point: no class '" + name + "' takes points"));
     }

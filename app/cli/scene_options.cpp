@@ -38,7 +38,7 @@ const std::map<std::string, scene::Reconstruction> reconstructions{
     {"spline", scene::Reconstruction::spline}};
 
 scene::Scene readScene(const fs::path &path) {
-    const std::string text = files::readText(path, files::maxPresetBytes);
+    const std::string text = files::readText(path, files::maxSceneBytes);
     try {
         return scene::sceneFromJson(text);
     } catch (const Error &error) { // a fault of the file, not of the command line
@@ -279,7 +279,7 @@ void setLook(scene::Scene &scene, const SceneOptions &o, const CLI::App &command
     changeLook(scene.look, o);
     if (segments != nullptr)
         showSegments(scene.look, o, *segments);
-    addPoints(scene.look, o.points);
+    addPoints(scene.look, o.points, volume.lattice());
 }
 
 void setShading(scene::Scene &scene, const SceneOptions &o, const CLI::App &command,
@@ -338,6 +338,8 @@ scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
                       const segment::SegmentSet *segments) {
     const volume::Lattice &lattice = volume.lattice();
     scene::Scene scene = startingScene(o, command, lattice);
+    if (scene.isOfDifference && !volume.notes().isDifference)
+        throw Error(ErrorCode::usage, because::sceneShowsADifference);
     setOrientation(scene.camera, o, command);
     setPixel(scene.camera, o, command, lattice);
     setSize(scene.camera, o, command);

@@ -72,7 +72,7 @@ public:
         changeLook(look, m_options.scene);
         if (loaded)
             showSegments(look, m_options.scene, *loaded);
-        addPoints(look, m_options.scene.points);
+        addPoints(look, m_options.scene.points, volume().lattice());
         preprocess::StepCache steps(budgetOfSteps);
         preprocess::ClassRunner runner(steps, loaded);
         for (const classify::TissueClass &tissue : classify::withOperands(look))

@@ -115,7 +115,7 @@ void showSegments(classify::Look &look, const SceneOptions &options,
                 return !tissue.segment.empty() && other.segment == tissue.segment;
             });
         if (present == look.classes.end())
-            look.classes.push_back(std::move(tissue));
+            classify::addClass(look, std::move(tissue));
         else
             *present = std::move(tissue);
     };

@@ -13,7 +13,8 @@
 namespace pellucid::classify {
 
 /// The region of a sample after the steps of a class: outside; inside, where its value decides; or
-/// in a gap filled by a closing, where it belongs to the class whatever its value.
+/// filled: added by a step (closing, growing, another class, a stroke), where it belongs to the
+/// class whatever its value.
 enum class Region : std::uint8_t { outside, inside, filled };
 
 /// The density that a class is shown with: that of the window; the value divided by the upper end
@@ -36,7 +37,8 @@ struct ClassSamples {
 class StepRunner {
 public:
     virtual ~StepRunner() = default;
-    /// *Throws* Error{usage} if the class's segment is not loaded, Error{outOfMemory}, Cancelled.
+    /// *Throws* Error{usage} if the class's segment is not loaded, or if its steps name other
+    /// classes (see `withOperands`); Error{outOfMemory}, Cancelled.
     virtual ClassSamples run(const volume::Volume &volume, const TissueClass &tissue,
                              const task::Progress &progress) = 0;
 };

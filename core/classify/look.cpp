@@ -20,7 +20,7 @@ using task::Error;
 using task::ErrorCode;
 
 // A class that combines more takes longer than anyone waits.
-constexpr std::size_t mostCombined = 256;
+constexpr std::size_t maxCombined = 256;
 
 const TissueClass *find(const Look &look, const std::string &name) {
     const auto found = std::find_if(look.classes.begin(), look.classes.end(),
@@ -52,6 +52,10 @@ private:
         const TissueClass *const named = find(m_look, operand.name);
         if (named == nullptr)
             throw Error(ErrorCode::usage, because::classIsMissing(user.name, operand.name));
+        if (std::count_if(m_look.classes.begin(), m_look.classes.end(),
+                          [&](const auto &tissue) { return tissue.name == operand.name; }) > 1)
+            throw Error(ErrorCode::usage,
+                        because::severalClassesOfThatName(user.name, operand.name));
         if (!m_underway.insert(operand.name).second)
             throw Error(ErrorCode::usage, because::classCombinesItself(operand.name));
         const Shared made = alone(of(*named));
@@ -73,17 +77,17 @@ private:
     std::set<std::string> m_underway;
 };
 
-// How many classes a class combines, at most `mostCombined` + 1.
+// How many classes a class combines, at most `maxCombined` + 1.
 std::size_t combinedCount(const TissueClass &tissue) {
     std::size_t count = 0;
     for (const Step &step : tissue.steps)
-        if (step.operand.own && count <= mostCombined)
+        if (step.operand.own && count <= maxCombined)
             count += 1 + combinedCount(*step.operand.own);
-    return std::min(count, mostCombined + 1);
+    return std::min(count, maxCombined + 1);
 }
 
-// Calls `change` for every operand of the class, and those of its own classes. *Requires*: `change`
-// may replace the operand.
+// Calls `change` for every operand of the class, and those of its own classes. It may replace the
+// operand.
 template <class F> void forOperands(TissueClass &tissue, const F &change) {
     for (Step &step : tissue.steps) {
         if (step.operand.own) {
@@ -94,6 +98,23 @@ template <class F> void forOperands(TissueClass &tissue, const F &change) {
         if (!step.operand.name.empty())
             change(step.operand);
     }
+}
+
+// How many classes are nested in a class.
+int depthOf(const TissueClass &tissue) {
+    int depth = 0;
+    for (const Step &step : tissue.steps)
+        if (step.operand.own)
+            depth = std::max(depth, 1 + depthOf(*step.operand.own));
+    return depth;
+}
+
+void addSegments(const TissueClass &tissue, std::set<std::string> &segments) {
+    if (!tissue.segment.empty())
+        segments.insert(tissue.segment);
+    for (const Step &step : tissue.steps)
+        if (step.operand.own)
+            addSegments(*step.operand.own, segments);
 }
 
 bool isNamedIn(const TissueClass &tissue, const std::string &name, const Look &look,
@@ -131,6 +152,13 @@ std::vector<TissueClass> withOperands(const Look &look) {
 bool dependsOn(const Look &look, const TissueClass &tissue, const std::string &name) {
     std::set<std::string> seen;
     return isNamedIn(tissue, name, look, seen);
+}
+
+std::vector<std::set<std::string>> segmentsOf(const Look &look) {
+    std::vector<std::set<std::string>> segments;
+    for (const TissueClass &tissue : withOperands(look))
+        addSegments(tissue, segments.emplace_back());
+    return segments;
 }
 
 void removeClass(Look &look, std::size_t index) {
@@ -205,12 +233,15 @@ void validate(const Look &look) {
     validate(look.transferFunction);
     if (look.classes.size() > maxClasses)
         throw Error(ErrorCode::usage, because::tooManyClasses(look.classes.size(), maxClasses));
-    for (const TissueClass &tissue : look.classes)
+    for (const TissueClass &tissue : look.classes) {
         validate(tissue);
+        if (depthOf(tissue) > maxDepth)
+            throw Error(ErrorCode::usage, because::ofClass(tissue.name, because::combinesTooDeep));
+    }
     for (const TissueClass &tissue : withOperands(look))
-        if (combinedCount(tissue) > mostCombined)
+        if (combinedCount(tissue) > maxCombined)
             throw Error(ErrorCode::usage,
-                        because::combinesTooManyClasses(tissue.name, mostCombined));
+                        because::combinesTooManyClasses(tissue.name, maxCombined));
 }
 
 } // namespace pellucid::classify

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "core/classify/color_basis.h"
@@ -27,6 +29,8 @@ void validate(const Look &look);
 /// The classes with the operands of their steps in place of the names, so that each can be computed
 /// without the others. *Requires*: a valid look.
 std::vector<TissueClass> withOperands(const Look &look);
+/// The segments that each class needs, its operands' included. *Requires*: a valid look.
+std::vector<std::set<std::string>> segmentsOf(const Look &look);
 /// Whether a class combines, directly or through others, with that of a name.
 bool dependsOn(const Look &look, const TissueClass &tissue, const std::string &name);
 

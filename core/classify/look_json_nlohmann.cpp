@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/classify/look_json.h"
 
+#include <algorithm>
+#include <initializer_list>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -22,9 +25,6 @@ TransferFunction functionFrom(const JsonValue &in) {
     return function;
 }
 
-// Of classes within classes. Deeper ones are of no use, and would exhaust the stack.
-constexpr int deepest = 8;
-
 TissueClass classFrom(const JsonValue &in, int depth);
 
 volume::PatientPoint pointFrom(const JsonValue &in) {
@@ -41,8 +41,20 @@ std::vector<volume::PatientPoint> pointsFrom(const JsonValue &in) {
     return points;
 }
 
+// A misspelt member of a mark would do the opposite of what is meant.
+void requireMembers(const JsonValue &in, std::initializer_list<const char *> known) {
+    for (const auto &member : in.members())
+        if (std::find(known.begin(), known.end(), member.first) == known.end()) {
+            std::string names;
+            for (const char *name : known)
+                names += (names.empty() ? "" : ", ") + std::string(name);
+            in.refuse(because::isNoneOf(member.first, names));
+        }
+}
+
 Stroke strokeFrom(const JsonValue &in) {
-    Stroke stroke{pointsFrom(in.at("path")), in.at("radius_mm").number(), false};
+    requireMembers(in, {"path", "radius_mm", "erase"});
+    Stroke stroke{Path(pointsFrom(in.at("path"))), in.at("radius_mm").number(), false};
     if (const JsonValue erases = in["erase"])
         stroke.erases = erases.boolean();
     in.checked([&] { validate(stroke); });
@@ -50,7 +62,9 @@ Stroke strokeFrom(const JsonValue &in) {
 }
 
 LassoCut cutFrom(const JsonValue &in) {
-    LassoCut cut{pointsFrom(in.at("outline")), pointFrom(in.at("sight")).mm, std::nullopt, false};
+    requireMembers(in, {"outline", "sight", "slab_mm", "keep"});
+    LassoCut cut{Path(pointsFrom(in.at("outline"))), pointFrom(in.at("sight")).mm, std::nullopt,
+                 false};
     if (const JsonValue slab = in["slab_mm"])
         cut.slabMm = slab.twoNumbers();
     if (const JsonValue keeps = in["keep"])
@@ -62,7 +76,7 @@ LassoCut cutFrom(const JsonValue &in) {
 Operand operandFrom(const JsonValue &in, int depth) {
     if (!in.isObject())
         return {in.text(), nullptr};
-    if (depth >= deepest)
+    if (depth >= maxDepth)
         in.refuse(because::combinesTooDeep);
     return {"", std::make_shared<const TissueClass>(classFrom(in, depth + 1))};
 }
@@ -158,7 +172,7 @@ TissueClass classFrom(const JsonValue &in, int depth) {
     return tissue;
 }
 
-json pointsJson(const std::vector<volume::PatientPoint> &points) {
+template <class Points> json pointsJson(const Points &points) {
     json out = json::array();
     for (const volume::PatientPoint &point : points)
         out.push_back({point.mm.x, point.mm.y, point.mm.z});

@@ -9,13 +9,15 @@ namespace pellucid::classify {
 
 namespace {
 
-// Colors that stand out from each other and from grey.
-constexpr Color regionColors[] = {{1.0, 0.42, 0.35}, {0.36, 0.78, 1.0}, {0.55, 0.9, 0.45},
-                                  {1.0, 0.8, 0.3},   {0.8, 0.55, 1.0},  {0.35, 0.9, 0.8}};
+bool isRegionStep(const Step &step) {
+    return describe(step.kind).effect == StepEffect::region;
+}
 
-void soften(TissueClass &tissue) {
-    if (tissue.edge == 0.0)
+// Adds a step. The first border that a class gets is soft; the user may choose another.
+void append(TissueClass &tissue, const Step &step) {
+    if (tissue.edge == 0.0 && std::none_of(tissue.steps.begin(), tissue.steps.end(), isRegionStep))
         tissue.edge = defaultEdge;
+    tissue.steps.push_back(step);
 }
 
 void showVolume(Look &look, const FieldWindow &window) {
@@ -34,7 +36,7 @@ void forEdited(Look &look, EditedClass edited, const FieldWindow &window, const 
 // Strokes and cuts in a row share a step.
 Step &lastStep(TissueClass &tissue, StepKind kind) {
     if (tissue.steps.empty() || tissue.steps.back().kind != kind)
-        tissue.steps.push_back({kind});
+        append(tissue, {kind});
     return tissue.steps.back();
 }
 
@@ -46,7 +48,7 @@ Step combining(StepKind kind, const TissueClass &own) {
 
 std::size_t addShown(Look &look, TissueClass region, const FieldWindow &window) {
     showVolume(look, window);
-    region.color = regionColors[look.classes.size() % std::size(regionColors)];
+    region.color = distinctColor(look.classes.size());
     addClass(look, std::move(region));
     return look.classes.size() - 1;
 }
@@ -61,29 +63,29 @@ TissueClass drawnClass() {
     return drawn;
 }
 
-TissueClass withoutMarks(TissueClass tissue);
-
 bool isMark(const Step &step) {
     return step.kind == StepKind::paint || step.kind == StepKind::scissors;
 }
 
-// A region that was made by hand only.
-bool isOnlyMarks(const TissueClass &tissue) {
-    return tissue.isDrawn && tissue.steps.empty();
-}
-
-TissueClass withoutMarks(TissueClass tissue) {
-    std::erase_if(tissue.steps, isMark);
-    for (Step &step : tissue.steps) {
+// What remains of a class without its marks; nothing if it was made by them alone.
+std::optional<TissueClass> withoutMarks(TissueClass tissue) {
+    const bool hadMarks = std::erase_if(tissue.steps, isMark) > 0;
+    std::erase_if(tissue.steps, [](Step &step) {
         step.points.clear();
-        if (step.operand.own)
-            step.operand.own =
-                std::make_shared<const TissueClass>(withoutMarks(*step.operand.own));
-    }
-    std::erase_if(tissue.steps, [](const Step &step) {
-        return step.operand.own != nullptr && isOnlyMarks(*step.operand.own);
+        if (!step.operand.own)
+            return false;
+        const auto own = withoutMarks(*step.operand.own);
+        if (own)
+            step.operand.own = std::make_shared<const TissueClass>(*own);
+        return !own.has_value();
     });
-    return tissue;
+    // Nothing adds to a drawn class; or nothing limits one that had been cut out.
+    const bool isEmpty =
+        tissue.isDrawn && std::none_of(tissue.steps.begin(), tissue.steps.end(),
+                                       [](const Step &s) { return s.kind == StepKind::join; });
+    const bool isAll = !tissue.isDrawn && !tissue.hasRange() && tissue.segment.empty() &&
+                       tissue.steps.empty() && hadMarks;
+    return isEmpty || isAll ? std::nullopt : std::optional(std::move(tissue));
 }
 
 bool awaitsPointsWithin(const TissueClass &tissue) {
@@ -95,11 +97,10 @@ bool awaitsPointsWithin(const TissueClass &tissue) {
 } // namespace
 
 TissueClass volumeClass(const TransferFunction &curve, const FieldWindow &window) {
-    constexpr double highest = 32767.0; // of 16 bits
     TissueClass volume;
     volume.name = "Volume";
-    volume.low = window.low;
-    volume.high = std::max(highest, window.high);
+    volume.low = window.low; // the density is 0 below
+    volume.high = highestValue;
     if (!(curve == TransferFunction()))
         volume.transferFunction = curve;
     return volume;
@@ -135,7 +136,9 @@ TissueClass cutRegion(const LassoCut &cut) {
 TissueClass boneRegion(const volume::Lattice &lattice, volume::PatientPoint point, double low) {
     // Wider than the pores of spongy bone, narrower than the gaps between bones and vessels.
     constexpr double marrowMm = 3.0, leastRimMm = 1.0, slightlyMore = 1.01;
-    const double rimMm = std::max(leastRimMm, slightlyMore * lattice.shortestStepMm());
+    const StepParameter &distance = describe(StepKind::grow).parameters.front();
+    const double rimMm =
+        std::clamp(slightlyMore * lattice.shortestStepMm(), leastRimMm, distance.maximum);
     TissueClass bone = connectedRegion(point, low, highestValue, 0.0);
     bone.name = "Bone";
     bone.steps.push_back({StepKind::closing, {{"radius_mm", marrowMm}}});
@@ -155,10 +158,11 @@ EditedClass useRegion(Look &look, const TissueClass &region, RegionUse use, Edit
     case RegionUse::keep:
     case RegionUse::remove:
         forEdited(look, edited, window, [&](TissueClass &tissue) {
-            tissue.steps.push_back(combining(use == RegionUse::keep ? StepKind::intersection
-                                                                    : StepKind::difference,
-                                             region));
-            soften(tissue);
+            const Step step = combining(
+                use == RegionUse::keep ? StepKind::intersection : StepKind::difference, region);
+            // A second click at the same place changes nothing.
+            if (std::find(tissue.steps.begin(), tissue.steps.end(), step) == tissue.steps.end())
+                append(tissue, step);
         });
         break;
     }
@@ -168,33 +172,28 @@ EditedClass useRegion(Look &look, const TissueClass &region, RegionUse use, Edit
 void cutClasses(Look &look, const LassoCut &cut, EditedClass edited, const FieldWindow &window) {
     forEdited(look, edited, window, [&](TissueClass &tissue) {
         lastStep(tissue, StepKind::scissors).cuts.push_back(cut);
-        soften(tissue);
     });
 }
 
-EditedClass paintClass(Look &look, const Stroke &stroke, EditedClass edited,
+EditedClass paintClass(Look &look, const std::vector<Stroke> &strokes, EditedClass edited,
                        const FieldWindow &window) {
-    if (!edited && !stroke.erases)
+    if (!edited && !strokes.front().erases)
         edited = addShown(look, drawnClass(), window);
     forEdited(look, edited, window, [&](TissueClass &tissue) {
-        lastStep(tissue, StepKind::paint).strokes.push_back(stroke);
-        soften(tissue);
+        std::vector<Stroke> &all = lastStep(tissue, StepKind::paint).strokes;
+        all.insert(all.end(), strokes.begin(), strokes.end());
     });
     return edited;
 }
 
 void addStep(Look &look, const Step &step, std::size_t edited) {
-    TissueClass &tissue = look.classes[edited];
-    tissue.steps.push_back(step);
-    soften(tissue);
+    append(look.classes[edited], step);
 }
 
 std::optional<std::size_t> awaitingClass(const Look &look) {
-    const auto found =
-        std::find_if(look.classes.begin(), look.classes.end(), awaitsPointsWithin);
-    return found == look.classes.end()
-               ? std::nullopt
-               : std::optional(std::size_t(found - look.classes.begin()));
+    const auto found = std::find_if(look.classes.begin(), look.classes.end(), awaitsPointsWithin);
+    return found == look.classes.end() ? std::nullopt
+                                       : std::optional(std::size_t(found - look.classes.begin()));
 }
 
 bool addPoint(TissueClass &tissue, volume::PatientPoint point) {
@@ -218,16 +217,23 @@ bool addPoint(TissueClass &tissue, volume::PatientPoint point) {
     return true;
 }
 
+bool takesPoints(const TissueClass &tissue) {
+    return std::any_of(tissue.steps.begin(), tissue.steps.end(), [](const Step &step) {
+        return describe(step.kind).input == StepInput::points ||
+               (step.operand.own && awaitsPointsWithin(*step.operand.own));
+    });
+}
+
 Look withoutMarks(const Look &look) {
     Look plain = look;
-    for (TissueClass &tissue : plain.classes)
-        tissue = withoutMarks(tissue);
-    for (std::size_t n = plain.classes.size(); n-- > 0;)
-        if (isOnlyMarks(plain.classes[n])) {
-            removeClass(plain, n);
-            for (TissueClass &tissue : plain.classes)
-                tissue = withoutMarks(tissue); // its users have it as their own now
+    for (std::size_t n = 0; n < plain.classes.size();) {
+        if (auto remaining = withoutMarks(plain.classes[n])) {
+            plain.classes[n++] = *std::move(remaining);
+            continue;
         }
+        removeClass(plain, n);
+        n = 0; // its users have it as their own now
+    }
     return plain;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "core/classify/density_field.h"
 #include "core/classify/look.h"
@@ -35,20 +36,21 @@ TissueClass cutRegion(const LassoCut &cut);
 /// The whole volume as a class, for a look without classes.
 TissueClass volumeClass(const TransferFunction &curve, const FieldWindow &window);
 
-// In all edits, a look without classes first becomes one class, the whole volume. Classes that get
-// a border by an edit get the default edge with it, unless they have one.
+// In all edits, a look without classes first becomes one class, the whole volume. A class that gets
+// its first border by an edit gets the default edge with it. The caller validates the look.
 
-/// *Requires*: `edited` is set to `add`. Returns the index of the class that shows the region: the
-/// new one, or `edited`.
+/// *Requires*: `edited` is set if `use` is `add`. Returns the index of the class that shows the
+/// region: the new one, or `edited`.
 EditedClass useRegion(Look &look, const TissueClass &region, RegionUse use, EditedClass edited,
                       const FieldWindow &window);
 
 /// Cuts classes along the line of sight.
 void cutClasses(Look &look, const LassoCut &cut, EditedClass edited, const FieldWindow &window);
 
-/// Adds a stroke to a class, or erases it from one; not set: paints a new class, or erases from
-/// every class. Returns the class that was painted, as `useRegion`.
-EditedClass paintClass(Look &look, const Stroke &stroke, EditedClass edited,
+/// Adds strokes to a class, or erases them from one; not set: paints a new class, or erases from
+/// every class. *Requires*: at least one stroke; all erase or none. Returns the class that was
+/// painted, as `useRegion`.
+EditedClass paintClass(Look &look, const std::vector<Stroke> &strokes, EditedClass edited,
                        const FieldWindow &window);
 
 /// Adds a step to a class.
@@ -56,6 +58,8 @@ void addStep(Look &look, const Step &step, std::size_t edited);
 
 /// The first class with a step that waits for points.
 std::optional<std::size_t> awaitingClass(const Look &look);
+/// Whether a point can be added to a class.
+bool takesPoints(const TissueClass &tissue);
 /// Adds a point to the last step of a class that takes points; false if it has none.
 bool addPoint(TissueClass &tissue, volume::PatientPoint point);
 

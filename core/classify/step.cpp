@@ -41,7 +41,7 @@ bool isFinite(const volume::PatientPoint &point) {
     return std::isfinite(point.mm.x) && std::isfinite(point.mm.y) && std::isfinite(point.mm.z);
 }
 
-void requirePoints(const std::vector<volume::PatientPoint> &points, std::size_t least) {
+template <class Points> void requirePoints(const Points &points, std::size_t least) {
     if (points.size() < least || points.size() > maxPoints)
         throw Error(ErrorCode::usage, because::pointsOutOfRange(points.size(), least, maxPoints));
     if (!std::all_of(points.begin(), points.end(), isFinite))
@@ -151,23 +151,23 @@ const std::vector<StepDescription> &stepDescriptions() {
         {StepKind::connected,
          "connected",
          StepEffect::region,
-         "Only what is connected with the points",
+         "Only the part connected to the points",
          {{"leak_mm", "mm", 0.0, 100.0, 0.0, false, "Not through openings narrower than this"}},
          StepInput::points},
         {StepKind::grow,
          "grow",
          StepEffect::region,
-         "Adds all that is near",
+         "Expands the region by a distance",
          {{"mm", "mm", 0.1, 50.0, 2.0, false, "Distance"}}},
         {StepKind::shrink,
          "shrink",
          StepEffect::region,
-         "Removes what is near the surface",
+         "Shrinks the region by a distance",
          {{"mm", "mm", 0.1, 50.0, 2.0, false, "Depth"}}},
         {StepKind::fill,
          "fill",
          StepEffect::region,
-         "Fills holes: all that has no way out of the volume around the class",
+         "Fills holes: parts that the class encloses on all sides",
          {}},
         {StepKind::body,
          "body",
@@ -186,12 +186,7 @@ const std::vector<StepDescription> &stepDescriptions() {
          "Only what belongs to another class, too",
          {},
          StepInput::otherClass},
-        {StepKind::join,
-         "or",
-         StepEffect::region,
-         "Adds another class",
-         {},
-         StepInput::otherClass},
+        {StepKind::join, "or", StepEffect::region, "Adds another class", {}, StepInput::otherClass},
         {StepKind::difference,
          "without",
          StepEffect::region,
@@ -201,7 +196,7 @@ const std::vector<StepDescription> &stepDescriptions() {
         {StepKind::paint,
          "paint",
          StepEffect::region,
-         "Adds and erases what a ball covers along strokes",
+         "Adds and erases the strokes of a ball-shaped brush",
          {},
          StepInput::strokes},
         {StepKind::scissors,

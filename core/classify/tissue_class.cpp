@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <glm/gtx/color_space.hpp>
 
 #include "core/task/error.h"
 
@@ -36,6 +37,14 @@ Color colorFromText(const std::string &text) {
 std::string colorText(const Color &color) {
     const auto byte = [](double c) { return int(std::lround(255.0 * std::clamp(c, 0.0, 1.0))); };
     return fmt::format("#{:02x}{:02x}{:02x}", byte(color.red), byte(color.green), byte(color.blue));
+}
+
+// Hues a golden angle apart are far from each other.
+Color distinctColor(std::size_t index) {
+    constexpr double goldenAngle = 137.50776405003785, saturation = 0.6, brightness = 1.0;
+    const glm::dvec3 rgb = glm::rgbColor(
+        glm::dvec3(std::fmod(goldenAngle * double(index), 360.0), saturation, brightness));
+    return {rgb.x, rgb.y, rgb.z};
 }
 
 double TissueClass::membership(double value) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,8 @@ struct Color {
 /// "#rrggbb" as linear light: each component divided by 255. *Throws* Error{usage}.
 Color colorFromText(const std::string &text);
 std::string colorText(const Color &color);
+/// One of a series of colors in which any number of neighbours differ.
+Color distinctColor(std::size_t index);
 
 /// Samples grouped by value, and how they are shown. *Source*: Cheng 2007, eq. 32, with soft edges
 /// instead of a threshold, which rings.
@@ -55,6 +58,8 @@ inline constexpr double lowestValue = -1e9, highestValue = 1e9;
 inline constexpr double defaultEdge = 0.5, softestEdge = 4.0;
 
 inline constexpr std::size_t maxSteps = 64;
+/// Of classes within classes. Deeper ones are of no use, and reading them would exhaust the stack.
+inline constexpr int maxDepth = 8;
 
 /// *Throws* Error{usage} naming the class and the value that is out of range. The operands of its
 /// steps may be missing: `validate(const Look &)` finds that.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/mpr/highest_along.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -8,10 +9,9 @@
 
 namespace pellucid::mpr {
 
-std::optional<volume::PatientPoint> highestAlong(const volume::Volume &volume,
-                                                 const volume::VoxelBox &box,
-                                                 volume::PatientPoint point,
-                                                 const glm::dvec3 &direction) {
+std::optional<volume::PatientPoint>
+highestAlong(const volume::Volume &volume, const volume::VoxelBox &box, volume::PatientPoint point,
+             const glm::dvec3 &direction, const volume::Coverage *seen) {
     const volume::Lattice &lattice = volume.lattice();
     // In units of samples the line has another direction, and another length.
     const glm::dvec3 from = lattice.voxel(point).v;
@@ -27,6 +27,8 @@ std::optional<volume::PatientPoint> highestAlong(const volume::Volume &volume,
         if (!box.contains(n))
             continue;
         const double here = volume.value(n);
+        if (!std::isfinite(here) || (seen != nullptr && 2 * seen->at(n) < volume::Coverage::whole))
+            continue;
         if (!highest || here > value) {
             highest = lattice.patient(n);
             value = here;

@@ -41,10 +41,9 @@ template <class F> volume::VoxelBox boxWhere(const volume::GridSize &size, const
 
 /// The coverage of a grid in its smallest box. `shareOf`: the share of a sample, given as for
 /// `boxWhere`.
-template <class F>
-volume::Coverage coverageWhere(const volume::GridSize &size, const F &shareOf) {
-    const volume::VoxelBox box = boxWhere(
-        size, [&](volume::VoxelIndex at, std::size_t n) { return shareOf(at, n) != 0; });
+template <class F> volume::Coverage coverageWhere(const volume::GridSize &size, const F &shareOf) {
+    const volume::VoxelBox box =
+        boxWhere(size, [&](volume::VoxelIndex at, std::size_t n) { return shareOf(at, n) != 0; });
     volume::Coverage covered{box, std::vector<std::uint8_t>(box.size().count())};
     tbb::parallel_for(box.lo.k, box.hi.k, [&](int k) {
         for (int j = box.lo.j; j < box.hi.j; ++j) {

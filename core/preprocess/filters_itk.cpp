@@ -74,8 +74,7 @@ public:
           m_limit(float(radiusMm * radiusMm * (1.0 + 1e-5))) {
         for (int d = 0; d < 3; ++d) {
             m_step[d] = lattice.spacingMm(d);
-            m_reach[d] =
-                int(std::min(radiusMm / m_step[d] * (1.0 + 1e-5), double(m_size[d])));
+            m_reach[d] = int(std::min(radiusMm / m_step[d] * (1.0 + 1e-5), double(m_size[d])));
         }
     }
 
@@ -109,7 +108,8 @@ private:
                   to = std::min(end + m_reach[2], box.hi.k);
         const auto plane = std::size_t(in.i) * std::size_t(in.j);
         const auto alongRows = std::make_unique_for_overwrite<float[]>(plane);
-        const auto inSlices = std::make_unique_for_overwrite<float[]>(plane * std::size_t(to - from));
+        const auto inSlices =
+            std::make_unique_for_overwrite<float[]>(plane * std::size_t(to - from));
         for (int k = from; k < to; ++k) {
             for (int j = 0; j < in.j; ++j)
                 measureRow(m_mask.data() + m_size.offsetOf(box.lo.i, box.lo.j + j, k), in.i,

@@ -36,8 +36,7 @@ VoxelIndex nearest(const Lattice &lattice, PatientPoint point) {
 double squareToSegment(const glm::dvec3 &p, const glm::dvec3 &a, const glm::dvec3 &b) {
     const glm::dvec3 along = b - a, off = p - a;
     const double length2 = glm::dot(along, along);
-    const double t =
-        length2 > 0.0 ? std::clamp(glm::dot(off, along) / length2, 0.0, 1.0) : 0.0;
+    const double t = length2 > 0.0 ? std::clamp(glm::dot(off, along) / length2, 0.0, 1.0) : 0.0;
     const glm::dvec3 rest = off - t * along;
     return glm::dot(rest, rest);
 }
@@ -61,8 +60,8 @@ VoxelBox boxAround(const Lattice &lattice, const glm::dvec3 &a, const glm::dvec3
     return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
 }
 
-void paintSegment(const Lattice &lattice, const glm::dvec3 &a, const glm::dvec3 &b,
-                  double radiusMm, Region region, std::vector<Region> &regions) {
+void paintSegment(const Lattice &lattice, const glm::dvec3 &a, const glm::dvec3 &b, double radiusMm,
+                  Region region, std::vector<Region> &regions) {
     const VoxelBox box = boxAround(lattice, a, b, radiusMm);
     const double limit = radiusMm * radiusMm;
     tbb::parallel_for(box.lo.k, box.hi.k, [&](int k) {
@@ -196,13 +195,13 @@ void apply(const Lattice &lattice, const LassoCut &cut, Mask &mask,
 
 } // namespace
 
-void paint(const Lattice &lattice, const std::vector<Stroke> &strokes,
-           std::vector<Region> &regions, const task::Progress &progress) {
+void paint(const Lattice &lattice, const std::vector<Stroke> &strokes, std::vector<Region> &regions,
+           const task::Progress &progress) {
     for (std::size_t n = 0; n < strokes.size(); ++n) {
         const Stroke &stroke = strokes[n];
         const Region region = stroke.erases ? Region::outside : Region::filled;
-        progress.check();
         for (std::size_t p = 0; p < stroke.path.size(); ++p) {
+            progress.check();
             const glm::dvec3 &at = stroke.path[p].mm;
             paintSegment(lattice, stroke.path[p > 0 ? p - 1 : 0].mm, at, stroke.radiusMm, region,
                          regions);

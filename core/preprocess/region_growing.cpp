@@ -104,13 +104,15 @@ private:
 
 // The centres of balls that contain a seed.
 std::vector<VoxelIndex> centresNear(const volume::Lattice &lattice, const Mask &centres,
-                                    const std::vector<VoxelIndex> &seeds, double radiusMm) {
+                                    const std::vector<VoxelIndex> &seeds, double radiusMm,
+                                    const task::Progress &progress) {
     const GridSize size = lattice.size();
     std::vector<VoxelIndex> near;
     const auto reach = [&](int axis) {
         return int(std::min(radiusMm / lattice.spacingMm(axis), double(size[axis])));
     };
-    for (const VoxelIndex &seed : seeds)
+    for (const VoxelIndex &seed : seeds) {
+        progress.check();
         for (int k = seed.k - reach(2); k <= seed.k + reach(2); ++k)
             for (int j = seed.j - reach(1); j <= seed.j + reach(1); ++j)
                 for (int i = seed.i - reach(0); i <= seed.i + reach(0); ++i) {
@@ -122,6 +124,7 @@ std::vector<VoxelIndex> centresNear(const volume::Lattice &lattice, const Mask &
                         centres[size.offsetOf(i, j, k)] != 0)
                         near.push_back(n);
                 }
+    }
     return near;
 }
 
@@ -134,12 +137,12 @@ Mask connectedThrough(const volume::Lattice &lattice, const Mask &mask,
     // A ball as wide as the leak rolls through the mask.
     const double radius = 0.5 * leakMm;
     const Mask centres = eroded(lattice, mask, radius, progress.part(0.0, 0.3));
-    const auto near = centresNear(lattice, centres, seeds, radius);
+    const auto near = centresNear(lattice, centres, seeds, radius, progress);
     if (near.empty())
         return Mask(mask.size());
-    Mask region = dilated(lattice,
-                          connected(lattice.size(), centres, near, progress.part(0.3, 0.7)), radius,
-                          progress.part(0.7, 1.0));
+    Mask region =
+        dilated(lattice, connected(lattice.size(), centres, near, progress.part(0.3, 0.7)), radius,
+                progress.part(0.7, 1.0));
     for (std::size_t n = 0; n < region.size(); ++n)
         region[n] = std::uint8_t(region[n] & mask[n]);
     return region;
@@ -160,8 +163,8 @@ std::optional<VoxelIndex> nearestIn(const volume::Lattice &lattice, const Mask &
         for (int dj = -1; dj <= 1; ++dj)
             for (int di = -1; di <= 1; ++di) {
                 const VoxelIndex n{int(middle.x) + di, int(middle.y) + dj, int(middle.z) + dk};
-                const double square = glm::dot(glm::dvec3(n.i, n.j, n.k) - v,
-                                               glm::dvec3(n.i, n.j, n.k) - v);
+                const double square =
+                    glm::dot(glm::dvec3(n.i, n.j, n.k) - v, glm::dvec3(n.i, n.j, n.k) - v);
                 if (square < least && lattice.contains(n) &&
                     mask[lattice.size().offsetOf(n.i, n.j, n.k)] != 0) {
                     nearest = n;
@@ -175,7 +178,7 @@ std::optional<VoxelIndex> nearestIn(const volume::Lattice &lattice, const Mask &
 
 Mask connected(const GridSize &size, const Mask &mask, const std::vector<VoxelIndex> &seeds,
                const task::Progress &progress) {
-    return task::orOutOfMemory(task::because::noMemoryForTheStep("grow"), [&] {
+    return task::orOutOfMemory(task::because::noMemoryForTheStep("connected"), [&] {
         RunFill fill(size, mask);
         for (const VoxelIndex &seed : seeds)
             if (seed.i >= 0 && seed.j >= 0 && seed.k >= 0 && seed.i < size.i && seed.j < size.j &&
@@ -235,7 +238,7 @@ Mask grownRegion(const volume::Volume &volume, const Growth &growth,
                  const task::Progress &progress) {
     const volume::Lattice &lattice = volume.lattice();
     const GridSize size = lattice.size();
-    return task::orOutOfMemory(task::because::noMemoryForTheStep("grow"), [&] {
+    return task::orOutOfMemory(task::because::noMemoryForTheStep("connected"), [&] {
         Mask inRange(size.count());
         volume.visit([&](auto samples) {
             tbb::parallel_for(0, size.k, [&](int k) {

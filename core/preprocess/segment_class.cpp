@@ -1,33 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/preprocess/segment_class.h"
 
-#include <cmath>
-
-#include <glm/gtx/color_space.hpp>
-
 #include "core/preprocess/class_region.h"
 
 namespace pellucid::preprocess {
 
-namespace {
-
-// Hues a golden angle apart: any number of them in a row are far from each other.
-glm::dvec3 distinctColor(std::size_t index) {
-    constexpr double goldenAngle = 137.50776405003785, saturation = 0.6, brightness = 1.0;
-    return glm::rgbColor(
-        glm::dvec3(std::fmod(goldenAngle * double(index), 360.0), saturation, brightness));
-}
-
-} // namespace
-
 classify::TissueClass classOf(const segment::Segment &segment, std::size_t index) {
-    const glm::dvec3 color = segment.color.value_or(distinctColor(index));
     classify::TissueClass tissue;
     tissue.name = tissue.segment = segment.name;
     tissue.low = classify::lowestValue;
     tissue.high = classify::highestValue;
     tissue.edge = classify::defaultEdge;
-    tissue.color = {color.x, color.y, color.z};
+    tissue.color = segment.color
+                       ? classify::Color{segment.color->x, segment.color->y, segment.color->z}
+                       : classify::distinctColor(index);
     return tissue;
 }
 

@@ -157,8 +157,10 @@ private:
             const task::Progress part = progress.part(double(n) / count, double(n + 1) / count);
             const std::string text = " | " + contentText(step);
             const auto make = [&] {
+                auto operand = operandOf(step, part.part(0.0, 0.7));
+                const task::Progress own = operand ? part.part(0.7, 1.0) : part;
                 return std::visit([](auto made) { return Outcome(std::move(made)); },
-                                  resultOf(step, {m_tissue, m_now, operandOf(step, part)}, part));
+                                  resultOf(step, {m_tissue, m_now, std::move(operand)}, own));
             };
             m_now.density = densityAfter(step.kind).value_or(m_now.density);
             if (classify::describe(step.kind).effect == classify::StepEffect::values) {
@@ -168,9 +170,9 @@ private:
             }
             std::string key = valuesKey + text;
             if (dependsOnClass(step.kind))
-                key += fmt::format(" of {} {} {} {} {} {}", m_tissue.low, m_tissue.high,
-                                   m_tissue.softness, m_tissue.isDrawn, m_coverageKey,
-                                   m_regionsKey);
+                key +=
+                    fmt::format(" of {} {} {} {} {} {}", m_tissue.low, m_tissue.high,
+                                m_tissue.softness, m_tissue.isDrawn, m_coverageKey, m_regionsKey);
             const auto found = m_store.find<Regions>(key, make);
             // The result of a step that depends on the class contains the earlier regions already.
             m_now.regions = dependsOnClass(step.kind) ? found : intersection(m_now.regions, found);
@@ -182,8 +184,11 @@ private:
     // none.
     std::shared_ptr<const volume::Coverage> operandOf(const Step &step,
                                                       const task::Progress &progress) {
-        if (!step.operand.own)
+        if (classify::describe(step.kind).input != classify::StepInput::otherClass)
             return nullptr;
+        if (!step.operand.own)
+            throw task::Error(task::ErrorCode::usage,
+                              task::because::classIsMissing(m_tissue.name, step.operand.name));
         Runner runner(m_store, m_segments);
         return std::make_shared<const volume::Coverage>(
             regionOf(m_volume, *step.operand.own, runner, progress));
@@ -216,8 +221,8 @@ private:
             std::for_each(stroke.path.begin(), stroke.path.end(), add);
         }
         for (const classify::LassoCut &cut : step.cuts) {
-            text += fmt::format(" cut {},{},{} {}", cut.sight.x, cut.sight.y, cut.sight.z,
-                                cut.keeps);
+            text +=
+                fmt::format(" cut {},{},{} {}", cut.sight.x, cut.sight.y, cut.sight.z, cut.keeps);
             if (cut.slabMm)
                 text += fmt::format(" {} {}", (*cut.slabMm)[0], (*cut.slabMm)[1]);
             std::for_each(cut.outline.begin(), cut.outline.end(), add);
@@ -226,14 +231,16 @@ private:
             return text;
         if (step.operand.own)
             text += " (" + contentText(*step.operand.own) + ")";
+        // Marks are places in the patient; other results are the same wherever the volume is.
+        add(m_volume.lattice().origin());
         // Strokes can be long, and the store compares keys one by one.
         return classify::describe(step.kind).name + " " +
                contentDigest(std::as_bytes(std::span(text)));
     }
 
     std::string contentText(const TissueClass &tissue) const {
-        std::string text = fmt::format("{} {} {} {}", tissue.low, tissue.high, tissue.softness,
-                                       tissue.isDrawn);
+        std::string text =
+            fmt::format("{} {} {} {}", tissue.low, tissue.high, tissue.softness, tissue.isDrawn);
         const segment::Segment *const found =
             m_segments != nullptr ? m_segments->find(tissue.segment) : nullptr;
         text += fmt::format(" segment {}", found != nullptr ? found->id : 0);
@@ -249,8 +256,8 @@ private:
             return;
         const std::vector<Region> &regions = *m_now.regions;
         std::atomic<bool> hasFilled = false;
-        m_now.coverage = std::make_shared<const volume::Coverage>(coverageWhere(
-            m_now.values.lattice().size(), [&](volume::VoxelIndex at, std::size_t n) {
+        m_now.coverage = std::make_shared<const volume::Coverage>(
+            coverageWhere(m_now.values.lattice().size(), [&](volume::VoxelIndex at, std::size_t n) {
                 if (regions[n] == Region::filled)
                     hasFilled.store(true, std::memory_order_relaxed);
                 return shareOf(regions[n], at);

@@ -136,9 +136,9 @@ volume::Volume smoothGradient(const volume::Volume &values, double sigmaMm,
 }
 
 std::vector<Region> regionsOf(const ClassSamples &samples) {
-    return samples.regions ? *samples.regions
-                           : std::vector<Region>(samples.values.lattice().size().count(),
-                                                 Region::inside);
+    return samples.regions
+               ? *samples.regions
+               : std::vector<Region>(samples.values.lattice().size().count(), Region::inside);
 }
 
 // The former regions, with the samples that a step added.

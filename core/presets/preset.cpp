@@ -46,10 +46,11 @@ TissueClass mapped(TissueClass tissue, double offset, double scale, Thresholds t
                 mapped(*step.operand.own, offset, scale, thresholds));
         isSlope = isSlope || step.kind == StepKind::gradient;
     }
-    if (tissue.hasRange()) {
+    // Ends that limit nothing stay.
+    if (tissue.low > classify::lowestValue)
         tissue.low = value(tissue.low);
+    if (tissue.high < classify::highestValue)
         tissue.high = value(tissue.high);
-    }
     tissue.softness *= scale;
     return tissue;
 }

@@ -58,6 +58,9 @@ struct Scene {
     Interpolation interpolation;
     PlannedFor plannedFor = PlannedFor::picture;
     Tone tone;
+    /// It shows a difference of volumes: its look means nothing for one of them alone. Set in
+    /// files.
+    bool isOfDifference = false;
 
     bool operator==(const Scene &) const = default;
 };

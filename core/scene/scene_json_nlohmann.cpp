@@ -113,6 +113,8 @@ Scene parsed(const JsonValue &in, const std::string &text) {
     if (const JsonValue crop = in["crop"])
         scene.crop = cropFrom(crop);
     scene.image = imageFrom(in, isFirstVersion);
+    if (const JsonValue ofDifference = in["of_difference"])
+        scene.isOfDifference = ofDifference.boolean();
     if (const JsonValue tolerance = in["tolerance"])
         scene.tolerance = tolerance.number();
     if (const JsonValue plannedFor = in["planned_for"])
@@ -137,6 +139,8 @@ std::string toJson(const Scene &scene) {
                 {"roll_off", scene.image.rollOff},
                 {"tolerance", scene.tolerance},
                 {"tone", {{"inverted", scene.tone.inverted}}}};
+    if (scene.isOfDifference)
+        out["of_difference"] = true;
     if (scene.plannedFor == PlannedFor::volume)
         out["planned_for"] = wordFor(scene.plannedFor, plannedFors);
     if (scene.fieldWindow)

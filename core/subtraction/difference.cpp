@@ -30,9 +30,13 @@ using volume::Volume;
 constexpr double borderTolerance = 1e-4;
 
 Volume labelled(const Lattice &lattice, auto samples, const Volume &minuend,
-                const Volume &subtrahend) {
+                const Volume &subtrahend, const Weights &weights) {
     volume::VolumeNotes notes = minuend.notes();
-    notes.title += " - " + subtrahend.notes().title;
+    notes.title = weights == Weights()
+                      ? notes.title + " - " + subtrahend.notes().title
+                      : fmt::format("{:g} x {} {} {:g} x {}", weights.minuend, notes.title,
+                                    weights.subtrahend < 0.0 ? '-' : '+',
+                                    std::abs(weights.subtrahend), subtrahend.notes().title);
     notes.windows.clear(); // those of the minuend do not suit differences
     notes.darkIsHigh = false;
     notes.isDifference = true;
@@ -115,20 +119,24 @@ std::vector<float> resampledOnto(const Lattice &lattice, const Volume &volume,
     });
 }
 
+void validate(const Weights &weights) {
+    for (const double weight : {weights.minuend, weights.subtrahend})
+        if (!(std::abs(weight) <= Weights::largest))
+            throw task::Error(task::ErrorCode::usage, because::subtractionWeightOutOfRange(
+                                                          fmt::format("{:g}", weight),
+                                                          fmt::format("{:g}", -Weights::largest),
+                                                          fmt::format("{:g}", Weights::largest)));
+}
+
 Volume difference(const Volume &minuend, const Volume &subtrahend,
                   const RigidTransform &toSubtrahend, const Weights &weights,
                   const task::Progress &progress) {
-    for (const double weight : {weights.minuend, weights.subtrahend})
-        if (!(std::abs(weight) <= Weights::largest))
-            throw task::Error(task::ErrorCode::usage,
-                              because::subtractionWeightOutOfRange(
-                                  fmt::format("{:g}", weight), fmt::format("{:g}", -Weights::largest),
-                                  fmt::format("{:g}", Weights::largest)));
+    validate(weights);
     return task::orOutOfMemory(because::noMemoryForTheDifference, [&] {
         const Lattice &lattice = minuend.lattice();
         if (toSubtrahend.isIdentity() && lattice == subtrahend.lattice())
             if (auto whole = wholeDifference(minuend, subtrahend, weights, progress))
-                return labelled(lattice, std::move(*whole), minuend, subtrahend);
+                return labelled(lattice, std::move(*whole), minuend, subtrahend, weights);
         std::vector<float> values =
             resampledOnto(lattice, subtrahend, toSubtrahend, progress.part(0.0, 0.8));
         std::atomic<bool> overlaps = false;
@@ -148,7 +156,7 @@ Volume difference(const Volume &minuend, const Volume &subtrahend,
         });
         if (!overlaps)
             throw task::Error(task::ErrorCode::unusable, because::volumesDoNotOverlap);
-        return labelled(lattice, std::move(values), minuend, subtrahend);
+        return labelled(lattice, std::move(values), minuend, subtrahend, weights);
     });
 }
 
@@ -177,8 +185,8 @@ Subtraction subtract(const Volume &minuend, const Volume &subtrahend, bool isAli
         return {difference(minuend, subtrahend, {}, weights, progress), std::nullopt,
                 minuend.notes().frameOfReferenceUid != subtrahend.notes().frameOfReferenceUid};
     const Registration found = registerRigidly(minuend, subtrahend, progress.part(0.0, 0.8));
-    return {difference(minuend, subtrahend, found.toMoving, weights, progress.part(0.8, 1.0)), found,
-            false};
+    return {difference(minuend, subtrahend, found.toMoving, weights, progress.part(0.8, 1.0)),
+            found, false};
 }
 
 } // namespace pellucid::subtraction

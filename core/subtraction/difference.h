@@ -21,10 +21,14 @@ struct Weights {
     bool operator==(const Weights &) const = default;
 };
 
-/// `minuend - subtrahend`, or another weighted sum, on the minuend's lattice; 0 where the subtrahend
-/// is not. Values have no unit: a difference of 0 HU is not water. Volumes of 16 bits on one lattice
-/// give 16 bits if the weights are whole and every value fits. *Throws* Error{usage} for weights out
-/// of range, Error{unusable} if the volumes do not overlap, Error{outOfMemory}, Cancelled.
+/// *Throws* Error{usage} for a weight out of range.
+void validate(const Weights &weights);
+
+/// `minuend - subtrahend`, or another weighted sum, on the minuend's lattice; 0 where the
+/// subtrahend is not. Values have no unit: a difference of 0 HU is not water. Volumes of 16 bits on
+/// one lattice give 16 bits if the weights are whole and every value fits. *Throws* Error{usage}
+/// for weights out of range, Error{unusable} if the volumes do not overlap, Error{outOfMemory},
+/// Cancelled.
 volume::Volume difference(const volume::Volume &minuend, const volume::Volume &subtrahend,
                           const RigidTransform &toSubtrahend = {}, const Weights &weights = {},
                           const task::Progress &progress = {});

@@ -234,6 +234,25 @@ double RigidTransform::angleRad() const {
     return std::acos(std::clamp(0.5 * (trace - 1.0), -1.0, 1.0));
 }
 
+namespace {
+
+// How far the corners of a volume move.
+double farthestMove(const volume::Lattice &lattice, const RigidTransform &transform) {
+    const volume::GridSize size = lattice.size();
+    double farthest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at = lattice
+                                  .patient(volume::VoxelIndex{(corner & 1) != 0 ? size.i - 1 : 0,
+                                                              (corner & 2) != 0 ? size.j - 1 : 0,
+                                                              (corner & 4) != 0 ? size.k - 1 : 0})
+                                  .mm;
+        farthest = std::max(farthest, glm::length(transform(at) - at));
+    }
+    return farthest;
+}
+
+} // namespace
+
 Registration registerRigidly(const Volume &fixed, const Volume &moving,
                              const task::Progress &progress) {
     return task::orOutOfMemory(because::noMemoryForTheDifference, [&] {
@@ -242,6 +261,12 @@ Registration registerRigidly(const Volume &fixed, const Volume &moving,
         progress.check();
         result.toMoving = Registrar(fixed, moving, progress.part(0.05, 0.95)).run();
         result.residualAfter = residual(fixed, moving, result.toMoving);
+        // Volumes that fit already are not improved by what the search could not resolve.
+        if (result.residualAfter >= result.residualBefore &&
+            farthestMove(fixed.lattice(), result.toMoving) < fixed.lattice().longestStepMm()) {
+            result.toMoving = {};
+            result.residualAfter = result.residualBefore;
+        }
         progress.report(1.0);
         return result;
     });

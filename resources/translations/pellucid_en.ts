@@ -14,20 +14,6 @@
 <context>
     <name>StepTexts</name>
     <message numerus="yes">
-        <source>connected with %n point(s), not through less than %1 mm</source>
-        <translation>
-            <numerusform>connected with %n point, not through less than %1 mm</numerusform>
-            <numerusform>connected with %n points, not through less than %1 mm</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>connected with %n point(s)</source>
-        <translation>
-            <numerusform>connected with %n point</numerusform>
-            <numerusform>connected with %n points</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%n stroke(s)</source>
         <translation>
             <numerusform>%n stroke</numerusform>
@@ -39,6 +25,20 @@
         <translation>
             <numerusform>%n cut</numerusform>
             <numerusform>%n cuts</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>connected to %n point(s), not through less than %1 mm</source>
+        <translation>
+            <numerusform>connected to %n point, not through less than %1 mm</numerusform>
+            <numerusform>connected to %n points, not through less than %1 mm</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>connected to %n point(s)</source>
+        <translation>
+            <numerusform>connected to %n point</numerusform>
+            <numerusform>connected to %n points</numerusform>
         </translation>
     </message>
 </context>

@@ -2576,6 +2576,14 @@
         <source>the class &apos;%1&apos; needs a point in the patient; name one by --point &apos;%1=x,y,z&apos;</source>
         <translation>類別「%1」需要病患中的一點；請以 --point &apos;%1=x,y,z&apos; 指定</translation>
     </message>
+    <message>
+        <source>the scene shows a difference of two volumes; subtract the other volume first</source>
+        <translation>此場景顯示兩個體積的差異；請先減去另一個體積</translation>
+    </message>
+    <message>
+        <source>the steps of the class &apos;%1&apos; need the class &apos;%2&apos;, and the look has several of that name</source>
+        <translation>類別「%1」的步驟需要類別「%2」，但外觀中有數個同名類別</translation>
+    </message>
 </context>
 <context>
     <name>RegionTexts</name>
@@ -2687,22 +2695,6 @@
         <translation>皮膚外的邊緣</translation>
     </message>
     <message>
-        <source>connected with a point to be clicked</source>
-        <translation>與待點按的點相連</translation>
-    </message>
-    <message numerus="yes">
-        <source>connected with %n point(s), not through less than %1 mm</source>
-        <translation>
-            <numerusform>與 %n 個點相連，不穿過窄於 %1 mm 處</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>connected with %n point(s)</source>
-        <translation>
-            <numerusform>與 %n 個點相連</numerusform>
-        </translation>
-    </message>
-    <message>
         <source>Smooth with a Gaussian</source>
         <translation>高斯平滑</translation>
     </message>
@@ -2745,10 +2737,6 @@
     <message>
         <source>Largest part</source>
         <translation>最大部分</translation>
-    </message>
-    <message>
-        <source>Connected with points</source>
-        <translation>與點相連</translation>
     </message>
     <message>
         <source>Grow</source>
@@ -2873,6 +2861,62 @@
     <message>
         <source>all values</source>
         <translation>所有數值</translation>
+    </message>
+    <message>
+        <source>mm</source>
+        <translation>mm</translation>
+    </message>
+    <message>
+        <source>value units</source>
+        <translation>數值單位</translation>
+    </message>
+    <message>
+        <source>value units per mm</source>
+        <translation>數值單位／mm</translation>
+    </message>
+    <message>
+        <source>connected to a point to be clicked</source>
+        <translation>與待點按的點相連</translation>
+    </message>
+    <message numerus="yes">
+        <source>connected to %n point(s), not through less than %1 mm</source>
+        <translation>
+            <numerusform>與 %n 個點相連，不穿過窄於 %1 mm 處</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>connected to %n point(s)</source>
+        <translation>
+            <numerusform>與 %n 個點相連</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Connected to points</source>
+        <translation>與點相連</translation>
+    </message>
+    <message>
+        <source>smoothed along edges</source>
+        <translation>沿邊緣平滑</translation>
+    </message>
+    <message>
+        <source>gradient, smoothed by %1 mm</source>
+        <translation>梯度，平滑 %1 mm</translation>
+    </message>
+    <message>
+        <source>sign changed</source>
+        <translation>改變正負號</translation>
+    </message>
+    <message>
+        <source>values %1</source>
+        <translation>數值 %1</translation>
+    </message>
+    <message>
+        <source>edges above %1</source>
+        <translation>高於 %1 的邊緣</translation>
+    </message>
+    <message>
+        <source>one density from %1</source>
+        <translation>自 %1 起密度為一</translation>
     </message>
 </context>
 <context>
@@ -3112,6 +3156,10 @@
         <source>Source</source>
         <translation>來源</translation>
     </message>
+    <message>
+        <source>What the class consists of before its steps</source>
+        <translation>類別在其步驟之前的內容</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::ClassGroup</name>
@@ -3180,6 +3228,22 @@
     <message>
         <source>Add step</source>
         <translation>新增步驟</translation>
+    </message>
+    <message>
+        <source>Remove the selected step</source>
+        <translation>移除所選步驟</translation>
+    </message>
+    <message>
+        <source>The selected step runs earlier</source>
+        <translation>所選步驟提前</translation>
+    </message>
+    <message>
+        <source>The selected step runs later</source>
+        <translation>所選步驟延後</translation>
+    </message>
+    <message>
+        <source>Add a step after the others</source>
+        <translation>在其他步驟之後新增步驟</translation>
     </message>
 </context>
 <context>
@@ -4424,14 +4488,6 @@
         <translation>區域所改變的類別</translation>
     </message>
     <message>
-        <source>The ball erases; with Shift it does the other</source>
-        <translation>以球擦除；按住 Shift 則相反</translation>
-    </message>
-    <message>
-        <source>All bone that is connected with the click, with its marrow and rim; drag up for less dense bone</source>
-        <translation>與點按處相連的所有骨骼，包含骨髓與邊緣；向上拖曳可納入較疏鬆的骨骼</translation>
-    </message>
-    <message>
         <source>Leak limit</source>
         <translation>滲漏限度</translation>
     </message>
@@ -4442,10 +4498,6 @@
     <message>
         <source>Radius</source>
         <translation>半徑</translation>
-    </message>
-    <message>
-        <source>Radius of the ball (Shift+wheel over a plane)</source>
-        <translation>球的半徑（在切面上 Shift+滾輪）</translation>
     </message>
     <message>
         <source>Slab</source>
@@ -4484,14 +4536,6 @@
         <translation>加入類別</translation>
     </message>
     <message>
-        <source>Keep only this</source>
-        <translation>僅保留此部分</translation>
-    </message>
-    <message>
-        <source>Remove this</source>
-        <translation>移除此部分</translation>
-    </message>
-    <message>
         <source>Add a point</source>
         <translation>加入一點</translation>
     </message>
@@ -4512,16 +4556,40 @@
         <translation>在切面或投影中拖曳</translation>
     </message>
     <message>
-        <source>Draw around what is meant, in a plane or the projection</source>
-        <translation>在切面或投影中圍出所要的部分</translation>
-    </message>
-    <message>
         <source>Searching...</source>
         <translation>尋找中…</translation>
     </message>
     <message>
         <source>%1 ml</source>
         <translation>%1 ml</translation>
+    </message>
+    <message>
+        <source>What the region does to the classes</source>
+        <translation>區域對類別的作用</translation>
+    </message>
+    <message>
+        <source>The brush erases; hold Shift to paint</source>
+        <translation>以畫筆擦除；按住 Shift 則塗畫</translation>
+    </message>
+    <message>
+        <source>All bone connected to the click, with its marrow and rim; drag up for less dense bone</source>
+        <translation>與點按處相連的所有骨骼，包含骨髓與邊緣；向上拖曳可納入較疏鬆的骨骼</translation>
+    </message>
+    <message>
+        <source>Radius of the brush (Shift+wheel over a plane)</source>
+        <translation>畫筆的半徑（在切面上 Shift+滾輪）</translation>
+    </message>
+    <message>
+        <source>Keep only the region</source>
+        <translation>僅保留此區域</translation>
+    </message>
+    <message>
+        <source>Remove the region</source>
+        <translation>移除此區域</translation>
+    </message>
+    <message>
+        <source>Draw around the part to cut, in a plane or the projection</source>
+        <translation>在切面或投影中圍出要剪裁的部分</translation>
     </message>
 </context>
 <context>
@@ -5019,6 +5087,14 @@
         <source>The aligned volume, to check the alignment</source>
         <translation>已對齊的體積，以檢查對齊</translation>
     </message>
+    <message>
+        <source>Opens it at the right; both sides move together</source>
+        <translation>於右側開啟；兩側一起移動</translation>
+    </message>
+    <message>
+        <source>%1, from -2 to 2</source>
+        <translation>%1，−2 至 2</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::ToolsMenu</name>
@@ -5203,24 +5279,12 @@
         <translation>相連</translation>
     </message>
     <message>
-        <source>click what has similar values and is connected, also in the projection</source>
-        <translation>點按數值相近且相連的部分，投影中亦可</translation>
-    </message>
-    <message>
         <source>Paint</source>
         <translation>塗畫</translation>
     </message>
     <message>
-        <source>paint a region with a ball; Shift erases</source>
-        <translation>以球塗畫區域；Shift 擦除</translation>
-    </message>
-    <message>
         <source>Scissors</source>
         <translation>剪刀</translation>
-    </message>
-    <message>
-        <source>draw around what to cut along the line of sight</source>
-        <translation>圍出沿視線剪去的部分</translation>
     </message>
     <message>
         <source>&amp;Region</source>
@@ -5269,6 +5333,18 @@
     <message>
         <source>Remove connected &amp;bone</source>
         <translation>移除相連的骨骼(&amp;B)</translation>
+    </message>
+    <message>
+        <source>click connected tissue of similar values, also in the projection</source>
+        <translation>點按數值相近且相連的組織，投影中亦可</translation>
+    </message>
+    <message>
+        <source>paint a region with a brush; Shift erases</source>
+        <translation>以畫筆塗畫區域；Shift 擦除</translation>
+    </message>
+    <message>
+        <source>draw around the part to cut along the line of sight</source>
+        <translation>圍出沿視線剪裁的部分</translation>
     </message>
 </context>
 <context>

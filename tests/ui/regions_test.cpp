@@ -97,6 +97,10 @@ private slots:
         choose("paintToolAction");
         auto *const plane = axial();
         const QPoint at = plane->rect().center();
+        QCOMPARE(find<QDoubleSpinBox>("regionBallBox")->value(), 5.0);
+        find<QDoubleSpinBox>("regionBallBox")->selectAll();
+        QTest::keyClicks(find<QDoubleSpinBox>("regionBallBox"), "12.5");
+        QCOMPARE(find<QDoubleSpinBox>("regionBallBox")->value(), 12.5);
         find<QDoubleSpinBox>("regionBallBox")->setValue(12.0);
         dragMouse(plane, Qt::LeftButton, at, {60, 0});
         settle();
@@ -134,7 +138,7 @@ private slots:
     void scissorsCutAlongTheLineOfSight() {
         open(headPath());
         choose("scissorsToolAction");
-        use(RegionUse::remove);
+        QCOMPARE(find<QComboBox>("regionUseBox")->currentText(), QString("Remove the region"));
         const QImage whole = projection()->picture();
         const QPoint middle = projection()->rect().center();
         drawAround(projection(), middle - QPoint(60, 0), 50);
@@ -228,7 +232,7 @@ private slots:
         // A step that changes values comes before those that find the region.
         find<QAction>("step_gaussian")->trigger();
         QCOMPARE(list->currentRow(), 0);
-        find<QPushButton>("stepDownButton")->isEnabled();
+        QVERIFY(!find<QPushButton>("stepDownButton")->isEnabled());
         find<QDoubleSpinBox>("classEdgeBox")->setValue(0.75);
         save("class_dialog");
         QVERIFY(dialog->grab().save(artifact("class_dialog_alone.png")));
@@ -296,7 +300,7 @@ private:
         const int index = box->findData(int(wanted));
         box->setCurrentIndex(index);
         emit box->activated(index);
-        QCOMPARE(marking().options().use, wanted);
+        QCOMPARE(ui::useOf(marking().options(), marking().tool()), wanted);
     }
     void found() {
         QTRY_VERIFY_WITH_TIMEOUT(!marking().isSearching() && marking().tint(), patienceMs);

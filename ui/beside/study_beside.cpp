@@ -128,7 +128,8 @@ void StudyBeside::open(const StudySource &source) {
 }
 
 void StudyBeside::setTool(Tool tool) {
-    const Tool here = measuredBy(tool) || tool == Tool::crop ? Tool::window : tool;
+    const bool edits = measuredBy(tool) || tool == Tool::crop || marksRegions(tool);
+    const Tool here = edits ? Tool::window : tool;
     for (MprView *plane : m_viewer.planes)
         plane->setTool(here);
     m_viewer.projection->setTool(here);

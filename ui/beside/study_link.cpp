@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/beside/study_link.h"
 
+#include <QScopedValueRollback>
+
 #include <glm/common.hpp>
 
+#include "core/classify/region_edits.h"
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
 #include "ui/opening/segment_opener.h"
@@ -44,15 +47,19 @@ template <class F> void StudyLink::pass(F &&f) {
     if (!m_isLinked || m_isHeld || m_isPassing || !m_leader.document.volume() ||
         !m_follower.document.volume())
         return;
-    m_isPassing = true;
+    const QScopedValueRollback passing(m_isPassing, true);
     f();
-    m_isPassing = false;
 }
 
 bool StudyLink::sharesUnit() const {
     const volume::Volume &a = *m_leader.document.volume(), &b = *m_follower.document.volume();
     // Values without a unit that are differences are of another kind than those that are not.
     return a.unit() == b.unit() && a.notes().isDifference == b.notes().isDifference;
+}
+
+bool StudyLink::sharesSpace() const {
+    const std::string &space = m_leader.document.volume()->notes().frameOfReferenceUid;
+    return !space.empty() && space == m_follower.document.volume()->notes().frameOfReferenceUid;
 }
 
 void StudyLink::setLinked(bool isLinked) {
@@ -77,7 +84,8 @@ void StudyLink::follow() {
         if (!m_follower.document.isPreview() && sharesUnit()) {
             const scene::Scene &shown = m_leader.document.scene();
             scene::Scene scene = m_follower.document.scene();
-            scene.look = shown.look;
+            // Points, strokes and cuts are places in one space.
+            scene.look = sharesSpace() ? shown.look : classify::withoutMarks(shown.look);
             dropMissing(scene.look, m_follower.document);
             scene.crop = shown.crop;
             scene.shading = shown.shading;

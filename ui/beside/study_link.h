@@ -29,6 +29,7 @@ public:
 private:
     void follow();
     bool sharesUnit() const;
+    bool sharesSpace() const;
     /// Runs `f`, unless the link is off or is itself making the change.
     template <class F> void pass(F &&f);
     void linkViews(const Viewer &from, const Viewer &to);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/document/commands.h"
 
+#include <utility>
+
 #include <QCoreApplication>
 
+#include "core/task/error.h"
 #include "ui/document/document.h"
 
 namespace pellucid::ui {
@@ -42,6 +45,20 @@ bool editScene(Document &document, const QString &text, DragId drag,
         return false;
     document.undoStack()->push(new EditScene(document, scene, text, drag));
     return true;
+}
+
+bool editLook(Document &document, const QString &text, DragId drag,
+              const std::function<void(classify::Look &)> &edit) {
+    classify::Look look = document.scene().look;
+    edit(look);
+    try {
+        classify::validate(look);
+    } catch (const task::Error &error) {
+        emit document.editRefused(error.reason());
+        return false;
+    }
+    return editScene(document, text, drag,
+                     [&](scene::Scene &scene) { scene.look = std::move(look); });
 }
 
 DragId nextDragId() {

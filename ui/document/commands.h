@@ -89,4 +89,9 @@ DragId nextDragId();
 bool editScene(Document &document, const QString &text, DragId drag,
                const std::function<void(scene::Scene &)> &edit);
 
+/// The same for the look. A look that would be invalid is refused: `Document::editRefused` says
+/// why.
+bool editLook(Document &document, const QString &text, DragId drag,
+              const std::function<void(classify::Look &)> &edit);
+
 } // namespace pellucid::ui

@@ -129,6 +129,9 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
         fresh.interpolation = m_scene.interpolation;
         m_scene = fresh;
         m_selectedClass = -1;
+        RegionOptions options = m_marking.options();
+        options.addsPoints = false; // of a class that is gone
+        m_marking.setOptions(options);
         m_pose = {};
         setSegments(nullptr);
     }
@@ -238,9 +241,10 @@ void Document::setTintsSegments(bool tints) {
 
 QStringList Document::missingSegments(const classify::Look &look) const {
     QStringList missing;
-    for (const classify::TissueClass &tissue : look.classes)
-        if (!tissue.segment.empty() && (!m_segments || m_segments->find(tissue.segment) == nullptr))
-            missing << QString::fromStdString(tissue.segment);
+    for (const std::set<std::string> &segments : classify::segmentsOf(look))
+        for (const std::string &name : segments)
+            if (!m_segments || m_segments->find(name) == nullptr)
+                missing << QString::fromStdString(name);
     missing.removeDuplicates();
     return missing;
 }

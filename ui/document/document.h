@@ -18,6 +18,7 @@
 #include "core/picture/tone_subject.h"
 #include "core/scene/scene.h"
 #include "core/segment/segment_set.h"
+#include "core/task/reason.h"
 #include "core/volume/volume.h"
 #include "ui/document/pose.h"
 #include "ui/document/region_marking.h"
@@ -168,6 +169,8 @@ signals:
     void selectedMeasurementChanged();
     void selectedClassChanged();
     void tintChanged();
+    /// An edit would make an invalid look, and was not made.
+    void editRefused(const pellucid::task::Reason &reason);
     /// Also after a new volume, which has none at first, and if the planes tint them or not.
     void segmentsChanged();
 

@@ -36,10 +36,6 @@ void select(Document &document, const EditedClass &edited) {
         document.selectClass(int(*edited));
 }
 
-bool isFull(const Document &document) {
-    return document.scene().look.classes.size() >= classify::maxClasses;
-}
-
 } // namespace
 
 EditedClass editedClass(const Document &document) {
@@ -50,60 +46,64 @@ EditedClass editedClass(const Document &document) {
 }
 
 void useRegion(Document &document, const classify::TissueClass &region) {
-    RegionUse use = document.marking().options().use;
+    RegionUse use = useOf(document.marking().options(), document.marking().tool());
     EditedClass edited = editedClass(document);
     if (use == RegionUse::add && document.selectedClass() < 0)
         use = RegionUse::newClass;
     else if (use == RegionUse::add)
         edited = std::size_t(document.selectedClass());
-    if (use == RegionUse::newClass && isFull(document))
-        return;
-    editScene(document, textOf(use), noDrag, [&](scene::Scene &scene) {
-        edited = classify::useRegion(scene.look, region, use, edited, document.fieldWindow());
+    const bool isMade = editLook(document, textOf(use), noDrag, [&](classify::Look &look) {
+        edited = classify::useRegion(look, region, use, edited, document.fieldWindow());
     });
-    select(document, edited);
+    if (isMade)
+        select(document, edited);
 }
 
 void useCut(Document &document, const classify::LassoCut &cut) {
-    const RegionUse use = document.marking().options().use;
+    const RegionUse use = useOf(document.marking().options(), document.marking().tool());
     if (use == RegionUse::newClass || use == RegionUse::add) {
         useRegion(document, classify::cutRegion(cut));
         return;
     }
     classify::LassoCut made = cut;
     made.keeps = use == RegionUse::keep;
-    editScene(document, RegionTexts::tr("Scissors"), noDrag, [&](scene::Scene &scene) {
-        classify::cutClasses(scene.look, made, editedClass(document), document.fieldWindow());
+    editLook(document, RegionTexts::tr("Scissors"), noDrag, [&](classify::Look &look) {
+        classify::cutClasses(look, made, editedClass(document), document.fieldWindow());
     });
 }
 
-void useStroke(Document &document, const classify::Stroke &stroke) {
-    EditedClass edited = editedClass(document);
-    if (!edited && !stroke.erases && isFull(document))
-        return;
-    editScene(document, stroke.erases ? RegionTexts::tr("Erase") : RegionTexts::tr("Paint"), noDrag,
-              [&](scene::Scene &scene) {
-                  edited =
-                      classify::paintClass(scene.look, stroke, edited, document.fieldWindow());
-              });
-    select(document, edited);
+void useStrokes(Document &document, const std::vector<classify::Stroke> &strokes) {
+    const bool erases = strokes.front().erases;
+    const int selected = document.selectedClass();
+    // Only erasing is meant for every class.
+    EditedClass edited = erases         ? editedClass(document)
+                         : selected < 0 ? std::nullopt
+                                        : EditedClass(std::size_t(selected));
+    const QString text = erases ? RegionTexts::tr("Erase") : RegionTexts::tr("Paint");
+    const bool isMade = editLook(document, text, noDrag, [&](classify::Look &look) {
+        edited = classify::paintClass(look, strokes, edited, document.fieldWindow());
+    });
+    if (isMade)
+        select(document, edited);
 }
 
 void usePoint(Document &document, volume::PatientPoint point) {
     const int selected = document.selectedClass();
     if (selected < 0)
         return;
-    editScene(document, RegionTexts::tr("Point"), noDrag, [&](scene::Scene &scene) {
-        classify::addPoint(scene.look.classes[std::size_t(selected)], point);
+    const bool isAnswer = classify::awaitingClass(document.scene().look).has_value();
+    editLook(document, RegionTexts::tr("Point"), noDrag, [&](classify::Look &look) {
+        classify::addPoint(look.classes[std::size_t(selected)], point);
     });
-    askForPoints(document);
+    if (isAnswer) // to the question, which is over or goes on with the next class
+        askForPoints(document);
 }
 
 void useStep(Document &document, const classify::Step &step, const QString &text) {
     const int selected = document.selectedClass();
     if (selected >= 0)
-        editScene(document, text, noDrag, [&](scene::Scene &scene) {
-            classify::addStep(scene.look, step, std::size_t(selected));
+        editLook(document, text, noDrag, [&](classify::Look &look) {
+            classify::addStep(look, step, std::size_t(selected));
         });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include <QString>
 
 #include "core/classify/region_edits.h"
@@ -19,7 +21,8 @@ classify::EditedClass editedClass(const Document &document);
 void useRegion(Document &document, const classify::TissueClass &region);
 /// Cuts along the line of sight; a new class or an addition is what the cut encloses.
 void useCut(Document &document, const classify::LassoCut &cut);
-void useStroke(Document &document, const classify::Stroke &stroke);
+/// *Requires*: at least one stroke; all erase or none.
+void useStrokes(Document &document, const std::vector<classify::Stroke> &strokes);
 /// Adds a point to the selected class, and selects the next one that waits for points.
 void usePoint(Document &document, volume::PatientPoint point);
 /// Adds a step to the selected class.

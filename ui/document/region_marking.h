@@ -17,7 +17,8 @@ enum class RegionTool { none, connected, paint, scissors };
 
 /// How a region tool changes the classes.
 struct RegionOptions {
-    classify::RegionUse use = classify::RegionUse::newClass;
+    classify::RegionUse use = classify::RegionUse::newClass; ///< of connected regions
+    classify::RegionUse cutUse = classify::RegionUse::remove;
     /// A click adds a point to the selected class, instead of finding a new region.
     bool addsPoints = false;
     bool ofEveryClass = false; ///< keeps and removes in every class, not only in the selected one
@@ -28,6 +29,14 @@ struct RegionOptions {
     double slabMm = 0.0; ///< thickness of the cut, about the crosshair; 0: all of the volume
     bool operator==(const RegionOptions &) const = default;
 };
+
+/// The use of the region that a tool marks.
+inline const classify::RegionUse &useOf(const RegionOptions &options, RegionTool tool) {
+    return tool == RegionTool::scissors ? options.cutUse : options.use;
+}
+inline classify::RegionUse &useOf(RegionOptions &options, RegionTool tool) {
+    return tool == RegionTool::scissors ? options.cutUse : options.use;
+}
 
 /// A region that the planes tint.
 struct RegionTint {

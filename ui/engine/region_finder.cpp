@@ -7,9 +7,17 @@
 
 namespace pellucid::ui {
 
+namespace {
+
+// The last regions that were tried, of a large volume.
+constexpr std::size_t soughtBytes = std::size_t(256) << 20;
+
+} // namespace
+
 RegionFinder::RegionFinder(Document &document, std::shared_ptr<preprocess::StepCache> steps,
                            QObject *parent)
-    : QObject(parent), m_document(document), m_steps(std::move(steps)) {
+    : QObject(parent), m_document(document), m_steps(std::move(steps)),
+      m_soughtSteps(std::make_shared<preprocess::StepCache>(soughtBytes)) {
     const RegionMarking &marking = document.marking();
     for (const auto changed : {&RegionMarking::toolChanged, &RegionMarking::soughtChanged})
         connect(&marking, changed, this, &RegionFinder::update);
@@ -57,8 +65,10 @@ void RegionFinder::update() {
 
 void RegionFinder::start() {
     m_document.marking().setSearching(true);
-    const auto find = [this, steps = m_steps, volume = *m_document.volume(),
-                       segments = m_document.segments(), tissue = *m_wanted](const Job &job) {
+    // Regions that are only tried must not displace the results of the look.
+    const auto &steps = m_document.marking().sought() ? m_soughtSteps : m_steps;
+    const auto find = [this, steps, volume = *m_document.volume(), segments = m_document.segments(),
+                       tissue = *m_wanted](const Job &job) {
         preprocess::ClassRunner runner(*steps, segments);
         const auto found = std::make_shared<const volume::Coverage>(
             preprocess::regionOf(volume, tissue, runner, job.progress()));

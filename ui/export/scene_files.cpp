@@ -18,7 +18,7 @@ using task::ErrorCode;
 } // namespace
 
 scene::Scene readSceneFile(const QString &path) {
-    const std::string text = files::readText(path.toStdString(), files::maxPresetBytes);
+    const std::string text = files::readText(path.toStdString(), files::maxSceneBytes);
     try {
         return scene::sceneFromJson(text);
     } catch (const Error &error) {

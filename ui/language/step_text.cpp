@@ -18,7 +18,7 @@ struct StepTexts {
     Q_DECLARE_TR_FUNCTIONS(StepTexts)
 };
 
-// Listed here for lupdate: what parameters mean.
+// Listed here for lupdate: the meanings and units of parameters.
 [[maybe_unused]] constexpr const char *parameters[] = {
     QT_TRANSLATE_NOOP("StepTexts", "Standard deviation"),
     QT_TRANSLATE_NOOP("StepTexts", "Half the side of the neighbourhood"),
@@ -37,10 +37,23 @@ struct StepTexts {
     QT_TRANSLATE_NOOP("StepTexts", "Depth"),
     QT_TRANSLATE_NOOP("StepTexts", "Margin around the skin"),
     QT_TRANSLATE_NOOP("StepTexts", "Depth below the skin"),
-    QT_TRANSLATE_NOOP("StepTexts", "Margin outside the skin")};
+    QT_TRANSLATE_NOOP("StepTexts", "Margin outside the skin"),
+    QT_TRANSLATE_NOOP("StepTexts", "mm"),
+    QT_TRANSLATE_NOOP("StepTexts", "value units"),
+    QT_TRANSLATE_NOOP("StepTexts", "value units per mm")};
 
 QString number(double value) {
-    return QString::number(value, 'g', 5);
+    return QString::number(value, 'g', 4);
+}
+
+// Ends that limit nothing are left out.
+QString rangeText(double low, double high) {
+    const bool hasLow = low > classify::lowestValue, hasHigh = high < classify::highestValue;
+    if (hasLow && hasHigh)
+        return QString("%1 .. %2").arg(number(low), number(high));
+    return hasLow    ? StepTexts::tr("from %1").arg(number(low))
+           : hasHigh ? StepTexts::tr("up to %1").arg(number(high))
+                     : StepTexts::tr("all values");
 }
 
 QString operandText(const classify::Operand &operand) {
@@ -54,13 +67,13 @@ QString operandText(const classify::Operand &operand) {
 
 QString pointsText(const Step &step) {
     if (step.points.empty())
-        return StepTexts::tr("connected with a point to be clicked");
+        return StepTexts::tr("connected to a point to be clicked");
     const int count = int(step.points.size());
     const double leak = step.at("leak_mm");
     return leak > 0.0
-               ? StepTexts::tr("connected with %n point(s), not through less than %1 mm", "", count)
+               ? StepTexts::tr("connected to %n point(s), not through less than %1 mm", "", count)
                      .arg(number(leak))
-               : StepTexts::tr("connected with %n point(s)", "", count);
+               : StepTexts::tr("connected to %n point(s)", "", count);
 }
 
 } // namespace
@@ -90,7 +103,7 @@ QString stepName(StepKind kind) {
     case StepKind::largestComponent:
         return StepTexts::tr("Largest part");
     case StepKind::connected:
-        return StepTexts::tr("Connected with points");
+        return StepTexts::tr("Connected to points");
     case StepKind::grow:
         return StepTexts::tr("Grow");
     case StepKind::shrink:
@@ -154,15 +167,19 @@ QString stepWords(const Step &step) {
                                             .arg(number(step.at("share")))
                                       : StepTexts::tr("largest part");
     case StepKind::diffusion:
+        return StepTexts::tr("smoothed along edges");
     case StepKind::gradient:
+        return StepTexts::tr("gradient, smoothed by %1 mm").arg(mm("sigma_mm"));
     case StepKind::negate:
+        return StepTexts::tr("sign changed");
     case StepKind::threshold:
+        return StepTexts::tr("values %1").arg(rangeText(step.at("low"), step.at("high")));
     case StepKind::edges:
+        return StepTexts::tr("edges above %1").arg(mm("high"));
     case StepKind::binarise:
-        break;
+        return StepTexts::tr("one density from %1").arg(mm("from"));
     }
-    // Their numbers are read by those who know the kinds.
-    return QString::fromStdString(classify::stepText(step));
+    return {};
 }
 
 QString sourceWords(const TissueClass &tissue) {
@@ -171,14 +188,8 @@ QString sourceWords(const TissueClass &tissue) {
         parts << QString::fromStdString(tissue.segment);
     if (tissue.isDrawn)
         parts << StepTexts::tr("drawn");
-    if (tissue.low > classify::lowestValue && tissue.high < classify::highestValue)
-        parts << QString("%1 .. %2").arg(number(tissue.low), number(tissue.high));
-    else if (tissue.low > classify::lowestValue)
-        parts << StepTexts::tr("from %1").arg(number(tissue.low));
-    else if (tissue.high < classify::highestValue)
-        parts << StepTexts::tr("up to %1").arg(number(tissue.high));
-    else if (parts.isEmpty())
-        parts << StepTexts::tr("all values");
+    if (tissue.hasRange() || parts.isEmpty())
+        parts << rangeText(tissue.low, tissue.high);
     return parts.join(", ");
 }
 
@@ -186,7 +197,7 @@ QString parameterText(const classify::StepParameter &parameter) {
     const QString text = StepTexts::tr(parameter.text.c_str());
     return parameter.unit.empty()
                ? text
-               : QString("%1, %2").arg(text, QString::fromStdString(parameter.unit));
+               : QString("%1, %2").arg(text, StepTexts::tr(parameter.unit.c_str()));
 }
 
 } // namespace pellucid::ui

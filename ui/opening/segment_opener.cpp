@@ -38,9 +38,14 @@ LoadedSegments loadSegments(const QStringList &paths, const volume::Volume &volu
 }
 
 void dropMissing(classify::Look &look, const Document &document) {
-    std::erase_if(look.classes, [&](const classify::TissueClass &tissue) {
-        return !document.missingSegments({{}, {tissue}}).isEmpty();
-    });
+    const QStringList missing = document.missingSegments(look);
+    // A class that needs one through another is dropped, too.
+    const auto needs = classify::segmentsOf(look);
+    for (std::size_t n = look.classes.size(); n-- > 0;)
+        if (std::any_of(needs[n].begin(), needs[n].end(), [&](const std::string &name) {
+                return missing.contains(QString::fromStdString(name));
+            }))
+            look.classes.erase(look.classes.begin() + std::ptrdiff_t(n));
 }
 
 SegmentOpener::SegmentOpener(Document &document, JobRunner &jobs, LookPreparer &preparer,
@@ -80,7 +85,7 @@ void SegmentOpener::show(const LoadedSegments &loaded) {
         for (std::size_t n = before; n < all.size(); ++n)
             for (const segment::Segment &segment : all[n].segments)
                 if (scene.look.classes.size() < classify::maxClasses)
-                    scene.look.classes.push_back(preprocess::classOf(segment, index++));
+                    classify::addClass(scene.look, preprocess::classOf(segment, index++));
                 else
                     ++leftOut;
     });

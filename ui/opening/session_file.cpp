@@ -26,7 +26,6 @@ namespace pellucid::ui {
 namespace {
 
 constexpr const char *schema = "pellucid-session/1";
-constexpr std::size_t maxSessionBytes = 64 << 20; // it may name each file of a study
 
 constexpr int maxPrograms = 100;
 
@@ -52,7 +51,7 @@ std::optional<Session> readSession(const std::filesystem::path &path) {
     if (!std::filesystem::exists(path, unknown))
         return std::nullopt;
     try {
-        return sessionFromJson(files::readText(path, maxSessionBytes));
+        return sessionFromJson(files::readText(path, files::maxSceneBytes));
     } catch (const task::Error &error) {
         throw task::Error(error.code(), error.reason(), path);
     }

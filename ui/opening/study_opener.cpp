@@ -200,9 +200,9 @@ std::optional<int> StudyOpener::resumedOf(const std::vector<int> &indices) {
     // Copies: adding a source moves the others.
     const StudySource from = m_document.sources()[std::size_t(*minuend)];
     const StudySource what = m_document.sources()[std::size_t(*subtrahend)];
-    return addDifference(from, what,
-                         {difference->isAligned ? std::make_shared<Alignment>() : nullptr,
-                          difference->weights});
+    return addDifference(
+        from, what,
+        {difference->isAligned ? std::make_shared<Alignment>() : nullptr, difference->weights});
 }
 
 int StudyOpener::addDifference(const StudySource &minuend, const StudySource &subtrahend,
@@ -225,8 +225,7 @@ int StudyOpener::addDifference(const StudySource &minuend, const StudySource &su
     return m_document.addSources({source}).front();
 }
 
-void StudyOpener::openDifference(const StudySource &subtrahend,
-                                 const DifferenceMethod &method) {
+void StudyOpener::openDifference(const StudySource &subtrahend, const DifferenceMethod &method) {
     const int open = m_document.currentSource();
     if (open < 0 || !m_document.volume() || m_document.isPreview())
         return;

@@ -27,10 +27,12 @@ enum SourceItem { ofValues, drawn };
 
 } // namespace
 
-ClassDialog::ClassDialog(Document &document, const classify::TissueClass &tissue, QWidget *parent)
-    : QDialog(parent), m_document(document), m_original(tissue), m_tissue(tissue), m_name(new QLineEdit),
+ClassDialog::ClassDialog(Document &document, std::size_t index, QWidget *parent)
+    : QDialog(parent), m_document(document), m_index(index),
+      m_original(document.scene().look.classes[index]), m_tissue(m_original), m_name(new QLineEdit),
       m_source(new QComboBox), m_edge(new QDoubleSpinBox), m_color(new QPushButton),
-      m_steps(new ClassSteps(tissue, document.scene().look)), m_message(new QLabel) {
+      m_steps(new ClassSteps(m_original, document.scene().look)), m_message(new QLabel) {
+    const classify::TissueClass &tissue = m_original;
     setObjectName("classDialog");
     setWindowTitle(tr("Class"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -80,6 +82,7 @@ void ClassDialog::addSource(QFormLayout &form) {
     m_softness->give(m_tissue.softness);
     m_softness->setToolTip(tr("Width of the soft edge at both ends of the range"));
     m_source->setObjectName("classSourceBox");
+    m_source->setToolTip(tr("What the class consists of before its steps"));
     m_source->addItem(tr("The values of the volume"));
     m_source->addItem(tr("Nothing: strokes and other classes are added"));
     QStringList segments;
@@ -127,7 +130,9 @@ classify::TissueClass ClassDialog::typed(const classify::TissueClass &now) const
 
 void ClassDialog::accept() {
     try {
-        typed(m_tissue);
+        classify::Look look = m_document.scene().look; // it may have changed meanwhile
+        classify::replaceClass(look, m_index, typed(m_tissue));
+        classify::validate(look);
         QDialog::accept();
     } catch (const task::Error &error) {
         m_message->setText(translated(error.reason()));

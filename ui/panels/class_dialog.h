@@ -18,12 +18,13 @@ class ClassSteps;
 class Document;
 class LimitBox;
 
-/// Edits one class: its source, its steps and its edge. While the dialog is open, the planes are tinted where values belong to the
-/// class.
+/// Edits one class: its source, its steps and its edge. While the dialog is open, the planes are
+/// tinted where values belong to the class.
 class ClassDialog : public QDialog {
     Q_OBJECT
 public:
-    ClassDialog(Document &document, const classify::TissueClass &tissue, QWidget *parent = nullptr);
+    /// `index`: of the class in the document's look.
+    ClassDialog(Document &document, std::size_t index, QWidget *parent = nullptr);
     /// Applies the dialog's values to `now`. *Throws* task::Error if the result is not a valid
     /// class.
     classify::TissueClass typed(const classify::TissueClass &now) const;
@@ -41,6 +42,7 @@ private:
     void showColor();
 
     Document &m_document;
+    const std::size_t m_index;
     const classify::TissueClass m_original;
     classify::TissueClass m_tissue;
     QLineEdit *m_name;

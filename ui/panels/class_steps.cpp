@@ -28,8 +28,9 @@ using classify::StepInput;
 
 constexpr int listHeight = 110;
 
-QPushButton *makeButton(const QString &text, const char *name) {
+QPushButton *makeButton(const QString &text, const char *name, const QString &tip) {
     auto *button = new QPushButton(text);
+    button->setToolTip(tip);
     button->setObjectName(name);
     button->setAutoDefault(false);
     return button;
@@ -50,14 +51,17 @@ double scaleOf(const classify::StepParameter &parameter) {
 ClassSteps::ClassSteps(const classify::TissueClass &tissue, const classify::Look &look,
                        QWidget *parent)
     : QWidget(parent), m_tissue(tissue), m_look(look), m_steps(tissue.steps),
-      m_list(new QListWidget), m_remove(makeButton(tr("Remove"), "removeStepButton")),
-      m_up(makeButton(tr("Up"), "stepUpButton")), m_down(makeButton(tr("Down"), "stepDownButton")) {
+      m_list(new QListWidget),
+      m_remove(makeButton(tr("Remove"), "removeStepButton", tr("Remove the selected step"))),
+      m_up(makeButton(tr("Up"), "stepUpButton", tr("The selected step runs earlier"))),
+      m_down(makeButton(tr("Down"), "stepDownButton", tr("The selected step runs later"))) {
     m_list->setObjectName("classSteps");
     m_list->setAccessibleName(tr("Steps"));
     m_list->setFixedHeight(listHeight);
     m_list->setProperty("role", "plain");
     m_list->setWordWrap(true);
-    QPushButton *const add = makeButton(tr("Add step"), "addStepButton");
+    QPushButton *const add =
+        makeButton(tr("Add step"), "addStepButton", tr("Add a step after the others"));
     auto *menu = new QMenu(add);
     menu->setObjectName("stepMenu");
     menu->setToolTipsVisible(true);
@@ -90,8 +94,8 @@ void ClassSteps::fillMenu(QMenu &menu) {
             menu.addSeparator();
         wasValues = isValues;
         if (kind.input != StepInput::otherClass) {
-            QAction *const action = menu.addAction(stepName(kind.kind), this,
-                                                   [this, &kind] { add({kind.kind}); });
+            QAction *const action =
+                menu.addAction(stepName(kind.kind), this, [this, &kind] { add({kind.kind}); });
             action->setObjectName(QString("step_%1").arg(QString::fromStdString(kind.name)));
             continue;
         }
@@ -172,8 +176,7 @@ void ClassSteps::showNumbers() {
     const Step &step = m_steps[std::size_t(row)];
     for (const classify::StepParameter &parameter : describe(step.kind).parameters) {
         auto *box = new LimitBox("", parameter.minimum, parameter.maximum, scaleOf(parameter));
-        box->setObjectName(
-            QString("stepNumber_%1").arg(QString::fromStdString(parameter.name)));
+        box->setObjectName(QString("stepNumber_%1").arg(QString::fromStdString(parameter.name)));
         if (parameter.isInteger) {
             box->setDecimals(0);
             box->setSingleStep(1.0);
@@ -184,9 +187,12 @@ void ClassSteps::showNumbers() {
         label->setBuddy(box);
         form->addRow(label, box);
         connect(box, &QDoubleSpinBox::valueChanged, this,
-                [this, row, box, name = parameter.name] {
+                [this, row, box, name = parameter.name, defaultValue = parameter.defaultValue] {
                     Step &edited = m_steps[std::size_t(row)];
-                    edited.parameters[name] = box->exact();
+                    if (const double value = box->exact(); value == defaultValue)
+                        edited.parameters.erase(name);
+                    else
+                        edited.parameters[name] = value;
                     m_list->item(row)->setText(stepWords(edited));
                     emit changed();
                 });

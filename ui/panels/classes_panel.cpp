@@ -253,7 +253,7 @@ void ClassesPanel::toggleGroup(const ClassGroup &group) {
 
 void ClassesPanel::change(const QString &what, const std::function<void(classify::Look &)> &edit,
                           DragId drag) {
-    editScene(m_document, what, drag, [&](scene::Scene &scene) { edit(scene.look); });
+    editLook(m_document, what, drag, edit);
 }
 
 void ClassesPanel::changeClass(int index, const QString &what,
@@ -372,7 +372,7 @@ void ClassesPanel::edit(int index) {
         return;
     if (m_dialog)
         m_dialog->close();
-    m_dialog = new ClassDialog(m_document, classes[std::size_t(index)], window());
+    m_dialog = new ClassDialog(m_document, std::size_t(index), window());
     connect(m_dialog, &QDialog::accepted, this, [this, index, dialog = m_dialog.data()] {
         change(tr("Edit class"), [&](classify::Look &look) {
             if (index < int(look.classes.size()))

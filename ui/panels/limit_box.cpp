@@ -36,6 +36,13 @@ bool LimitBox::isNoLimit(double value) const {
            (value >= farthest && maximum() >= farthest);
 }
 
+void LimitBox::stepBy(int steps) {
+    if (isNoLimit(value()))
+        setValue(0.0);
+    else
+        QDoubleSpinBox::stepBy(steps);
+}
+
 QString LimitBox::noLimit() {
     return tr("no limit");
 }

@@ -5,8 +5,8 @@
 
 namespace pellucid::ui {
 
-/// A number box that says so where a number is no limit, because no value is beyond it. A number
-/// that the user does not edit is not rounded.
+/// A number box that shows "no limit" for a number that no value is beyond. A number that the user
+/// does not edit keeps its full precision.
 class LimitBox : public QDoubleSpinBox {
     Q_OBJECT
 public:
@@ -16,6 +16,9 @@ public:
     void give(double value);
     /// The value as typed, or as given if it was not edited.
     double exact() const;
+
+    /// From "no limit" to zero first.
+    void stepBy(int steps) override;
 
 protected:
     QString textFromValue(double value) const override;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/region_bar.h"
 
+#include <vector>
+
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -17,9 +19,33 @@ namespace {
 
 using classify::RegionUse;
 
-constexpr double widestLeakMm = 100.0, thickestSlabMm = 500.0;
+constexpr double maxLeakMm = 100.0, maxSlabMm = 500.0;
+enum Where { selectedClass, everyClass };
 // After the uses of a region, for the tool that clicks points.
 constexpr int addsPoint = 4;
+
+// A number that is being typed must not be written again.
+void setNumber(QDoubleSpinBox &box, double value) {
+    if (box.value() != value)
+        box.setValue(value);
+}
+
+// The texts of a box and their data. An open list stays open while nothing changes.
+struct Entry {
+    QString text;
+    int data = 0;
+};
+void setEntries(QComboBox &box, const std::vector<Entry> &entries, int chosen) {
+    bool isSame = box.count() == int(entries.size());
+    for (int n = 0; isSame && n < box.count(); ++n)
+        isSame = box.itemText(n) == entries[std::size_t(n)].text;
+    if (!isSame) {
+        box.clear();
+        for (const Entry &entry : entries)
+            box.addItem(entry.text, entry.data);
+    }
+    box.setCurrentIndex(box.findData(chosen));
+}
 
 } // namespace
 
@@ -36,27 +62,27 @@ RegionBar::RegionBar(Document &document, QWidget *parent)
     m_text->setMinimumWidth(20);
     m_use->setObjectName("regionUseBox");
     m_use->setAccessibleName(tr("Use of the region"));
+    m_use->setToolTip(tr("What the region does to the classes"));
     m_where->setObjectName("regionClassBox");
     m_where->setAccessibleName(tr("Classes that the region changes"));
+    m_where->setToolTip(m_where->accessibleName());
     m_erases->setObjectName("eraseBox");
-    m_erases->setToolTip(tr("The ball erases; with Shift it does the other"));
+    m_erases->setToolTip(tr("The brush erases; hold Shift to paint"));
     m_isBone->setObjectName("regionBoneBox");
-    m_isBone->setToolTip(tr("All bone that is connected with the click, with its marrow and rim; "
-                            "drag up for less dense bone"));
+    m_isBone->setToolTip(tr("All bone connected to the click, with its marrow and rim; drag up for "
+                            "less dense bone"));
     m_found->setObjectName("regionFound");
     row->addWidget(m_use);
     row->addWidget(m_where);
     m_leak = makeNumber("regionLeakBox", tr("Leak limit"),
-                        tr("The region does not pass through openings narrower than this"),
-                        &RegionOptions::leakMm);
-    m_leak->setMaximum(widestLeakMm);
+                        tr("The region does not pass through openings narrower than this"), 0.0,
+                        maxLeakMm, &RegionOptions::leakMm);
     m_ball = makeNumber("regionBallBox", tr("Radius"),
-                        tr("Radius of the ball (Shift+wheel over a plane)"),
-                        &RegionOptions::ballMm);
-    m_ball->setRange(classify::smallestBallMm, classify::largestBallMm);
-    m_slab = makeNumber("regionSlabBox", tr("Slab"), tr("Thickness of the cut, about the crosshair"),
-                        &RegionOptions::slabMm);
-    m_slab->setMaximum(thickestSlabMm);
+                        tr("Radius of the brush (Shift+wheel over a plane)"),
+                        classify::smallestBallMm, classify::largestBallMm, &RegionOptions::ballMm);
+    m_slab =
+        makeNumber("regionSlabBox", tr("Slab"), tr("Thickness of the cut, about the crosshair"),
+                   0.0, maxSlabMm, &RegionOptions::slabMm);
     m_slab->setSpecialValueText(tr("Whole depth"));
     for (QDoubleSpinBox *box : {m_leak, m_ball, m_slab})
         row->addWidget(box);
@@ -70,36 +96,37 @@ RegionBar::RegionBar(Document &document, QWidget *parent)
         change([&](RegionOptions &options) {
             options.addsPoints = chosen == addsPoint;
             if (chosen != addsPoint)
-                options.use = RegionUse(chosen);
+                useOf(options, m_document.marking().tool()) = RegionUse(chosen);
         });
     });
-    connect(m_where, &QComboBox::activated, this, [this](int index) {
-        change([&](RegionOptions &options) { options.ofEveryClass = index == 1; });
+    connect(m_where, &QComboBox::activated, this, [this] {
+        const bool isEvery = m_where->currentData().toInt() == everyClass;
+        change([&](RegionOptions &options) { options.ofEveryClass = isEvery; });
     });
-    connect(m_erases, &QCheckBox::toggled, this, [this](bool isOn) {
-        change([&](RegionOptions &options) { options.erases = isOn; });
-    });
-    connect(m_isBone, &QCheckBox::toggled, this, [this](bool isOn) {
-        change([&](RegionOptions &options) { options.isBone = isOn; });
-    });
+    connect(m_erases, &QCheckBox::toggled, this,
+            [this](bool isOn) { change([&](RegionOptions &options) { options.erases = isOn; }); });
+    connect(m_isBone, &QCheckBox::toggled, this,
+            [this](bool isOn) { change([&](RegionOptions &options) { options.isBone = isOn; }); });
     const RegionMarking &marking = document.marking();
-    for (const auto changed : {&RegionMarking::toolChanged, &RegionMarking::optionsChanged,
-                               &RegionMarking::tintChanged})
+    for (const auto changed :
+         {&RegionMarking::toolChanged, &RegionMarking::optionsChanged, &RegionMarking::tintChanged})
         connect(&marking, changed, this, &RegionBar::showMarking);
-    for (const auto changed : {&Document::sceneChanged, &Document::selectedClassChanged,
-                               &Document::volumeChanged})
+    for (const auto changed :
+         {&Document::sceneChanged, &Document::selectedClassChanged, &Document::volumeChanged})
         connect(&document, changed, this, &RegionBar::showMarking);
     showMarking();
 }
 
 QDoubleSpinBox *RegionBar::makeNumber(const char *name, const QString &text, const QString &tip,
-                                      double RegionOptions::*number) {
+                                      double low, double high, double RegionOptions::*number) {
     auto *box = new QDoubleSpinBox;
     box->setObjectName(name);
     box->setAccessibleName(text);
     box->setToolTip(tip);
     box->setPrefix(text + " ");
     box->setDecimals(1);
+    box->setRange(low, high);
+    box->setValue(m_document.marking().options().*number); // before it can change the options
     box->setSuffix(tr(" mm"));
     connect(box, &QDoubleSpinBox::valueChanged, this, [this, number](double value) {
         change([&](RegionOptions &options) { options.*number = value; });
@@ -116,14 +143,17 @@ void RegionBar::change(const std::function<void(RegionOptions &)> &edit) {
 void RegionBar::showClasses() {
     const int selected = m_document.selectedClass();
     const QSignalBlocker quiet(m_where);
-    m_where->clear();
-    m_where->addItem(selected < 0 ? tr("in the whole volume")
-                                  : tr("in %1").arg(translatedName(
-                                        m_document.scene().look.classes[std::size_t(selected)]
-                                            .name)));
-    if (selected >= 0)
-        m_where->addItem(tr("in every class"));
-    m_where->setCurrentIndex(m_document.marking().options().ofEveryClass && selected >= 0 ? 1 : 0);
+    std::vector<Entry> entries;
+    if (selected < 0)
+        entries.push_back({tr("in the whole volume"), selectedClass});
+    else
+        entries = {{tr("in %1").arg(translatedName(
+                        m_document.scene().look.classes[std::size_t(selected)].name)),
+                    selectedClass},
+                   {tr("in every class"), everyClass}};
+    setEntries(*m_where, entries,
+               m_document.marking().options().ofEveryClass && selected >= 0 ? everyClass
+                                                                            : selectedClass);
 }
 
 void RegionBar::showMarking() {
@@ -131,26 +161,31 @@ void RegionBar::showMarking() {
     const RegionOptions &options = marking.options();
     const RegionTool tool = marking.tool();
     setVisible(tool != RegionTool::none && m_document.volume().has_value());
+    const RegionUse use = useOf(options, tool);
     const bool grows = tool == RegionTool::connected, paints = tool == RegionTool::paint,
                cuts = tool == RegionTool::scissors;
     {
         const QSignalBlocker quiet(m_use);
-        m_use->clear();
-        m_use->addItem(tr("New class"), int(RegionUse::newClass));
-        m_use->addItem(tr("Add to the class"), int(RegionUse::add));
-        m_use->addItem(tr("Keep only this"), int(RegionUse::keep));
-        m_use->addItem(tr("Remove this"), int(RegionUse::remove));
-        if (grows)
-            m_use->addItem(tr("Add a point"), addsPoint);
-        const int wanted = grows && options.addsPoints ? addsPoint : int(options.use);
-        m_use->setCurrentIndex(m_use->findData(wanted));
+        std::vector<Entry> entries{{tr("New class"), int(RegionUse::newClass)},
+                                   {tr("Add to the class"), int(RegionUse::add)},
+                                   {tr("Keep only the region"), int(RegionUse::keep)},
+                                   {tr("Remove the region"), int(RegionUse::remove)}};
+        const int selected = m_document.selectedClass();
+        const bool takesPoints =
+            selected >= 0 &&
+            classify::takesPoints(m_document.scene().look.classes[std::size_t(selected)]);
+        if (grows && takesPoints)
+            entries.push_back({tr("Add a point"), addsPoint});
+        setEntries(*m_use, entries,
+                   grows && takesPoints && options.addsPoints ? addsPoint
+                                                              : int(useOf(options, tool)));
     }
     showClasses();
-    const bool addsPoints = grows && options.addsPoints;
+    const bool addsPoints = grows && m_use->currentData().toInt() == addsPoint;
     m_use->setVisible(!paints);
-    m_where->setVisible(paints ? options.erases
-                               : !addsPoints && (options.use == RegionUse::keep ||
-                                                 options.use == RegionUse::remove));
+    m_where->setVisible(paints
+                            ? options.erases
+                            : !addsPoints && (use == RegionUse::keep || use == RegionUse::remove));
     m_leak->setVisible(grows && !addsPoints && !options.isBone);
     m_isBone->setVisible(grows && !addsPoints);
     m_ball->setVisible(paints);
@@ -158,16 +193,15 @@ void RegionBar::showMarking() {
     m_slab->setVisible(cuts);
     const QSignalBlocker quietLeak(m_leak), quietBall(m_ball), quietSlab(m_slab),
         quietErase(m_erases), quietBone(m_isBone);
-    m_leak->setValue(options.leakMm);
-    m_ball->setValue(options.ballMm);
-    m_slab->setValue(options.slabMm);
+    setNumber(*m_leak, options.leakMm);
+    setNumber(*m_ball, options.ballMm);
+    setNumber(*m_slab, options.slabMm);
     m_erases->setChecked(options.erases);
     m_isBone->setChecked(options.isBone);
     const int selected = m_document.selectedClass();
     const QString selectedName =
-        selected < 0
-            ? QString()
-            : translatedName(m_document.scene().look.classes[std::size_t(selected)].name);
+        selected < 0 ? QString()
+                     : translatedName(m_document.scene().look.classes[std::size_t(selected)].name);
     if (addsPoints && selected >= 0)
         m_text->setText(tr("Click a point of %1 in a plane or the projection").arg(selectedName));
     else if (grows)
@@ -177,7 +211,7 @@ void RegionBar::showMarking() {
     else if (paints)
         m_text->setText(tr("Drag in a plane or the projection"));
     else
-        m_text->setText(tr("Draw around what is meant, in a plane or the projection"));
+        m_text->setText(tr("Draw around the part to cut, in a plane or the projection"));
     QString found;
     if (marking.isSearching())
         found = tr("Searching...");

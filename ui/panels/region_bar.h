@@ -26,7 +26,7 @@ private:
     void showClasses();
     void change(const std::function<void(RegionOptions &)> &edit);
     QDoubleSpinBox *makeNumber(const char *name, const QString &text, const QString &tip,
-                               double RegionOptions::*number);
+                               double low, double high, double RegionOptions::*number);
 
     Document &m_document;
     QComboBox *m_use, *m_where;

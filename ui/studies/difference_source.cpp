@@ -111,13 +111,13 @@ subtraction::Registration Alignment::of(const volume::Volume &minuend,
 StudySource differenceSource(const StudySource &minuend, const StudySource &subtrahend,
                              const DifferenceMethod &method, RenameSource onLoaded) {
     const subtraction::Weights weights = method.weights;
-    StudySource source = pairSource(
-        minuend, subtrahend,
-        QString("difference %1 %2 %3%4")
-            .arg(weights.minuend)
-            .arg(weights.subtrahend)
-            .arg(minuend.digest().left(16) + " " + subtrahend.digest().left(16),
-                 method.alignment ? " aligned" : ""));
+    StudySource source =
+        pairSource(minuend, subtrahend,
+                   QString("difference %1 %2 %3%4")
+                       .arg(weights.minuend)
+                       .arg(weights.subtrahend)
+                       .arg(minuend.digest().left(16) + " " + subtrahend.digest().left(16),
+                            method.alignment ? " aligned" : ""));
     QString &name = source.volume.description;
     name = weightedName(nameOf(minuend), seriesText(subtrahend.volume), weights);
     source.difference = {minuend.digest(), subtrahend.digest(), method.alignment != nullptr,
@@ -132,27 +132,25 @@ StudySource differenceSource(const StudySource &minuend, const StudySource &subt
             subtraction::Subtraction made =
                 subtraction::subtract(a, b, false, method.weights, rest);
             if (made.needsAlignment && onLoaded)
-                onLoaded(key,
-                         name + "; " +
-                             DifferenceTexts::tr(
-                                 "not aligned, although the frames of reference differ"));
+                onLoaded(key, name + "; " +
+                                  DifferenceTexts::tr(
+                                      "not aligned, although the frames of reference differ"));
             return pair.with(std::move(made.difference));
         }
         const auto found = method.alignment->of(a, b, rest.part(0.0, 0.8));
         if (onLoaded)
             onLoaded(key, name + "; " + noteOn(found));
-        return pair.with(subtraction::difference(a, b, found.toMoving, method.weights,
-                                                 rest.part(0.8, 1.0)));
+        return pair.with(
+            subtraction::difference(a, b, found.toMoving, method.weights, rest.part(0.8, 1.0)));
     };
     return source;
 }
 
 StudySource alignedSource(const StudySource &minuend, const StudySource &subtrahend,
                           const std::shared_ptr<Alignment> &alignment) {
-    StudySource source =
-        pairSource(minuend, subtrahend,
-                   QString("aligned %1 %2")
-                       .arg(minuend.digest().left(16), subtrahend.digest().left(16)));
+    StudySource source = pairSource(
+        minuend, subtrahend,
+        QString("aligned %1 %2").arg(minuend.digest().left(16), subtrahend.digest().left(16)));
     source.volume.description = DifferenceTexts::tr("%1 aligned with %2")
                                     .arg(seriesText(subtrahend.volume), nameOf(minuend));
     source.load = [minuend, subtrahend, alignment](const task::Progress &progress,
@@ -160,8 +158,7 @@ StudySource alignedSource(const StudySource &minuend, const StudySource &subtrah
         LoadedPair pair(minuend, subtrahend, progress);
         const volume::Volume &a = pair.first.volume, &b = pair.second.volume;
         const auto found = alignment->of(a, b, progress.part(0.6, 0.9));
-        return pair.with(
-            subtraction::onLatticeOf(a, b, found.toMoving, progress.part(0.9, 1.0)));
+        return pair.with(subtraction::onLatticeOf(a, b, found.toMoving, progress.part(0.9, 1.0)));
     };
     return source;
 }

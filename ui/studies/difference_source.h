@@ -32,8 +32,9 @@ struct DifferenceMethod {
 };
 
 /// The difference of two volumes on the lattice of the first, as a volume of the first one's study.
-/// Loading it loads both, and aligns the second if that is the method. `onLoaded` is called from the thread that loads, with a description that says what the alignment
-/// found or why one is needed; it may be empty. *Errors* of the load: those of both loads, of
+/// Loading it loads both, and aligns the second if that is the method. `onLoaded` is called from
+/// the thread that loads, with a description that says what the alignment found or why one is
+/// needed; it may be empty. *Errors* of the load: those of both loads, of
 /// subtraction::registerRigidly, and of subtraction::difference.
 StudySource differenceSource(const StudySource &minuend, const StudySource &subtrahend,
                              const DifferenceMethod &method, RenameSource onLoaded);

@@ -38,6 +38,7 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
     setObjectName("projectionView");
     setAccessibleName(tr("Projection"));
     setFocusPolicy(Qt::StrongFocus);
+    setMouseTracking(true); // the brush is shown where it would paint
     setMinimumSize(200, 160);
     m_document.setProjectionSize(sizeInPixels());
     m_canvas->widget()->setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -327,6 +328,7 @@ scene::Scene ProjectionView::sceneOfPicture(int scale) const {
     scene.camera.pixelMm /= scale;
     scene.tone = shownTone();
     scene.plannedFor = scene::PlannedFor::volume;
+    scene.isOfDifference = m_document.volume() && m_document.volume()->notes().isDifference;
     return scene;
 }
 

@@ -103,8 +103,7 @@ void ProjectionView::keyPressEvent(QKeyEvent *event) {
     else if (event->key() == Qt::Key_Escape && m_tools.isMarking()) {
         m_tools.cancel();
         m_overlay->update();
-    }
-    else
+    } else
         QWidget::keyPressEvent(event);
 }
 

@@ -89,8 +89,8 @@ void dimRow(QRgb *pixels, int row, int width, const volume::Coverage &coverage,
         if (const int share = coverage.at(grid.at(column, row)); share < most) {
             const int kept = most - dimming * (most - share) / most;
             const QRgb was = pixels[column];
-            pixels[column] = qRgb(qRed(was) * kept / most, qGreen(was) * kept / most,
-                                  qBlue(was) * kept / most);
+            pixels[column] =
+                qRgb(qRed(was) * kept / most, qGreen(was) * kept / most, qBlue(was) * kept / most);
         }
 }
 

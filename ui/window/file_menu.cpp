@@ -231,6 +231,11 @@ void FileMenu::openScene() {
             throw task::Error(task::ErrorCode::usage,
                               task::because::sceneNeedsSegments(missing.join(", ").toStdString()),
                               path.toStdString());
+        const auto &volume = m_bench.study.document.volume();
+        if (scene.isOfDifference && volume && !volume->notes().isDifference)
+            throw task::Error(task::ErrorCode::usage, task::because::sceneShowsADifference,
+                              path.toStdString());
+        scene.isOfDifference = false;
         scene.plannedFor = {}; // the window always plans for the whole volume
         editScene(m_bench.study.document, tr("Open scene"), noDrag,
                   [&](scene::Scene &shown) { shown = scene; });

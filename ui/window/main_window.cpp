@@ -269,6 +269,9 @@ void MainWindow::createStatusBar() {
     statusBar()->addWidget(new JobStrip(m_bench.exports, "export"));
     statusBar()->addPermanentWidget(m_engine);
     connect(&m_bench.study.jobs, &JobRunner::failed, this, &MainWindow::reportLoad);
+    connect(&m_bench.study.regions.jobs(), &JobRunner::failed, this, &MainWindow::report);
+    connect(&m_bench.study.document, &Document::editRefused, this,
+            [this](const task::Reason &reason) { report(reason, {}); });
     connect(m_projection, &ProjectionView::engineDescribed, this, [this](const QString &text) {
         if (text != m_engine->text())
             system::log(text.toStdString());

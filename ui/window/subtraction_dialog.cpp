@@ -56,8 +56,8 @@ std::vector<StudySource> subtrahends(const Document &document, StudyLibrary &lib
 SubtractionDialog::SubtractionDialog(const StudySource &minuend,
                                      std::vector<StudySource> subtrahends, QWidget *parent)
     : QDialog(parent), m_subtrahends(std::move(subtrahends)), m_list(new QListWidget),
-      m_align(new QCheckBox(tr("&Align it first (rotation and shift)"))),
-      m_beside(new QComboBox), m_weight(new QDoubleSpinBox), m_otherWeight(new QDoubleSpinBox) {
+      m_align(new QCheckBox(tr("&Align it first (rotation and shift)"))), m_beside(new QComboBox),
+      m_weight(new QDoubleSpinBox), m_otherWeight(new QDoubleSpinBox) {
     setObjectName("subtractionDialog");
     setWindowTitle(tr("Subtract a volume"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -80,6 +80,7 @@ SubtractionDialog::SubtractionDialog(const StudySource &minuend,
     m_beside->addItem(tr("Nothing"));
     m_beside->addItem(tr("The open volume"));
     m_beside->setAccessibleName(tr("Beside the difference"));
+    m_beside->setToolTip(tr("Opens it at the right; both sides move together"));
     connect(m_align, &QCheckBox::toggled, this, &SubtractionDialog::showAlignment);
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
     m_subtract = buttons->addButton(tr("Subtract"), QDialogButtonBox::AcceptRole);
@@ -112,7 +113,7 @@ QWidget *SubtractionDialog::makeWeights() {
     auto *row = new QWidget;
     auto *layout = new QHBoxLayout(row);
     layout->setContentsMargins(0, 0, 0, 0);
-    const subtraction::Weights usual;
+    const subtraction::Weights defaults;
     const auto add = [&](QDoubleSpinBox *box, const char *name, double value,
                          const QString &meaning) {
         box->setObjectName(name);
@@ -120,12 +121,13 @@ QWidget *SubtractionDialog::makeWeights() {
         box->setSingleStep(0.1);
         box->setValue(value);
         box->setAccessibleName(tr("Weight of %1").arg(meaning));
+        box->setToolTip(tr("%1, from -2 to 2").arg(box->accessibleName()));
         layout->addWidget(box);
         layout->addWidget(new QLabel("× " + meaning));
     };
-    add(m_weight, "minuendWeightBox", usual.minuend, tr("the open volume"));
+    add(m_weight, "minuendWeightBox", defaults.minuend, tr("the open volume"));
     layout->addSpacing(8);
-    add(m_otherWeight, "subtrahendWeightBox", usual.subtrahend, tr("the other"));
+    add(m_otherWeight, "subtrahendWeightBox", defaults.subtrahend, tr("the other"));
     layout->addStretch();
     return row;
 }
@@ -133,10 +135,13 @@ QWidget *SubtractionDialog::makeWeights() {
 // Only an aligned volume is worth checking.
 void SubtractionDialog::showAlignment() {
     const int aligned = int(BesideDifference::alignedSubtrahend);
-    if (!m_align->isChecked())
+    if (!m_align->isChecked()) {
+        if (m_beside->currentIndex() == aligned)
+            m_beside->setCurrentIndex(int(BesideDifference::nothing));
         m_beside->removeItem(aligned);
-    else if (m_beside->count() == aligned)
+    } else if (m_beside->count() == aligned) {
         m_beside->addItem(tr("The aligned volume, to check the alignment"));
+    }
 }
 
 void SubtractionDialog::accept() {

@@ -92,11 +92,11 @@ void ToolsMenu::addTools(QMenu &menu) {
          "B"},
         {tr("Crop"), tr("drag the sides of the box in the planes"), "cropToolAction", Tool::crop,
          "K"},
-        {tr("Connected"), tr("click what has similar values and is connected, also in the projection"),
+        {tr("Connected"), tr("click connected tissue of similar values, also in the projection"),
          "connectedToolAction", Tool::connected, "G"},
-        {tr("Paint"), tr("paint a region with a ball; Shift erases"), "paintToolAction",
+        {tr("Paint"), tr("paint a region with a brush; Shift erases"), "paintToolAction",
          Tool::paint, "T"},
-        {tr("Scissors"), tr("draw around what to cut along the line of sight"),
+        {tr("Scissors"), tr("draw around the part to cut along the line of sight"),
          "scissorsToolAction", Tool::scissors, "X"}};
     for (const auto &t : tools) {
         QAction *action = addCommand(menu, t.text, t.name, QKeySequence(t.key), this,

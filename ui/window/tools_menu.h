@@ -22,8 +22,8 @@ class MprView;
 class Phases;
 class ProjectionView;
 
-/// The Tools menu: mouse tools, regions, slab, interpolation, turned planes, cine. The tool bar also has the
-/// tools and the slab.
+/// The Tools menu: mouse tools, regions, slab, interpolation, turned planes, cine. The tool bar
+/// also has the tools and the slab.
 class ToolsMenu : public QObject {
     Q_OBJECT
 public:

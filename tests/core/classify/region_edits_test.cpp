@@ -94,8 +94,9 @@ TEST(Operands, OfMissingClassesAndOfItselfAreRefused) {
     EXPECT_TRUE(dependsOn(look, look.classes[0], "metal"));
     EXPECT_FALSE(dependsOn(look, look.classes[1], "vessels"));
     look.classes[0].steps.front().operand.name = "liver";
-    EXPECT_EQ(reasonOf(look),
-              "the steps of the class 'vessels' need the class 'liver', which the look does not have");
+    EXPECT_EQ(
+        reasonOf(look),
+        "the steps of the class 'vessels' need the class 'liver', which the look does not have");
     look.classes[0].steps = {Step{StepKind::join}};
     EXPECT_EQ(reasonOf(look), "class 'vessels': the step 'or' needs another class");
     // Each of these combines the next one twice.
@@ -103,8 +104,8 @@ TEST(Operands, OfMissingClassesAndOfItselfAreRefused) {
     for (int n = 0; n < 30; ++n) {
         doubling.classes.push_back(named(std::to_string(n)));
         if (n < 29)
-            doubling.classes.back().steps.assign(
-                2, combining(StepKind::join, std::to_string(n + 1)));
+            doubling.classes.back().steps.assign(2,
+                                                 combining(StepKind::join, std::to_string(n + 1)));
     }
     EXPECT_EQ(reasonOf(doubling), "the steps of the class '0' combine more than 256 classes");
 }
@@ -124,6 +125,16 @@ TEST(Operands, StayWhenClassesAreRenamedOrRemoved) {
     removeClass(changed, 1); // the metal, which the removed class names
     EXPECT_EQ(reasonOf(changed), "valid");
     EXPECT_EQ(withOperands(changed)[0], withOperands(look)[0]);
+    Look deep{{}, {named("0")}};
+    for (int n = 1; n < 12; ++n) { // each combines the one before
+        deep.classes.push_back(named(std::to_string(n)));
+        deep.classes.back().steps = {combining(StepKind::join, std::to_string(n - 1))};
+    }
+    for (int n = 0; n < 8; ++n)
+        removeClass(deep, 0);
+    EXPECT_EQ(reasonOf(deep), "valid");
+    removeClass(deep, 0);
+    EXPECT_NE(reasonOf(deep).find("nested too deep"), std::string::npos); // as when it is read
     addClass(changed, named("vessels"));
     EXPECT_EQ(changed.classes.back().name, "vessels (2)");
 }
@@ -145,15 +156,24 @@ TEST(RegionSteps, GoThroughJson) {
         classify::connectedRegion({{1.0, 2.0, 3.0}}, 10.0, 20.0, 0.0));
     look.classes[2].steps = {painted, cutting, connected, {StepKind::fill}, own};
     EXPECT_EQ(classify::lookFromJson(toJson(look)), look);
-    EXPECT_EQ(refusalOf(R"({"classes":[{"name":"a","range":[0,1],"steps":[{"kind":"without",
+    EXPECT_EQ(
+        refusalOf(R"({"classes":[{"name":"a","range":[0,1],"steps":[{"kind":"without",
               "class":"b"}]}]})"),
-              "/classes: the steps of the class 'a' need the class 'b', which the look does not have");
+        "/classes: the steps of the class 'a' need the class 'b', which the look does not have");
     EXPECT_EQ(refusalOf(R"({"classes":[{"name":"a","range":[0,1],"steps":[{"kind":"paint","strokes":
               [{"path":[],"radius_mm":2}]}]}]})"),
               "/classes/0/steps/0/strokes/0: there are 0 points; 1 to 10000 are allowed");
     EXPECT_EQ(refusalOf(R"({"classes":[{"name":"a","range":[0,1],"steps":[{"kind":"scissors","cuts":
               [{"outline":[[0,0,0],[1,0,0],[0,1,0]],"sight":[0,0,2]}]}]}]})"),
               "/classes/0/steps/0/cuts/0: the line of sight of a cut is not a unit vector");
+    EXPECT_EQ(refusalOf(R"({"classes":[{"name":"a","range":[0,1],"steps":[{"kind":"scissors","cuts":
+              [{"outline":[[0,0,0],[1,0,0],[0,1,0]],"sight":[0,0,1],"keeps":true}]}]}]})"),
+              "/classes/0/steps/0/cuts/0: unknown value 'keeps': use one of outline, sight, "
+              "slab_mm, keep");
+    Look twins{{}, {named("a"), named("b"), named("b")}};
+    EXPECT_EQ(reasonOf(twins), "valid");
+    twins.classes[0].steps = {combining(StepKind::join, "b")};
+    EXPECT_NE(reasonOf(twins).find("several of that name"), std::string::npos);
     EXPECT_EQ(refusalOf(R"({"classes":[{"name":"a","range":[0,1],"steps":[{"kind":"fill","points":
               [[0,0,0]]}]}]})"),
               "/classes/0/steps/0: the step 'fill' has no parameters");
@@ -194,13 +214,25 @@ TEST(RegionEdits, CutsAndStrokesInARowShareAStep) {
     ASSERT_EQ(look.classes.size(), 1U);
     ASSERT_EQ(look.classes[0].steps.size(), 1U);
     EXPECT_EQ(look.classes[0].steps[0].cuts.size(), 2U);
-    const auto drawn = paintClass(look, stroke, {}, window);
+    const auto drawn = paintClass(look, {stroke}, {}, window);
     EXPECT_EQ(drawn, 1U);
     EXPECT_TRUE(look.classes[1].isDrawn);
-    EXPECT_EQ(paintClass(look, stroke, drawn, window), drawn);
+    EXPECT_EQ(paintClass(look, {stroke}, drawn, window), drawn);
     ASSERT_EQ(look.classes[1].steps.size(), 1U);
     EXPECT_EQ(look.classes[1].steps[0].strokes.size(), 2U);
     EXPECT_EQ(reasonOf(look), "valid");
+}
+
+TEST(RegionEdits, OfCutRegionsLeaveNothingInAPreset) {
+    // A region that was cut out is all that it was; without its cut it would be the whole volume.
+    Look look{{}, {named("bone")}};
+    useRegion(look, classify::cutRegion(cut), RegionUse::newClass, {}, window);
+    useRegion(look, classify::cutRegion(cut), RegionUse::add, 0, window);
+    const auto drawn = paintClass(look, {stroke}, std::nullopt, window);
+    addStep(look, {StepKind::grow}, *drawn);
+    const Look plain = withoutMarks(look);
+    ASSERT_EQ(plain.classes.size(), 1U);
+    EXPECT_TRUE(plain.classes[0].steps.empty());
 }
 
 TEST(RegionEdits, PresetsKeepTheStepsAndAskForPoints) {
@@ -209,9 +241,8 @@ TEST(RegionEdits, PresetsKeepTheStepsAndAskForPoints) {
     useRegion(look, region, RegionUse::newClass, {}, window);
     useRegion(look, region, RegionUse::remove, 0, window);
     cutClasses(look, cut, 0, window);
-    const auto drawn = paintClass(look, stroke, std::nullopt, window);
-    look.classes[0].steps.push_back(
-        combining(StepKind::difference, look.classes[*drawn].name));
+    const auto drawn = paintClass(look, {stroke}, std::nullopt, window);
+    look.classes[0].steps.push_back(combining(StepKind::difference, look.classes[*drawn].name));
     EXPECT_FALSE(awaitingClass(look));
     Look plain = withoutMarks(look);
     ASSERT_EQ(plain.classes.size(), 2U); // nothing is left of the drawn one

@@ -264,8 +264,8 @@ TEST(Body, LosesADenseShellThatTouchesIt) {
                     samples[std::size_t(n)] = 400;
             }
     for (const double margin : {0.0, 2.0}) {
-        const Mask body = preprocess::body(
-            {lattice, samples, volume::ValueUnit::hounsfield}, margin);
+        const Mask body =
+            preprocess::body({lattice, samples, volume::ValueUnit::hounsfield}, margin);
         std::size_t lost = 0, left = 0;
         for (std::size_t n = 0; n < body.size(); ++n) {
             lost += isPatient[n] != 0 && body[n] == 0;

@@ -34,9 +34,9 @@ using volume::VoxelIndex;
 
 // Anisotropic, turned and sheared.
 Lattice tilted() {
-    return Lattice::make({21, 18, 13}, {{-12.0, 7.0, 30.0}},
-                         {glm::dvec3(0.9, 0.1, 0.0), glm::dvec3(-0.1, 1.1, 0.2),
-                          glm::dvec3(0.1, 0.6, 2.4)});
+    return Lattice::make(
+        {21, 18, 13}, {{-12.0, 7.0, 30.0}},
+        {glm::dvec3(0.9, 0.1, 0.0), glm::dvec3(-0.1, 1.1, 0.2), glm::dvec3(0.1, 0.6, 2.4)});
 }
 
 template <class F> void forAll(const GridSize &size, const F &visit) {
@@ -46,8 +46,8 @@ template <class F> void forAll(const GridSize &size, const F &visit) {
                 visit(VoxelIndex{i, j, k}, size.offsetOf(i, j, k));
 }
 
-double distance(const glm::dvec3 &p, const std::vector<PatientPoint> &path) {
-    double least = glm::length(p - path.front().mm);
+double distance(const glm::dvec3 &p, const classify::Path &path) {
+    double least = glm::length(p - path[0].mm);
     for (std::size_t n = 1; n < path.size(); ++n) {
         constexpr int parts = 2000;
         for (int part = 0; part <= parts; ++part) {
@@ -89,7 +89,8 @@ TEST(Paint, ReachesASampleWithTheSmallestBall) {
 
 // Of a point in the plane, around corners that are seen along a direction; by angles.
 int winding(const glm::dvec3 &p, const LassoCut &cut) {
-    const glm::dvec3 other = std::abs(cut.sight.z) < 0.7 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 other =
+        std::abs(cut.sight.z) < 0.7 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(cut.sight, other)), v = glm::cross(cut.sight, u);
     double turned = 0.0;
     for (std::size_t n = 0; n < cut.outline.size(); ++n) {
@@ -106,17 +107,19 @@ TEST(Scissors, CutThePrismOverAnOutline) {
     const Lattice lattice = tilted();
     std::mt19937 random(5);
     std::uniform_real_distribution<double> anywhere(-16.0, 16.0);
-    const std::vector<glm::dvec3> sights{
-        {0, 0, 1}, {0, -1, 0}, glm::normalize(lattice.step(0)), glm::normalize(glm::dvec3(1, 2, 3)),
-        glm::normalize(glm::dvec3(-0.2, 0.1, -1.0))};
+    const std::vector<glm::dvec3> sights{{0, 0, 1},
+                                         {0, -1, 0},
+                                         glm::normalize(lattice.step(0)),
+                                         glm::normalize(glm::dvec3(1, 2, 3)),
+                                         glm::normalize(glm::dvec3(-0.2, 0.1, -1.0))};
     int inside = 0, all = 0;
     for (const glm::dvec3 &sight : sights)
         for (int turn = 0; turn < 6; ++turn) {
             LassoCut cut{{}, sight, std::nullopt, turn % 2 == 1};
             for (int corner = 0; corner < 3 + turn; ++corner) // crosses itself
-                cut.outline.push_back({lattice.center().mm + glm::dvec3(anywhere(random),
-                                                                        anywhere(random),
-                                                                        anywhere(random))});
+                cut.outline.push_back(
+                    {lattice.center().mm +
+                     glm::dvec3(anywhere(random), anywhere(random), anywhere(random))});
             const double middle = glm::dot(lattice.center().mm, sight);
             if (turn >= 3)
                 cut.slabMm = {middle - 4.0, middle + 3.0};
@@ -149,9 +152,8 @@ Mask maskOf(const Volume &volume, const TissueClass &tissue) {
     preprocess::StepCache steps(std::size_t(1) << 28);
     const Coverage region = preprocess::regionOf(volume, tissue, steps);
     Mask mask(volume.lattice().size().count());
-    forAll(volume.lattice().size(), [&](VoxelIndex n, std::size_t at) {
-        mask[at] = region.at(n) >= 128;
-    });
+    forAll(volume.lattice().size(),
+           [&](VoxelIndex n, std::size_t at) { mask[at] = region.at(n) >= 128; });
     return mask;
 }
 
@@ -228,8 +230,8 @@ TEST(RegionSteps, FillTheHolesThatItkFills) {
         const TissueClass one = range(0.0, high);
         Mask mask = maskOf(volume, one);
         auto image = Image::New();
-        image->SetRegions(Image::SizeType{{std::size_t(size.i), std::size_t(size.j),
-                                           std::size_t(size.k)}});
+        image->SetRegions(
+            Image::SizeType{{std::size_t(size.i), std::size_t(size.j), std::size_t(size.k)}});
         image->GetPixelContainer()->SetImportPointer(mask.data(), mask.size(), false);
         auto fill = itk::BinaryFillholeImageFilter<Image>::New();
         fill->SetForegroundValue(1);
@@ -258,7 +260,7 @@ TEST(RegionSteps, OfHandsAreCachedByAllThatTheyContain) {
     EXPECT_GT(wider, first);
     tissue.steps.front().strokes.front().erases = true;
     EXPECT_LT(total(), first);
-    tissue.steps.front().strokes.front().path.front().mm.x += 3.0;
+    tissue.steps.front().strokes.front().path = {{lattice.center().mm + glm::dvec3(3.0, 0.0, 0.0)}};
     total();
     EXPECT_EQ(steps.computedCount(), 4U);
     // An operand that differs within.

@@ -179,7 +179,8 @@ TEST(StepCache, RefusesWhatItDoesNotKnowAndWrongOrder) {
         classify::validate(bone({{StepKind::largestComponent, {}}, {StepKind::median, {}}})),
         task::Error);
     EXPECT_THROW(classify::validate(bone({{StepKind::edges, {{"low", 90.0}}}})), task::Error);
-    EXPECT_THROW(classify::validate(bone(std::vector<classify::Step>(classify::maxSteps + 1, {StepKind::body, {}}))),
+    EXPECT_THROW(classify::validate(bone(
+                     std::vector<classify::Step>(classify::maxSteps + 1, {StepKind::body, {}}))),
                  task::Error);
     classify::validate(
         bone({{StepKind::median, {}}, {StepKind::edges, {{"low", 90.0}, {"high", 95.0}}}}));

@@ -139,6 +139,14 @@ TEST(RigidRegistration, FindsHowThePatientMoved) {
     }
 }
 
+TEST(RigidRegistration, LeavesVolumesThatFitAsTheyAre) {
+    const Volume head =
+        headOn(phantom::phantomLattice(phantom::Kind::head, {.size = GridSize{48, 48, 32}}));
+    const auto found = subtraction::registerRigidly(head, head);
+    EXPECT_TRUE(found.toMoving.isIdentity());
+    EXPECT_EQ(found.residualAfter, 0.0);
+}
+
 TEST(RigidRegistration, StopsWhenCancelledAndRefusesWhatIsApart) {
     const Lattice lattice =
         phantom::phantomLattice(phantom::Kind::head, {.size = GridSize{48, 48, 40}});

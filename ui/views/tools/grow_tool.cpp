@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <QPainter>
 
@@ -19,7 +20,7 @@ namespace {
 constexpr double doublingPixels = 60.0;
 // The first range: this many standard deviations of the values around the click, and no less than
 // this share of the display window, so that a uniform neighbourhood has a range, too.
-constexpr double deviations = 2.5, leastShare = 0.04;
+constexpr double deviations = 2.5, minShare = 0.04;
 // Bone starts here, in HU; a drag moves it.
 constexpr double boneHu = 200.0;
 
@@ -27,23 +28,28 @@ struct Neighbourhood {
     double value, deviation;
 };
 
-// Of the 27 samples around a point.
-Neighbourhood around(const volume::Volume &volume, volume::PatientPoint point) {
+// Of the finite ones of the 27 samples around a point; nothing if its own value is not finite.
+std::optional<Neighbourhood> around(const volume::Volume &volume, volume::PatientPoint point) {
     const glm::dvec3 v = glm::round(volume.lattice().voxel(point).v);
     const volume::VoxelIndex middle{int(v.x), int(v.y), int(v.z)};
     double sum = 0.0, squares = 0.0;
     int count = 0;
     for (int k = middle.k - 1; k <= middle.k + 1; ++k)
         for (int j = middle.j - 1; j <= middle.j + 1; ++j)
-            for (int i = middle.i - 1; i <= middle.i + 1; ++i)
-                if (volume.lattice().contains({i, j, k})) {
-                    const double value = volume.value({i, j, k});
+            for (int i = middle.i - 1; i <= middle.i + 1; ++i) {
+                const double value = volume.lattice().contains({i, j, k})
+                                         ? double(volume.value({i, j, k}))
+                                         : std::nan("");
+                if (std::isfinite(value)) {
                     sum += value;
                     squares += value * value;
                     ++count;
                 }
-    const double mean = sum / count;
-    return {volume.value(middle), std::sqrt(std::max(squares / count - mean * mean, 0.0))};
+            }
+    const double value = volume.value(middle), mean = sum / count;
+    if (!std::isfinite(value))
+        return std::nullopt;
+    return Neighbourhood{value, std::sqrt(std::max(squares / count - mean * mean, 0.0))};
 }
 
 } // namespace
@@ -52,14 +58,14 @@ bool GrowTool::press(const QPointF &at) {
     if (!m_document.volume() || m_document.isPreview())
         return false;
     const auto point = regionPoint(m_document, m_pane, m_view, at);
-    if (!point)
+    const auto near = point ? around(*m_document.volume(), *point) : std::nullopt;
+    if (!near)
         return false;
     m_isDragging = true;
     m_point = *point;
     m_dragged = 0.0;
-    const Neighbourhood near = around(*m_document.volume(), m_point);
-    m_value = near.value;
-    m_spread = std::max(deviations * near.deviation, leastShare * m_document.displayWindow().width);
+    m_value = near->value;
+    m_spread = std::max(deviations * near->deviation, minShare * m_document.displayWindow().width);
     seek();
     return true;
 }
@@ -118,9 +124,8 @@ void GrowTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks)
     if (m_document.marking().options().addsPoints)
         return;
     const classify::TissueClass chosen = region();
-    const QString high = chosen.high < classify::highestValue
-                             ? QString::number(chosen.high, 'g', 4)
-                             : QString();
+    const QString high =
+        chosen.high < classify::highestValue ? QString::number(chosen.high, 'g', 4) : QString();
     drawText(painter, QRect(at.toPoint() + QPoint(10, -22), QSize(240, 20)), Qt::AlignLeft,
              QString("%1 .. %2").arg(QString::number(chosen.low, 'g', 4), high),
              surface.colors.text);

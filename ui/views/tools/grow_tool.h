@@ -34,8 +34,8 @@ private:
     const PaneView m_view;
     bool m_isDragging = false;
     volume::PatientPoint m_point;
-    double m_value = 0.0;  ///< there
-    double m_spread = 0.0; ///< of the values around it
+    double m_value = 0.0;   ///< there
+    double m_spread = 0.0;  ///< of the values around it
     double m_dragged = 0.0; ///< upwards since the press, logical pixels
 };
 

@@ -15,7 +15,7 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr double leastStepPixels = 2.0, leastSidePixels = 4.0;
+constexpr double minStepPixels = 2.0, minSidePixels = 4.0;
 constexpr int insideAlpha = 50;
 
 } // namespace
@@ -23,37 +23,38 @@ constexpr int insideAlpha = 50;
 bool LassoTool::press(const QPointF &at) {
     if (!m_document.volume() || m_document.isPreview())
         return false;
-    m_outline = QPolygonF({at});
+    const PaneMapping mapping = m_pane.mapping();
+    m_cut = {{mapping.patientAt(at)}, glm::normalize(mapping.plane.axes.toViewer()), {}, false};
     return true;
-}
-
-void LassoTool::add(const QPointF &at) {
-    if (QLineF(m_outline.back(), at).length() >= leastStepPixels &&
-        std::size_t(m_outline.size()) < classify::maxPoints)
-        m_outline << at;
 }
 
 bool LassoTool::move(const MouseMove &mouse) {
     if (!isBusy())
         return false;
-    add(mouse.at);
+    const PaneMapping mapping = m_pane.mapping();
+    const QPointF last = mapping.positionOf(m_cut.outline[m_cut.outline.size() - 1]);
+    if (QLineF(last, mouse.at).length() >= minStepPixels &&
+        m_cut.outline.size() < classify::maxPoints)
+        m_cut.outline.push_back(mapping.patientAt(mouse.at));
     return true;
+}
+
+QPolygonF LassoTool::outlineOn(const PaneMapping &mapping) const {
+    QPolygonF outline;
+    for (const volume::PatientPoint &corner : m_cut.outline)
+        outline << mapping.positionOf(corner);
+    return outline;
 }
 
 void LassoTool::release(const QPointF &at) {
     if (!isBusy())
         return;
-    add(at);
-    const QPolygonF outline = std::exchange(m_outline, {});
-    const QRectF sides = outline.boundingRect();
+    move({at, {}});
+    const QRectF sides = outlineOn(m_pane.mapping()).boundingRect();
+    classify::LassoCut cut = std::exchange(m_cut, {});
     // A click is no outline.
-    if (outline.size() < 3 || sides.width() < leastSidePixels || sides.height() < leastSidePixels)
+    if (cut.outline.size() < 3 || sides.width() < minSidePixels || sides.height() < minSidePixels)
         return;
-    const PaneMapping mapping = m_pane.mapping();
-    classify::LassoCut cut;
-    cut.sight = glm::normalize(mapping.plane.axes.toViewer());
-    for (const QPointF &corner : outline)
-        cut.outline.push_back(mapping.patientAt(corner));
     if (const double slab = m_document.marking().options().slabMm; slab > 0.0) {
         const double middle = glm::dot(m_document.crosshair().mm, cut.sight);
         cut.slabMm = {middle - 0.5 * slab, middle + 0.5 * slab};
@@ -70,7 +71,7 @@ void LassoTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks
     inside.setAlpha(insideAlpha);
     painter.setBrush(inside);
     painter.setPen(QPen(surface.colors.accent, 1.5));
-    painter.drawPolygon(m_outline, Qt::WindingFill);
+    painter.drawPolygon(outlineOn(surface.mapping), Qt::WindingFill);
     painter.restore();
 }
 

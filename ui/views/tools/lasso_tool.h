@@ -3,6 +3,7 @@
 
 #include <QPolygonF>
 
+#include "core/classify/hand_marks.h"
 #include "ui/views/tools/pane_tool.h"
 #include "ui/views/tools/tool_pane.h"
 
@@ -19,16 +20,16 @@ public:
     bool press(const QPointF &at) override;
     bool move(const MouseMove &mouse) override;
     void release(const QPointF &at) override;
-    bool isBusy() const override { return !m_outline.isEmpty(); }
-    void cancel() override { m_outline.clear(); }
+    bool isBusy() const override { return !m_cut.outline.empty(); }
+    void cancel() override { m_cut = {}; }
     void paint(QPainter &painter, const ToolSurface &surface, Marks marks) const override;
 
 private:
-    void add(const QPointF &at);
+    QPolygonF outlineOn(const PaneMapping &mapping) const;
 
     Document &m_document;
     const ToolPane &m_pane;
-    QPolygonF m_outline; ///< while it is drawn
+    classify::LassoCut m_cut; ///< while it is drawn: the pane may be moved or zoomed meanwhile
 };
 
 } // namespace pellucid::ui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/tools/paint_tool.h"
 
+#include <cmath>
 #include <utility>
 
 #include <QGuiApplication>
@@ -17,7 +18,7 @@ namespace pellucid::ui {
 namespace {
 
 // Closer points of a path add nothing to see.
-constexpr double leastShareOfRadius = 0.2;
+constexpr double minShareOfRadius = 0.2;
 constexpr int strokeAlpha = 110;
 
 } // namespace
@@ -27,21 +28,38 @@ bool PaintTool::press(const QPointF &at) {
         return false;
     const RegionOptions &options = m_document.marking().options();
     const bool isOther = (QGuiApplication::keyboardModifiers() & Qt::ShiftModifier) != 0;
-    m_stroke = {{}, options.ballMm, options.erases != isOther};
+    m_new = {{}, options.ballMm, options.erases != isOther};
+    m_strokes.clear();
+    m_isInterrupted = true;
     add(at);
     return isBusy();
 }
 
+// Beside the patient the stroke ends; and it does not go through the patient from one depth to
+// another.
 void PaintTool::add(const QPointF &at) {
     m_hovered = at;
     const auto point = regionPoint(m_document, m_pane, m_view, at);
-    if (!point || m_stroke.path.size() >= classify::maxPoints)
+    if (!point) {
+        m_isInterrupted = true;
         return;
-    const bool isFar =
-        m_stroke.path.empty() || glm::length(point->mm - m_stroke.path.back().mm) >=
-                                     leastShareOfRadius * m_stroke.radiusMm;
-    if (isFar)
-        m_stroke.path.push_back(*point);
+    }
+    if (!m_isInterrupted) {
+        const glm::dvec3 way =
+            point->mm - m_strokes.back().path[m_strokes.back().path.size() - 1].mm;
+        const double depth = glm::dot(way, m_pane.mapping().plane.axes.toViewer());
+        m_isInterrupted = std::abs(depth) > 2.0 * m_new.radiusMm;
+        if (!m_isInterrupted && glm::length(way) < minShareOfRadius * m_new.radiusMm)
+            return;
+    }
+    if (m_isInterrupted) {
+        if (m_strokes.size() >= classify::maxStrokes)
+            return;
+        m_strokes.push_back(m_new);
+        m_isInterrupted = false;
+    }
+    if (m_strokes.back().path.size() < classify::maxPoints)
+        m_strokes.back().path.push_back(*point);
 }
 
 bool PaintTool::move(const MouseMove &mouse) {
@@ -55,7 +73,7 @@ void PaintTool::release(const QPointF &at) {
     if (!isBusy())
         return;
     add(at);
-    useStroke(m_document, std::exchange(m_stroke, {}));
+    useStrokes(m_document, std::exchange(m_strokes, {}));
 }
 
 bool PaintTool::hover(const QPointF &at) {
@@ -70,17 +88,19 @@ void PaintTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
     if (isBusy()) {
-        QColor color = m_stroke.erases ? surface.colors.warning : surface.colors.accent;
+        QColor color = m_new.erases ? surface.colors.warning : surface.colors.accent;
         color.setAlpha(strokeAlpha);
-        QPainterPath path(surface.mapping.positionOf(m_stroke.path.front()));
-        for (const volume::PatientPoint &point : m_stroke.path)
-            path.lineTo(surface.mapping.positionOf(point));
-        // A path of one point has no length to draw.
-        path.lineTo(path.currentPosition() + QPointF(0.01, 0.0));
-        painter.setPen(QPen(color, 2.0 * pixels * m_stroke.radiusMm, Qt::SolidLine, Qt::RoundCap,
-                            Qt::RoundJoin));
+        painter.setPen(
+            QPen(color, 2.0 * pixels * m_new.radiusMm, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
         painter.setBrush(Qt::NoBrush);
-        painter.drawPath(path);
+        for (const classify::Stroke &stroke : m_strokes) {
+            QPainterPath path(surface.mapping.positionOf(stroke.path[0]));
+            for (const volume::PatientPoint &point : stroke.path)
+                path.lineTo(surface.mapping.positionOf(point));
+            // A path of one point has no length to draw.
+            path.lineTo(path.currentPosition() + QPointF(0.01, 0.0));
+            painter.drawPath(path);
+        }
     }
     if (m_hovered) {
         const double radius = pixels * m_document.marking().options().ballMm;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/classify/hand_marks.h"
 #include "ui/views/tools/pane_tool.h"
@@ -12,8 +13,8 @@ namespace pellucid::ui {
 
 class Document;
 
-/// Paints with a ball, or erases with it: by the option, and with Shift the other way. In a
-/// projection, the ball is at the highest value on the line of sight.
+/// Paints with a ball, or erases with it, as the option says; Shift swaps both. In a projection,
+/// the ball is at the highest value on the line of sight. A drag is one edit.
 class PaintTool : public PaneTool {
 public:
     PaintTool(Document &document, const ToolPane &pane, PaneView view)
@@ -25,8 +26,8 @@ public:
     void release(const QPointF &at) override;
     bool hover(const QPointF &at) override;
     void leave() override { m_hovered.reset(); }
-    bool isBusy() const override { return !m_stroke.path.empty(); }
-    void cancel() override { m_stroke.path.clear(); }
+    bool isBusy() const override { return !m_strokes.empty(); }
+    void cancel() override { m_strokes.clear(); }
     void paint(QPainter &painter, const ToolSurface &surface, Marks marks) const override;
 
 private:
@@ -35,7 +36,9 @@ private:
     Document &m_document;
     const ToolPane &m_pane;
     const PaneView m_view;
-    classify::Stroke m_stroke; ///< while it is drawn
+    classify::Stroke m_new;                  ///< without a path
+    std::vector<classify::Stroke> m_strokes; ///< of the present drag
+    bool m_isInterrupted = true;             ///< the next point begins a stroke
     std::optional<QPointF> m_hovered;
 };
 

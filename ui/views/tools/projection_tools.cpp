@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/tools/projection_tools.h"
 
+#include <QGuiApplication>
+
 namespace pellucid::ui {
 
 ProjectionTools::ProjectionTools(Document &document, ProjectionPane &pane)
@@ -48,11 +50,14 @@ void ProjectionTools::press(Qt::MouseButton button, const QPointF &at) {
     m_activeTool = nullptr;
     m_last = at.toPoint();
     if (button == Qt::LeftButton && m_pane.showsPicture()) {
-        if (m_region != nullptr) {
+        // Ctrl turns the view with any tool.
+        const bool turns = (QGuiApplication::keyboardModifiers() & Qt::ControlModifier) != 0;
+        const bool marks = m_region != nullptr && !turns && !m_measure.gripCursor(at);
+        if (marks) {
             m_region->press(at);
             return; // a click beside the patient does not turn the view
         }
-        if (m_measure.press(at))
+        if (!turns && m_measure.press(at))
             return;
     }
     m_activeTool = toolOf(button);

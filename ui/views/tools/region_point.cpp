@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/tools/region_point.h"
 
+#include <algorithm>
+
 #include <glm/common.hpp>
 
 #include "core/classify/crop_box.h"
@@ -10,6 +12,25 @@
 
 namespace pellucid::ui {
 
+namespace {
+
+// The region of the selected class, if parts were removed from it: what is hidden is not meant. Of
+// other looks, all samples may be meant.
+const volume::Coverage *shownPart(const Document &document) {
+    const RegionMarking &marking = document.marking();
+    const int selected = document.selectedClass();
+    if (!marking.tint() || marking.isSearching() || marking.sought() || selected < 0)
+        return nullptr;
+    const classify::TissueClass &tissue = document.scene().look.classes[std::size_t(selected)];
+    const bool hides = std::any_of(tissue.steps.begin(), tissue.steps.end(), [](const auto &step) {
+        return step.kind == classify::StepKind::difference ||
+               step.kind == classify::StepKind::scissors || step.kind == classify::StepKind::body;
+    });
+    return hides && tissue.weight > 0.0 ? marking.tint()->coverage.get() : nullptr;
+}
+
+} // namespace
+
 std::optional<volume::PatientPoint> regionPoint(const Document &document, const ToolPane &pane,
                                                 PaneView view, const QPointF &at) {
     const volume::Volume &volume = *document.volume();
@@ -17,8 +38,8 @@ std::optional<volume::PatientPoint> regionPoint(const Document &document, const 
     const PaneMapping mapping = pane.mapping();
     const volume::PatientPoint point = mapping.patientAt(at);
     if (view == PaneView::projection)
-        return mpr::highestAlong(volume, classify::samplesIn(document.scene().crop, lattice.size()), point,
-                                 mapping.plane.axes.toViewer());
+        return mpr::highestAlong(volume, classify::samplesIn(document.scene().crop, lattice.size()),
+                                 point, mapping.plane.axes.toViewer(), shownPart(document));
     const glm::dvec3 v = glm::round(lattice.voxel(point).v);
     const volume::GridSize n = lattice.size();
     const bool isInside =

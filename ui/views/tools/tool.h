@@ -39,6 +39,10 @@ inline RegionTool regionToolOf(Tool tool) {
     }
 }
 
+inline bool marksRegions(Tool tool) {
+    return regionToolOf(tool) != RegionTool::none;
+}
+
 /// The kind of measurement that a tool draws, if any.
 inline std::optional<measure::Kind> measuredBy(Tool tool) {
     switch (tool) {
