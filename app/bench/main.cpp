@@ -90,7 +90,6 @@ const std::vector<std::pair<std::string, RunSuite>> &suites() {
         {"classes", alone(runClassesSuite)},
         {"shading", alone(runShadingSuite)},
         {"planes", alone(runPlanesSuite)},
-        {"regions", alone(runRegionsSuite)},
         {"gpu", alone(runGpuSuite)},
         {"search",
          [](const Report &report, const Subject *, const Options &options) {

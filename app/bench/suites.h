@@ -33,8 +33,6 @@ void runShadingSuite(const Report &report);
 /// Cuts of 512^2 pixels through 512 x 512 x 256 samples, thin and as slabs, against the exact mean
 /// and maximum of the interpolated volume.
 void runPlanesSuite(const Report &report);
-/// Regions that are grown, painted and cut in 512 x 512 x 300 samples of a chest.
-void runRegionsSuite(const Report &report);
 /// The engine on the graphics card at 128^3 to 512^3 compared with the processor's and with a ray
 /// sum on the same card. *Throws* Error{noSuchDevice}.
 void runGpuSuite(const Report &report);

@@ -73,6 +73,7 @@ public:
         if (loaded)
             showSegments(look, m_options.scene, *loaded);
         addPoints(look, m_options.scene.points, volume().lattice());
+        Stopwatch watch;
         preprocess::StepCache steps(budgetOfSteps);
         preprocess::ClassRunner runner(steps, loaded);
         for (const classify::TissueClass &tissue : classify::withOperands(look))
@@ -81,7 +82,9 @@ public:
             addGrown();
         if (m_segments.empty())
             throw Error(ErrorCode::unusable, because::noSegmentInTheVolume, m_options.input.path);
+        m_findMs = watch.lapMs();
         write(out);
+        m_writeMs = watch.lapMs();
         if (m_options.json)
             print();
     }
@@ -140,13 +143,21 @@ private:
         json segments = json::array();
         for (const segment::Segment &segment : m_segments)
             segments.push_back({{"name", segment.name}, {"volume_ml", segment.volumeMm3 / 1000.0}});
-        std::puts(jsonText({{"segments", segments}, {"series", m_input.seriesUid}}).c_str());
+        std::puts(jsonText({{"segments", segments},
+                            {"series", m_input.seriesUid},
+                            {"times_ms",
+                             {{"scan", m_input.scanMs},
+                              {"load", m_input.loadMs},
+                              {"find", m_findMs},
+                              {"write", m_writeMs}}}})
+                      .c_str());
     }
 
     const Options &m_options;
     task::Progress m_progress;
     const Context &m_context;
     Input m_input;
+    double m_findMs = 0.0, m_writeMs = 0.0;
     std::vector<segment::Segment> m_segments;
 };
 

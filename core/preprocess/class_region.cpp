@@ -5,7 +5,7 @@
 
 #include "core/preprocess/belonging.h"
 #include "core/preprocess/box_around.h"
-#include "core/preprocess/coverage_where.h"
+#include "core/preprocess/coverage_where.inc"
 #include "core/task/error.h"
 
 namespace pellucid::preprocess {

@@ -15,7 +15,7 @@
 
 #include "core/preprocess/class_region.h"
 #include "core/preprocess/content_digest.h"
-#include "core/preprocess/coverage_where.h"
+#include "core/preprocess/coverage_where.inc"
 #include "core/preprocess/step_result.h"
 #include "core/segment/coverages.h"
 #include "core/task/error.h"

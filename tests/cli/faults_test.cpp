@@ -222,9 +222,9 @@ TEST_F(Faults, ScenesThatArePipesOrEndlessAreRefused) {
     };
     ASSERT_EQ(std::system(("mkfifo " + quoted(folder / "pipe")).c_str()), 0);
     expectOneLine(render(folder / "pipe"), 3, "is not a regular file");
-    writeText(folder / "large.json", std::string(3 << 20, ' '));
+    writeText(folder / "large.json", std::string(66 << 20, ' '));
     expectOneLine(render(folder / "large.json"), 3,
-                  "is larger than the 1 MB limit for this kind of file");
+                  "is larger than the 64 MB limit for this kind of file");
     writeText(folder / "bad.json", "{");
     expectOneLine(render(folder / "bad.json"), 3, "bad.json");
     expectOneLine(render(folder / "absent.json"), 3, "does not exist");
