@@ -272,7 +272,10 @@ void subtractFrom(Input &input, const InputOptions &options,
         if (input.labels.patientId != subtrahend.labels.patientId)
             warn("--subtract: the two volumes have different patient IDs");
         const subtraction::Subtraction made =
-            subtraction::subtract(a, b, options.alignment == "rigid", weights, progress);
+            subtraction::subtract(a, b,
+                                  options.alignment == "rigid" ? subtraction::Registering::rigid
+                                                               : subtraction::Registering::none,
+                                  weights, progress);
         if (made.needsAlignment)
             warn("--subtract: the two volumes have different frames of reference; --register rigid "
                  "aligns them");

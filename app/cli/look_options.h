@@ -28,8 +28,8 @@ std::optional<presets::Preset> presetFor(const SceneOptions &options);
 void changeLook(classify::Look &look, const SceneOptions &options);
 
 /// Adds the points of --point to the steps that take them. *Throws* Error{usage} for a class that
-/// the look does not have or that takes no points, for a point outside the volume, and if a class
-/// still waits for a point.
+/// the look does not have or that takes no points, for a point outside the volume, and for a class
+/// without the points that it needs.
 void addPoints(classify::Look &look, const std::vector<std::string> &points,
                const volume::Lattice &lattice);
 /// The option --point. *Requires*: `points` outlives the command.

@@ -42,7 +42,7 @@ private:
     std::shared_ptr<std::vector<volume::PatientPoint>> m_points; ///< null: none
 };
 
-/// What a ball covers that moves along a path. It belongs to the class, or is erased from it.
+/// A stroke of a ball-shaped brush along a path, which adds to a class or erases from it.
 struct Stroke {
     Path path; ///< one point: the ball alone
     double radiusMm = 5.0;
@@ -62,7 +62,7 @@ struct LassoCut {
     bool operator==(const LassoCut &) const = default;
 };
 
-/// Limits of what a file may contain: hours of work by hand.
+/// The most that a file may contain: hours of manual work.
 inline constexpr std::size_t maxPoints = 10000, maxStrokes = 10000;
 inline constexpr double smallestBallMm = 0.1, largestBallMm = 200.0;
 

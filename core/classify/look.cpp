@@ -22,6 +22,10 @@ using task::ErrorCode;
 // A class that combines more takes longer than anyone waits.
 constexpr std::size_t maxCombined = 256;
 
+bool isVisible(const TissueClass &tissue) {
+    return tissue.weight > 0.0;
+}
+
 const TissueClass *find(const Look &look, const std::string &name) {
     const auto found = std::find_if(look.classes.begin(), look.classes.end(),
                                     [&](const TissueClass &tissue) { return tissue.name == name; });
@@ -202,14 +206,15 @@ bool haveRegions(const std::vector<TissueClass> &classes) {
 
 std::vector<TissueClass> visibleClasses(const Look &look) {
     std::vector<TissueClass> shown = withOperands(look);
-    std::erase_if(shown, [](const TissueClass &tissue) { return !(tissue.weight > 0.0); });
+    std::erase_if(shown, [](const TissueClass &tissue) { return !isVisible(tissue); });
     return shown;
 }
 
 ColorBasis colorBasisOf(const Look &look) {
     std::vector<ColorBasis::Rgb> colors;
-    for (const TissueClass &tissue : visibleClasses(look))
-        colors.push_back({tissue.color.red, tissue.color.green, tissue.color.blue});
+    for (const TissueClass &tissue : look.classes)
+        if (isVisible(tissue))
+            colors.push_back({tissue.color.red, tissue.color.green, tissue.color.blue});
     // Black classes show nothing.
     const ColorBasis::Rgb black{}, white{1.0, 1.0, 1.0};
     if (std::all_of(colors.begin(), colors.end(), [&](const auto &c) { return c == black; })) {
@@ -224,9 +229,9 @@ std::size_t channelsOf(const Look &look) {
 }
 
 bool isGrey(const Look &look) {
-    const auto shown = visibleClasses(look);
-    return std::all_of(shown.begin(), shown.end(),
-                       [](const TissueClass &tissue) { return tissue.color == Color{}; });
+    return std::all_of(look.classes.begin(), look.classes.end(), [](const TissueClass &tissue) {
+        return !isVisible(tissue) || tissue.color == Color{};
+    });
 }
 
 void validate(const Look &look) {

@@ -22,8 +22,8 @@ struct Look {
     bool operator==(const Look &) const = default;
 };
 
-/// *Throws* Error{usage} naming the value that is out of range, or a class whose steps name one
-/// that the look does not have, combine it with itself, or combine too many.
+/// *Throws* Error{usage} naming the value that is out of range, or the class whose steps refer to a
+/// missing or ambiguous class, form a circle, or combine too many classes.
 void validate(const Look &look);
 
 /// The classes with the operands of their steps in place of the names, so that each can be computed

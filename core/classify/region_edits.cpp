@@ -53,12 +53,18 @@ std::size_t addShown(Look &look, TissueClass region, const FieldWindow &window) 
     return look.classes.size() - 1;
 }
 
+// A region with soft borders. Its color is chosen when a look shows it.
+TissueClass regionOf(double low, double high) {
+    TissueClass region;
+    region.name = "Region";
+    region.low = low;
+    region.high = high;
+    region.edge = defaultEdge;
+    return region;
+}
+
 TissueClass drawnClass() {
-    TissueClass drawn;
-    drawn.name = "Region";
-    drawn.low = lowestValue;
-    drawn.high = highestValue;
-    drawn.edge = defaultEdge;
+    TissueClass drawn = regionOf(lowestValue, highestValue);
     drawn.isDrawn = true;
     return drawn;
 }
@@ -67,7 +73,7 @@ bool isMark(const Step &step) {
     return step.kind == StepKind::paint || step.kind == StepKind::scissors;
 }
 
-// What remains of a class without its marks; nothing if it was made by them alone.
+// The class without its marks, or nothing if it consists of marks alone.
 std::optional<TissueClass> withoutMarks(TissueClass tissue) {
     const bool hadMarks = std::erase_if(tissue.steps, isMark) > 0;
     std::erase_if(tissue.steps, [](Step &step) {
@@ -79,7 +85,8 @@ std::optional<TissueClass> withoutMarks(TissueClass tissue) {
             step.operand.own = std::make_shared<const TissueClass>(*own);
         return !own.has_value();
     });
-    // Nothing adds to a drawn class; or nothing limits one that had been cut out.
+    // A drawn class is empty unless a step adds to it. A class that only its cuts limited would
+    // become the whole volume.
     const bool isEmpty =
         tissue.isDrawn && std::none_of(tissue.steps.begin(), tissue.steps.end(),
                                        [](const Step &s) { return s.kind == StepKind::join; });
@@ -107,11 +114,7 @@ TissueClass volumeClass(const TransferFunction &curve, const FieldWindow &window
 }
 
 TissueClass connectedRegion(volume::PatientPoint point, double low, double high, double leakMm) {
-    TissueClass region;
-    region.name = "Region";
-    region.low = low;
-    region.high = high;
-    region.edge = defaultEdge;
+    TissueClass region = regionOf(low, high);
     Step connected{StepKind::connected};
     if (leakMm > 0.0)
         connected.parameters["leak_mm"] = leakMm;
@@ -121,11 +124,7 @@ TissueClass connectedRegion(volume::PatientPoint point, double low, double high,
 }
 
 TissueClass cutRegion(const LassoCut &cut) {
-    TissueClass region;
-    region.name = "Region";
-    region.low = lowestValue;
-    region.high = highestValue;
-    region.edge = defaultEdge;
+    TissueClass region = regionOf(lowestValue, highestValue);
     Step step{StepKind::scissors};
     step.cuts = {cut};
     step.cuts.front().keeps = true;
@@ -135,10 +134,10 @@ TissueClass cutRegion(const LassoCut &cut) {
 
 TissueClass boneRegion(const volume::Lattice &lattice, volume::PatientPoint point, double low) {
     // Wider than the pores of spongy bone, narrower than the gaps between bones and vessels.
-    constexpr double marrowMm = 3.0, leastRimMm = 1.0, slightlyMore = 1.01;
+    constexpr double marrowMm = 3.0, minRimMm = 1.0, slightlyMore = 1.01;
     const StepParameter &distance = describe(StepKind::grow).parameters.front();
     const double rimMm =
-        std::clamp(slightlyMore * lattice.shortestStepMm(), leastRimMm, distance.maximum);
+        std::clamp(slightlyMore * lattice.shortestStepMm(), minRimMm, distance.maximum);
     TissueClass bone = connectedRegion(point, low, highestValue, 0.0);
     bone.name = "Bone";
     bone.steps.push_back({StepKind::closing, {{"radius_mm", marrowMm}}});
@@ -197,7 +196,7 @@ std::optional<std::size_t> awaitingClass(const Look &look) {
 }
 
 bool addPoint(TissueClass &tissue, volume::PatientPoint point) {
-    // The one that waits; else the last.
+    // The step that waits, or else the last one that takes points.
     Step *chosen = nullptr;
     for (Step &step : tissue.steps) {
         if (describe(step.kind).input == StepInput::points &&

@@ -10,7 +10,7 @@
 
 namespace pellucid::classify {
 
-/// What a region that the user marks does to the classes of a look.
+/// How a marked region changes the classes of a look.
 enum class RegionUse {
     newClass, ///< it becomes a class
     add,      ///< a class gets it, too
@@ -21,16 +21,16 @@ enum class RegionUse {
 /// The class that an edit changes; not set: every class of the look.
 using EditedClass = std::optional<std::size_t>;
 
-/// What has values from `low` to `high` and is connected with a point, as a class without a color
-/// of its own. `leakMm`: as for the step `connected`.
+/// The class of the samples from `low` to `high` that are connected to a point. It has no color of
+/// its own. `leakMm`: as for the step `connected`.
 TissueClass connectedRegion(volume::PatientPoint point, double low, double high, double leakMm);
 
-/// Bone that is connected with a point, with its marrow, and with the rim in which its values mix
-/// with those of its surroundings: a millimetre, or a sample if that is more. `low`: the value from
+/// The class of the bone that is connected to a point, including its marrow and a rim of partial
+/// volume: a millimetre, or a sample if that is more. `low`: the value from
 /// which it is bone.
 TissueClass boneRegion(const volume::Lattice &lattice, volume::PatientPoint point, double low);
 
-/// What a cut encloses, whatever its values.
+/// The class of all samples within a cut.
 TissueClass cutRegion(const LassoCut &cut);
 
 /// The whole volume as a class, for a look without classes.
@@ -63,8 +63,8 @@ bool takesPoints(const TissueClass &tissue);
 /// Adds a point to the last step of a class that takes points; false if it has none.
 bool addPoint(TissueClass &tissue, volume::PatientPoint point);
 
-/// The look without what belongs to one patient: points, strokes and cuts. Steps that take points
-/// wait for new ones. Classes of which nothing remains are removed.
+/// Removes the points, strokes and cuts of a look, which belong to one patient. Steps that take
+/// points wait for new ones. Classes of which nothing remains are removed.
 Look withoutMarks(const Look &look);
 
 } // namespace pellucid::classify

@@ -39,8 +39,7 @@ enum class StepKind {
 /// Whether a step changes the values that classify samples, or the region of the class.
 enum class StepEffect { values, region };
 
-/// What a step needs besides numbers: points that the user clicks, strokes or cuts that the user
-/// draws, or another class.
+/// The input of a step besides numbers: points, strokes or cuts from the user, or another class.
 enum class StepInput { none, points, strokes, cuts, otherClass };
 
 /// A numeric parameter of a step.

@@ -9,7 +9,7 @@
 namespace pellucid::mpr {
 
 /// The sample with the highest finite value on a line through a point, among the samples of a box
-/// that are nearest to the line at steps of half a sample. None if the line misses them.
+/// that are nearest to the line at steps of half a sample. Not set if the line misses them.
 /// `direction`: a unit vector, LPS. `seen`: only samples that are mostly in it; null: all.
 std::optional<volume::PatientPoint>
 highestAlong(const volume::Volume &volume, const volume::VoxelBox &box, volume::PatientPoint point,

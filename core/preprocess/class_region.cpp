@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/preprocess/belonging.h"
-#include "core/preprocess/box_around.h"
 #include "core/preprocess/coverage_where.inc"
 #include "core/task/error.h"
 
@@ -14,19 +13,8 @@ namespace {
 
 using classify::Region;
 using volume::Coverage;
-using volume::GridSize;
 
 } // namespace
-
-volume::VoxelBox boxAround(const GridSize &size, const Mask &mask) {
-    return boxWhere(size, [&](volume::VoxelIndex, std::size_t n) { return mask[n] != 0; });
-}
-
-Coverage regionOf(const GridSize &size, const Mask &mask) {
-    return coverageWhere(size, [&](volume::VoxelIndex, std::size_t n) {
-        return mask[n] != 0 ? std::uint8_t(Coverage::whole) : std::uint8_t(0);
-    });
-}
 
 Coverage regionOf(const volume::Volume &volume, classify::TissueClass tissue,
                   classify::StepRunner &runner, const task::Progress &progress) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/classify/class_samples.h"
-#include "core/preprocess/filters.h"
 #include "core/volume/coverage.h"
 
 namespace pellucid::preprocess {
@@ -12,8 +11,5 @@ namespace pellucid::preprocess {
 /// the same as in its file. Empty if there are none. *Throws* as `StepRunner::run`.
 volume::Coverage regionOf(const volume::Volume &volume, classify::TissueClass tissue,
                           classify::StepRunner &runner, const task::Progress &progress = {});
-
-/// A mask as a region: its smallest box, with shares of 0 and 255.
-volume::Coverage regionOf(const volume::GridSize &size, const Mask &mask);
 
 } // namespace pellucid::preprocess

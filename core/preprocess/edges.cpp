@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <tbb/parallel_for.h>
 
+#include "core/preprocess/filters.h"
 #include "core/task/error.h"
 
 namespace pellucid::preprocess {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/preprocess/filters.h"
+#include "core/preprocess/mask.h"
+#include "core/task/progress.h"
+#include "core/volume/volume.h"
 
 namespace pellucid::preprocess {
 

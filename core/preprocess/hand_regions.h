@@ -5,7 +5,7 @@
 
 #include "core/classify/class_samples.h"
 #include "core/classify/hand_marks.h"
-#include "core/preprocess/filters.h"
+#include "core/preprocess/mask.h"
 #include "core/task/progress.h"
 
 namespace pellucid::preprocess {

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/preprocess/box_around.h"
+#include "core/preprocess/morphology.h"
 #include "core/task/error.h"
 
 namespace pellucid::preprocess {
@@ -44,7 +44,7 @@ public:
         }
     }
 
-    // What was open and is filled. *Requires*: `before` is what was open.
+    // The filled samples. *Requires*: `before` is the mask of open samples at the start.
     Mask filled(const Mask &before) const {
         Mask filled(before.size());
         tbb::parallel_for(0, m_size.k, [&](int k) {
@@ -54,7 +54,7 @@ public:
         });
         return filled;
     }
-    // What is open and not filled.
+    // The open samples that are not filled.
     Mask takeOpen() { return std::move(m_open); }
 
 private:
@@ -128,7 +128,7 @@ std::vector<VoxelIndex> centresNear(const volume::Lattice &lattice, const Mask &
     return near;
 }
 
-// What is connected with the seeds through openings as wide as the leak.
+// The part connected to the seeds through openings at least as wide as the leak.
 Mask connectedThrough(const volume::Lattice &lattice, const Mask &mask,
                       const std::vector<VoxelIndex> &seeds, double leakMm,
                       const task::Progress &progress) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/preprocess/filters.h"
+#include "core/preprocess/mask.h"
 #include "core/task/progress.h"
 #include "core/volume/volume.h"
 

@@ -29,7 +29,7 @@ using classify::Region;
 using classify::Step;
 using classify::TissueClass;
 using SharedCoverage = std::shared_ptr<const volume::Coverage>;
-// What is kept: the result of a step, or a segment on another lattice or with other edges.
+// A kept result: of a step, or a segment on another lattice or with other edges.
 using Outcome = std::variant<volume::Volume, Regions, SharedCoverage>;
 
 std::string geometryText(const volume::Lattice &l) {
@@ -209,7 +209,7 @@ private:
         const segment::SegmentSet *m_segments;
     };
 
-    // All that decides about the result of a step, as far as the step says it.
+    // Identifies a step by its kind, numbers and input.
     std::string contentText(const Step &step) const {
         std::string text = classify::stepText(step);
         const auto add = [&](const volume::PatientPoint &p) {

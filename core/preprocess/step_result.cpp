@@ -9,9 +9,12 @@
 #include <tbb/parallel_for.h>
 
 #include "core/preprocess/belonging.h"
+#include "core/preprocess/body.h"
 #include "core/preprocess/edges.h"
 #include "core/preprocess/filters.h"
 #include "core/preprocess/hand_regions.h"
+#include "core/preprocess/morphology.h"
+#include "core/preprocess/parts.h"
 #include "core/preprocess/region_growing.h"
 
 namespace pellucid::preprocess {
@@ -169,9 +172,14 @@ StepResult resultOf(const Step &step, const StepStart &start, const task::Progre
     const volume::Volume &values = before.values;
     const volume::Lattice &lattice = values.lattice();
     const auto given = [&](const char *parameter) { return step.at(parameter); };
-    const auto now = [&] { return belonging(tissue, before); };
-    const auto part = [&](const Mask &all, const Mask &kept) {
-        return shared(partOf(start, all, kept));
+    // A filter of the class's samples that leaves a part of them, or adds others.
+    const auto keeping = [&](const auto &filter) {
+        const Mask all = belonging(tissue, before);
+        return shared(partOf(start, all, filter(all)));
+    };
+    const auto adding = [&](const auto &filter) {
+        const Mask all = belonging(tissue, before);
+        return withFilled(before, all, filter(all));
     };
     switch (step.kind) {
     case StepKind::gaussian:
@@ -195,42 +203,36 @@ StepResult resultOf(const Step &step, const StepStart &start, const task::Progre
     }
     case StepKind::binarise:
         return insideWhere(values, [from = given("from")](double value) { return value >= from; });
-    case StepKind::opening: {
-        const Mask all = now();
-        const auto open = given("itk") == 1.0 ? openingByItk : opening;
-        return part(all, open(lattice, all, given("radius_mm"), progress));
-    }
-    case StepKind::closing: {
-        const Mask all = now();
-        const auto close = given("itk") == 1.0 ? closingByItk : closing;
-        return withFilled(before, all, close(lattice, all, given("radius_mm"), progress));
-    }
-    case StepKind::largestComponent: {
-        const Mask all = now();
-        return part(all, largestPart(lattice, all, given("share"), progress));
-    }
-    case StepKind::connected: {
-        const Mask all = now();
-        return part(all, connectedWith(lattice, all, step.points, given("leak_mm"), progress));
-    }
-    case StepKind::grow: {
-        const Mask all = now();
-        return withFilled(before, all, dilated(lattice, all, given("mm"), progress));
-    }
-    case StepKind::shrink: {
-        const Mask all = now();
-        return part(all, eroded(lattice, all, given("mm"), progress));
-    }
-    case StepKind::fill: {
-        const Mask all = now();
-        return withFilled(before, all, withoutHoles(lattice.size(), all, progress));
-    }
+    case StepKind::opening:
+        return keeping([&, open = given("itk") == 1.0 ? openingByItk : opening](const Mask &all) {
+            return open(lattice, all, given("radius_mm"), progress);
+        });
+    case StepKind::closing:
+        return adding([&, close = given("itk") == 1.0 ? closingByItk : closing](const Mask &all) {
+            return close(lattice, all, given("radius_mm"), progress);
+        });
+    case StepKind::largestComponent:
+        return keeping(
+            [&](const Mask &all) { return largestPart(lattice, all, given("share"), progress); });
+    case StepKind::connected:
+        return keeping([&](const Mask &all) {
+            return connectedWith(lattice, all, step.points, given("leak_mm"), progress);
+        });
+    case StepKind::grow:
+        return adding(
+            [&](const Mask &all) { return dilated(lattice, all, given("mm"), progress); });
+    case StepKind::shrink:
+        return keeping(
+            [&](const Mask &all) { return eroded(lattice, all, given("mm"), progress); });
+    case StepKind::fill:
+        return adding([&](const Mask &all) { return withoutHoles(lattice.size(), all, progress); });
     case StepKind::intersection:
         return insideOf(maskOf(*start.operand, lattice.size(), true));
     case StepKind::difference:
         return insideOf(maskOf(*start.operand, lattice.size(), false));
     case StepKind::join:
-        return withFilled(before, now(), maskOf(*start.operand, lattice.size(), true));
+        return adding(
+            [&](const Mask & /*all*/) { return maskOf(*start.operand, lattice.size(), true); });
     case StepKind::paint: {
         std::vector<Region> regions = regionsOf(before);
         paint(lattice, step.strokes, regions, progress);

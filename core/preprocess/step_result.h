@@ -15,7 +15,7 @@ using Regions = std::shared_ptr<const std::vector<classify::Region>>;
 /// The result of a step: values or regions, by its effect.
 using StepResult = std::variant<volume::Volume, Regions>;
 
-/// What a step starts from.
+/// The input of a step.
 struct StepStart {
     const classify::TissueClass &tissue;
     const classify::ClassSamples &before; ///< the samples after the steps before it

@@ -179,9 +179,9 @@ Volume onLatticeOf(const Volume &minuend, const Volume &subtrahend,
     });
 }
 
-Subtraction subtract(const Volume &minuend, const Volume &subtrahend, bool isAligned,
+Subtraction subtract(const Volume &minuend, const Volume &subtrahend, Registering registering,
                      const Weights &weights, const task::Progress &progress) {
-    if (!isAligned)
+    if (registering == Registering::none)
         return {difference(minuend, subtrahend, {}, weights, progress), std::nullopt,
                 minuend.notes().frameOfReferenceUid != subtrahend.notes().frameOfReferenceUid};
     const Registration found = registerRigidly(minuend, subtrahend, progress.part(0.0, 0.8));

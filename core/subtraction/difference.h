@@ -14,7 +14,7 @@ std::vector<float> resampledOnto(const volume::Lattice &lattice, const volume::V
                                  const RigidTransform &toVolume,
                                  const task::Progress &progress = {});
 
-/// What two volumes are multiplied with before they are added.
+/// The factors of a weighted sum of two volumes.
 struct Weights {
     static constexpr double largest = 2.0; ///< of the magnitudes
     double minuend = 1.0, subtrahend = -1.0;
@@ -38,6 +38,9 @@ volume::Volume difference(const volume::Volume &minuend, const volume::Volume &s
 volume::Volume onLatticeOf(const volume::Volume &minuend, const volume::Volume &subtrahend,
                            const RigidTransform &toSubtrahend, const task::Progress &progress = {});
 
+/// Whether the subtrahend is aligned first.
+enum class Registering { none, rigid };
+
 /// A difference and how it was made.
 struct Subtraction {
     volume::Volume difference;
@@ -46,9 +49,9 @@ struct Subtraction {
     bool needsAlignment = false;
 };
 
-/// `difference`, after `registerRigidly` if the subtrahend is to be aligned. *Throws* as both.
+/// `difference`, after `registerRigidly` if the subtrahend is aligned first. *Throws* as both.
 Subtraction subtract(const volume::Volume &minuend, const volume::Volume &subtrahend,
-                     bool isAligned, const Weights &weights = {},
+                     Registering registering, const Weights &weights = {},
                      const task::Progress &progress = {});
 
 } // namespace pellucid::subtraction

@@ -2,7 +2,9 @@
 // Segmentations on the command line: shown, listed, written.
 #include "tests/cli/cli.h"
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include <nlohmann/json.hpp>
 
@@ -156,6 +158,42 @@ TEST_F(Cli, GrowsARegionAndWritesIt) {
                   .exitCode,
               0);
     EXPECT_GT(decoder::readVolumeFile(field).value({20, 20, 20}), 0.0);
+}
+
+// A class that needs a point gets it, or is refused; a scene keeps it.
+TEST_F(Cli, TheClassOfAPresetIsGivenItsPoint) {
+    const fs::path series = phantomFolder("--kind sphere --size 32x32x32"),
+                   preset = folder / "grow.json", out = folder / "part.nrrd";
+    std::ofstream(preset)
+        << R"({"schema":"pellucid-preset/2","name":"Grow","classes":[{"name":"Ball",)"
+           R"("range":[-100,30000],"steps":[{"kind":"connected"}]}]})";
+    const std::string segment =
+        "segment " + quoted(series) + " --preset " + quoted(preset) + " -o " + quoted(out);
+    expectOneLine(cli(segment), 2, "the class 'Ball' needs a point in the patient");
+    expectOneLine(cli(segment + " --point Ball=0,0"), 2, "--point");
+    expectOneLine(cli(segment + " --point 0,0,0"), 2, "is not NAME=x,y,z");
+    expectOneLine(cli(segment + " --point Cube=0,0,0"), 2, "no class 'Cube' takes points");
+    expectOneLine(cli(segment + " --point Ball=0,0,9999"), 2, "is outside the volume");
+    const auto r = cli(segment + " --point Ball=0,0,0 --json");
+    ASSERT_EQ(r.exitCode, 0) << r.error;
+    const json report = json::parse(r.out);
+    EXPECT_GT(report["segments"][0]["volume_ml"].get<double>(), 0.0);
+    EXPECT_GE(report["times_ms"]["find"].get<double>(), 0.0);
+    EXPECT_EQ(decoder::readVolumeFile(out).value({16, 16, 16}), 1.0F);
+}
+
+TEST_F(Cli, SubtractsWithWeights) {
+    const fs::path series = phantomFolder("--kind head --size 24x24x24"), out = folder / "sum.nrrd";
+    const std::string volume = "volume " + quoted(series) + " --subtract " + quoted(series) +
+                               " --field --window 0,4000 -o " + quoted(out) + " --weights ";
+    // Twice the volume without the volume is the volume.
+    ASSERT_EQ(cli(volume + "2,-1").exitCode, 0);
+    const volume::Volume before = volumeIn(series), field = decoder::readVolumeFile(out);
+    for (const int i : {4, 9, 12, 15})
+        EXPECT_NEAR(field.value({i, 12, 12}),
+                    std::clamp(double(before.value({i, 12, 12})) / 4000.0, 0.0, 1.0), 1e-5);
+    expectOneLine(cli(volume + "1,-3"), 2, "the weight -3 is not between -2 and 2");
+    expectOneLine(cli(volume + "1"), 2, "--weights");
 }
 
 // The difference of two phantoms is projected as the exact reference projects it.

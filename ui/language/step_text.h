@@ -10,7 +10,7 @@ namespace pellucid::ui {
 /// The name of a kind of step, as menus show it: "Without another class".
 QString stepName(classify::StepKind kind);
 
-/// What a step does, in a few words with its numbers: "without Bone", "grown by 2 mm".
+/// Describes a step and its numbers in a few words: "without Bone", "grown by 2 mm".
 QString stepWords(const classify::Step &step);
 
 /// Where a class starts: its segment, the range of its values, or nothing.

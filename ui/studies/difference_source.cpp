@@ -21,7 +21,7 @@ struct DifferenceTexts {
     Q_DECLARE_TR_FUNCTIONS(DifferenceTexts)
 };
 
-// What the alignment found.
+// Describes an alignment: how far the patient had moved, and the residual.
 QString noteOn(const subtraction::Registration &r) {
     constexpr double radToDeg = 180.0 / 3.14159265358979323846;
     const auto number = [](double value, int digits) {
@@ -87,7 +87,7 @@ struct LoadedPair {
         : first(loadNaming(minuend, progress.part(0.0, 0.3))),
           second(loadNaming(subtrahend, progress.part(0.3, 0.6))) {}
 
-    // What was made of them, with the files of both that were left out.
+    // The result, with the skipped files of both.
     dicom::LoadedVolume with(volume::Volume made) {
         first.skipped.insert(first.skipped.end(), second.skipped.begin(), second.skipped.end());
         return {std::move(made), std::move(first.skipped)};
@@ -130,7 +130,7 @@ StudySource differenceSource(const StudySource &minuend, const StudySource &subt
         const task::Progress rest = progress.part(0.6, 1.0);
         if (!method.alignment) {
             subtraction::Subtraction made =
-                subtraction::subtract(a, b, false, method.weights, rest);
+                subtraction::subtract(a, b, subtraction::Registering::none, method.weights, rest);
             if (made.needsAlignment && onLoaded)
                 onLoaded(key, name + "; " +
                                   DifferenceTexts::tr(

@@ -16,7 +16,7 @@
 
 namespace pellucid::ui {
 
-/// Which sources a difference was made of, by their digests.
+/// The sources of a difference, by their digests.
 struct DifferenceOf {
     QString minuend, subtrahend;
     bool isAligned = false;

@@ -22,7 +22,7 @@ class StudyLibrary;
 /// phases included, then those of the library.
 std::vector<StudySource> subtrahends(const Document &document, StudyLibrary &library);
 
-/// What is shown beside a difference.
+/// The study beside a difference.
 enum class BesideDifference { nothing, minuend, alignedSubtrahend };
 
 /// Selects the volume to subtract, whether it is aligned first, the weights of both, and what is

@@ -10,6 +10,7 @@
 #include <itkImage.h>
 
 #include "core/phantom/phantom.h"
+#include "core/preprocess/morphology.h"
 #include "core/task/error.h"
 #include "tests/support/fields.h"
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/preprocess/body.h"
 #include "core/preprocess/filters.h"
+#include "core/preprocess/morphology.h"
+#include "core/preprocess/parts.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Regions that are painted, cut, and combined.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -12,6 +13,7 @@
 #include "core/phantom/phantom.h"
 #include "core/preprocess/class_region.h"
 #include "core/preprocess/hand_regions.h"
+#include "core/preprocess/morphology.h"
 #include "core/preprocess/region_growing.h"
 #include "core/preprocess/step_cache.h"
 
@@ -241,6 +243,88 @@ TEST(RegionSteps, FillTheHolesThatItkFills) {
         const std::uint8_t *const filled = fill->GetOutput()->GetBufferPointer();
         EXPECT_EQ(maskOf(volume, with(one, {StepKind::fill})), Mask(filled, filled + mask.size()));
     }
+}
+
+// Two balls joined by a bridge of two samples.
+TEST(RegionSteps, ALeakLimitKeepsARegionFromPassingABridge) {
+    const Lattice lattice = Lattice::centred({40, 16, 16}, {1.0, 1.0, 1.0});
+    std::vector<std::int16_t> samples(lattice.size().count(), 0);
+    Mask left(samples.size());
+    forAll(lattice.size(), [&](VoxelIndex n, std::size_t at) {
+        const glm::dvec3 p = lattice.patient(n).mm;
+        left[at] = glm::length(p - glm::dvec3(-11.0, 0.0, 0.0)) < 6.0;
+        const bool right = glm::length(p - glm::dvec3(11.0, 0.0, 0.0)) < 6.0,
+                   bridge = std::abs(p.x) < 11.0 && std::abs(p.y) < 1.0 && std::abs(p.z) < 1.0;
+        samples[at] = left[at] != 0 || right || bridge ? 100 : 0;
+    });
+    const Volume volume(lattice, samples, volume::ValueUnit::none, {});
+    const PatientPoint point{{-11.0, 0.0, 0.0}};
+    const auto region = [&](double leakMm) {
+        return maskOf(volume, classify::connectedRegion(point, 50.0, 150.0, leakMm));
+    };
+    const auto count = [](const Mask &mask) { return std::count(mask.begin(), mask.end(), 1); };
+    EXPECT_GT(count(region(0.0)), 2 * count(left));
+    // A ball of 4 mm reaches all of the left ball but what is narrower than itself. Where the bridge
+    // begins, it reaches as far into that as its radius.
+    const Mask reached = region(4.0), least = preprocess::opening(lattice, left, 2.0);
+    forAll(lattice.size(), [&](VoxelIndex n, std::size_t at) {
+        EXPECT_GE(reached[at], least[at]) << n.i << ' ' << n.j << ' ' << n.k;
+        if (lattice.patient(n).mm.x > -11.0 + 6.0 + 2.0) {
+            EXPECT_EQ(reached[at], 0) << n.i << ' ' << n.j << ' ' << n.k;
+        }
+    });
+    EXPECT_EQ(count(region(30.0)), 0); // nothing is that wide
+}
+
+// The border of a class with filled samples fades, and its inside is whole.
+TEST(RegionSteps, FadeAtTheEdgeOfPaintedRegions) {
+    const Volume volume = blobs();
+    const Lattice &lattice = volume.lattice();
+    TissueClass drawn = range(classify::lowestValue, classify::highestValue);
+    drawn.isDrawn = true;
+    drawn.edge = 0.5;
+    Step painted{StepKind::paint};
+    painted.strokes = {{{lattice.center()}, 4.0, false}};
+    preprocess::StepCache steps(std::size_t(1) << 28);
+    const auto samples = steps.run(volume, with(drawn, painted), {});
+    ASSERT_TRUE(samples.coverage);
+    int whole = 0, partial = 0;
+    forAll(lattice.size(), [&](VoxelIndex n, std::size_t at) {
+        const double mm = glm::length(lattice.patient(n).mm - lattice.center().mm);
+        const int share = samples.coverage->at(n);
+        whole += share == Coverage::whole ? 1 : 0;
+        partial += share > 0 && share < Coverage::whole ? 1 : 0;
+        if (mm > 12.0) {
+            EXPECT_EQ(share, 0);
+        }
+        if (samples.regions && mm > 4.0) {
+            EXPECT_NE((*samples.regions)[at], Region::filled);
+        }
+    });
+    EXPECT_GT(whole + partial, 50);
+    EXPECT_GT(partial, 20);
+}
+
+TEST(RegionSteps, WorkOnOneSliceAndOnNothing) {
+    const Lattice slice = Lattice::centred({12, 10, 1}, {1.0, 1.0, 5.0});
+    std::vector<std::int16_t> samples(slice.size().count(), 0);
+    for (int j = 2; j < 8; ++j)
+        for (int i = 2; i < 9; ++i) // a ring, which has a way out through its faces
+            samples[slice.size().offsetOf(i, j, 0)] = j > 3 && j < 6 && i > 3 && i < 7 ? 0 : 100;
+    const Volume volume(slice, samples, volume::ValueUnit::none, {});
+    const TissueClass ring = range(50.0, 150.0), none = range(500.0, 600.0);
+    const Mask all = maskOf(volume, ring);
+    EXPECT_EQ(maskOf(volume, with(ring, {StepKind::fill})), all);
+    Step connected{StepKind::connected};
+    connected.points = {slice.patient(VoxelIndex{2, 2, 0})};
+    EXPECT_EQ(maskOf(volume, with(ring, connected)), all);
+    EXPECT_GT(std::count(all.begin(), all.end(), 1), 20);
+    const Mask grown = maskOf(volume, with(ring, {StepKind::grow, {{"mm", 1.0}}}));
+    EXPECT_GT(std::count(grown.begin(), grown.end(), 1), std::count(all.begin(), all.end(), 1));
+    for (const Step &step :
+         {Step{StepKind::fill}, Step{StepKind::grow}, Step{StepKind::shrink}, connected,
+          Step{StepKind::largestComponent}, combining(StepKind::difference, ring)})
+        EXPECT_EQ(maskOf(volume, with(none, step)), Mask(all.size())) << stepText(step);
 }
 
 TEST(RegionSteps, OfHandsAreCachedByAllThatTheyContain) {

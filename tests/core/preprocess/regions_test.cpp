@@ -11,6 +11,7 @@
 #include "core/classify/shown_fields.h"
 #include "core/phantom/phantom.h"
 #include "core/preprocess/class_region.h"
+#include "core/preprocess/parts.h"
 #include "core/preprocess/region_growing.h"
 #include "core/preprocess/segment_class.h"
 #include "core/preprocess/step_cache.h"

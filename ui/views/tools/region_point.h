@@ -12,10 +12,10 @@ namespace pellucid::ui {
 class Document;
 class ToolPane;
 
-/// What a pane shows: a plane of the volume, or a projection of all of it.
+/// The kind of a pane: a plane of the volume, or its projection.
 enum class PaneView { plane, projection };
 
-/// The place of the patient that the user means by a click: in a plane the point itself, in a
+/// The place in the patient that a click refers to: in a plane the point itself, in a
 /// projection the highest value on the line of sight within the crop box. None outside the volume.
 std::optional<volume::PatientPoint> regionPoint(const Document &document, const ToolPane &pane,
                                                 PaneView view, const QPointF &at);

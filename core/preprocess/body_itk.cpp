@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/preprocess/body.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <itkBinaryFillholeImageFilter.h>
+#include <itkHistogram.h>
+#include <itkOtsuThresholdCalculator.h>
+#include <itkSliceBySliceImageFilter.h>
+
+#include <glm/geometric.hpp>
+
+#include "core/preprocess/itk_images_itk.inc"
+#include "core/preprocess/morphology.h"
+#include "core/preprocess/parts.h"
+#include "core/volume/statistics.h"
+
+namespace pellucid::preprocess {
+
+namespace {
+
+// Thinner than a child's arm, thicker than the shell of a couch.
+constexpr double couchRadiusMm = 4.0;
+// Among thinner parts, an ear is 80 mm long, while a couch or a head rest is much longer. The
+// roughness of skin is connected all around the patient: parts within `roughnessMm` of the core
+// belong to it.
+constexpr double longestThinPartMm = 130.0, roughnessMm = 2.0;
+constexpr double airBelowHu = -400.0;
+// The shell of a head rest is denser than an ear that is pressed against it, and longer than an ear
+// or a row of teeth. Around it, values mix.
+constexpr double shellHu = 250.0, shortestShellMm = 90.0, shellRimMm = 1.5;
+
+double airThreshold(const volume::Volume &volume) {
+    if (volume.unit() == volume::ValueUnit::hounsfield)
+        return airBelowHu;
+    // Otsu's threshold of the histogram without its outermost quantiles, which spikes would
+    // stretch.
+    const auto ends = volume::quantiles(volume, {0.005, 0.995});
+    constexpr unsigned bins = 256;
+    if (!(ends[1] > ends[0]))
+        return ends[0];
+    using Histogram = itk::Statistics::Histogram<double>;
+    const auto histogram = Histogram::New();
+    histogram->SetMeasurementVectorSize(1);
+    Histogram::SizeType size(1);
+    size.Fill(bins);
+    Histogram::MeasurementVectorType low(1), high(1);
+    low.Fill(ends[0]);
+    high.Fill(ends[1]);
+    histogram->Initialize(size, low, high);
+    std::vector<std::uint64_t> counts(bins);
+    volume.visit([&](auto samples) {
+        for (const auto sample : samples) {
+            const double at = (double(sample) - ends[0]) / (ends[1] - ends[0]) * bins;
+            if (at >= 0.0 && at < bins) // not NaN
+                ++counts[std::size_t(at)];
+        }
+    });
+    for (unsigned bin = 0; bin < bins; ++bin)
+        histogram->SetFrequency(bin, counts[bin]);
+    const auto otsu = itk::OtsuThresholdCalculator<Histogram, double>::New();
+    otsu->SetInput(histogram);
+    otsu->Update();
+    return otsu->GetThreshold();
+}
+
+void remove(const Mask &removed, Mask &from) {
+    for (std::size_t n = 0; n < removed.size(); ++n)
+        from[n] = std::uint8_t(from[n] & ~removed[n] & 1);
+}
+
+double diagonalMm(const volume::VoxelBox &box, const volume::Lattice &lattice) {
+    const volume::GridSize size = box.size();
+    return glm::length(glm::dvec3(size.i * lattice.spacingMm(0), size.j * lattice.spacingMm(1),
+                                  size.k * lattice.spacingMm(2)));
+}
+
+// The dense shells of head rests and couches, with the rim in which their values mix with those
+// around: dense parts that are long, and mostly too thin for the core. Empty: there are none. For
+// values in HU.
+Mask shellsOf(const volume::Volume &volume, const Mask &core, const task::Progress &progress) {
+    const volume::Lattice &lattice = volume.lattice();
+    Mask dense(core.size());
+    volume.visit([&](auto samples) {
+        for (std::size_t n = 0; n < dense.size(); ++n)
+            dense[n] = double(samples[n]) > shellHu;
+    });
+    const Parts parts = partsOf(lattice, dense, "body", progress.part(0.0, 0.5));
+    const auto boxes = boxesOf(parts, lattice.size());
+    std::vector<std::size_t> counts(parts.count + 1), inCore(parts.count + 1);
+    for (std::size_t n = 0; n < dense.size(); ++n) {
+        ++counts[parts.labels[n]];
+        inCore[parts.labels[n]] += core[n];
+    }
+    std::vector<std::uint8_t> isShell(parts.count + 1);
+    bool isAny = false;
+    for (std::size_t label = 1; label < isShell.size(); ++label) {
+        isShell[label] = diagonalMm(boxes[label], lattice) >= shortestShellMm &&
+                         2 * inCore[label] < counts[label];
+        isAny = isAny || isShell[label] != 0;
+    }
+    if (!isAny)
+        return {};
+    for (std::size_t n = 0; n < dense.size(); ++n)
+        dense[n] = isShell[parts.labels[n]];
+    return dilated(lattice, dense, shellRimMm, progress.part(0.5, 1.0));
+}
+
+// The core with thin, short parts of the tissue that touch it: an ear, but not a couch.
+Mask withShortParts(const volume::Lattice &lattice, Mask core, const Mask &tissue,
+                    const task::Progress &progress) {
+    const volume::GridSize size = lattice.size();
+    Mask thin = tissue;
+    remove(core, thin);
+    const Parts parts = partsOf(lattice, thin, "body", progress);
+    const auto boxes = boxesOf(parts, size);
+    std::vector<std::uint8_t> touches(parts.count + 1);
+    const std::size_t row = std::size_t(size.i), plane = row * std::size_t(size.j);
+    std::size_t n = 0;
+    for (int k = 0; k < size.k; ++k)
+        for (int j = 0; j < size.j; ++j)
+            for (int i = 0; i < size.i; ++i, ++n)
+                if (parts.labels[n] != 0 &&
+                    ((i > 0 && core[n - 1] != 0) || (i + 1 < size.i && core[n + 1] != 0) ||
+                     (j > 0 && core[n - row] != 0) || (j + 1 < size.j && core[n + row] != 0) ||
+                     (k > 0 && core[n - plane] != 0) || (k + 1 < size.k && core[n + plane] != 0)))
+                    touches[parts.labels[n]] = 1;
+    for (std::size_t label = 1; label < touches.size(); ++label)
+        touches[label] &= diagonalMm(boxes[label], lattice) <= longestThinPartMm ? 1 : 0;
+    for (std::size_t at = 0; at < core.size(); ++at)
+        core[at] = std::uint8_t(core[at] | touches[parts.labels[at]]);
+    return core;
+}
+
+// The mask with the holes of each slice filled.
+Mask filledSlices(const volume::Lattice &lattice, const Mask &mask,
+                  const task::Progress &progress) {
+    using SliceFilter = itk::SliceBySliceImageFilter<MaskImage, MaskImage>;
+    using Fill = itk::BinaryFillholeImageFilter<SliceFilter::InternalInputImageType>;
+    auto fill = Fill::New();
+    fill->SetForegroundValue(1);
+    auto slices = SliceFilter::New();
+    slices->SetFilter(fill);
+    slices->SetInput(imageOver<MaskImage>(lattice, mask.data()));
+    runFilter(*slices, "body", progress);
+    return samplesOf(*slices->GetOutput());
+}
+
+} // namespace
+
+namespace {
+
+// The patient without a margin, and the shells around.
+struct Patient {
+    Mask inside, shells;
+
+    // All within a distance. It does not reach into a shell that touches the skin.
+    Mask withMargin(const volume::Lattice &lattice, double marginMm,
+                    const task::Progress &progress) const {
+        Mask all = dilated(lattice, inside, marginMm, progress);
+        remove(shells, all);
+        return all;
+    }
+};
+
+Patient patientOf(const volume::Volume &volume, const task::Progress &progress) {
+    const volume::Lattice &lattice = volume.lattice();
+    const double threshold = airThreshold(volume);
+    Mask tissue(lattice.size().count());
+    volume.visit([&](auto samples) {
+        for (std::size_t n = 0; n < tissue.size(); ++n)
+            tissue[n] = double(samples[n]) > threshold;
+    });
+    // Slices are filled first, because an opening would connect the lungs to the surrounding air.
+    const Mask opened = opening(lattice, filledSlices(lattice, tissue, progress.part(0.0, 0.2)),
+                                couchRadiusMm, progress.part(0.2, 0.6));
+    Mask core = largestPart(lattice, opened, 1.0, progress.part(0.6, 0.7));
+    Mask shells = volume.unit() == volume::ValueUnit::hounsfield
+                      ? shellsOf(volume, core, progress.part(0.7, 0.72))
+                      : Mask();
+    remove(shells, tissue);
+    remove(shells, core);
+    Mask patient = dilated(lattice, core, roughnessMm, progress.part(0.72, 0.75));
+    for (std::size_t n = 0; n < patient.size(); ++n)
+        patient[n] = std::uint8_t((patient[n] & tissue[n]) | core[n]);
+    patient = withShortParts(lattice, std::move(patient), tissue, progress.part(0.75, 0.8));
+    return {filledSlices(lattice, patient, progress.part(0.8, 1.0)), std::move(shells)};
+}
+
+} // namespace
+
+Mask body(const volume::Volume &volume, double marginMm, const task::Progress &progress) {
+    const Patient patient = patientOf(volume, progress.part(0.0, 0.9));
+    return patient.withMargin(volume.lattice(), marginMm, progress.part(0.9, 1.0));
+}
+
+Mask skin(const volume::Volume &volume, double depthMm, double marginMm,
+          const task::Progress &progress) {
+    const Patient patient = patientOf(volume, progress.part(0.0, 0.7));
+    // At least one sample deep, because coarse volumes would otherwise have no skin.
+    const double depth = std::max(depthMm, 1.01 * volume.lattice().shortestStepMm());
+    const Mask deep = eroded(volume.lattice(), patient.inside, depth, progress.part(0.7, 0.85));
+    Mask skin = patient.withMargin(volume.lattice(), marginMm, progress.part(0.85, 1.0));
+    remove(deep, skin);
+    return skin;
+}
+
+} // namespace pellucid::preprocess
