@@ -162,6 +162,8 @@ FrameBlock frameBlock(const render::FrameInputs &inputs, const scene::ImageDefin
     setSlice(block, inputs);
     block.reconstruction = int(image.reconstruction);
     block.rollOff = float(image.rollOff);
+    block.detail = float(inputs.radial.detail);
+    block.detailWidth = float(inputs.radial.detailWidth);
     block.tilesPerSide = inputs.widths ? inputs.widths->tiles : 0;
     block.slabStep = texels.slabStep;
     block.padded = {layout.padded.i, layout.padded.j, layout.padded.k};

@@ -37,6 +37,7 @@ struct FrameBlock {
     std::int32_t columnStages, rowStages;
     std::int32_t columnRotations, rowRotations, unpackRotations;
     float rollOff, unit, cueBase;
+    float detail, detailWidth;             ///< see render::RadialFactors
     alignas(16) Four<std::int32_t> padded; // std140 aligns vectors to their size
     Four<std::int32_t> firstCell;
     Four<float> inversePadded, edgeSlack, perMoment;

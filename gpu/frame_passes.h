@@ -22,6 +22,7 @@ class CardPicture {
 public:
     int width() const { return m_width; }
     int height() const { return m_height; }
+    double pixelMm() const { return m_pixelMm; }
     /// Channels of the picture, 1 or 3, and the images that they are mixed from.
     int channels() const { return m_channels; }
     int layers() const { return m_layers; }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/picture/compose.h"
+#include "core/picture/display.h"
+#include "gpu/contrast_passes.h"
 #include "gpu/frame_passes.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
@@ -17,18 +18,20 @@ public:
 
     void upload(const picture::ProjectionImage &image);
     /// Draws the last uploaded image over the whole viewport.
-    void draw(const picture::ToneRange &range, bool inverted) const;
+    void draw(const picture::Display &display);
     /// Draws a picture that is already on the card.
-    void draw(const CardPicture &picture, const picture::ToneRange &range, bool inverted) const;
+    void draw(const CardPicture &picture, const picture::Display &display);
+    /// Frees the memory of contrast; the next picture allocates it again.
+    void releaseContrast() { m_contrast.release(); }
 
 private:
-    void draw(unsigned texture, int layers, const CardPicture::Colors &colors,
-              const picture::ToneRange &range, bool inverted) const;
+    void draw(const PictureTexture &picture, const picture::Display &display);
 
     Program m_program;
+    ContrastPasses m_contrast;
     PixelTexture m_texture;
+    double m_pixelMm = 1.0; ///< of the uploaded image
     VertexArrayName m_vertexArray;
-    int m_range, m_inverted, m_layers, m_colors;
 };
 
 } // namespace pellucid::gpu

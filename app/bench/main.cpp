@@ -90,6 +90,7 @@ const std::vector<std::pair<std::string, RunSuite>> &suites() {
         {"classes", alone(runClassesSuite)},
         {"shading", alone(runShadingSuite)},
         {"planes", alone(runPlanesSuite)},
+        {"radiograph", alone(runRadiographSuite)},
         {"gpu", alone(runGpuSuite)},
         {"search",
          [](const Report &report, const Subject *, const Options &options) {

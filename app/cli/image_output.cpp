@@ -6,6 +6,7 @@
 #include "core/files/image_files.h"
 #include "core/picture/compose.h"
 #include "core/picture/projection_volume.h"
+#include "core/scene/positioner_angles.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 
@@ -42,12 +43,20 @@ void checkOutput(const fs::path &out, bool isGrey) {
                     because::inWords("-o: colored pictures are written as .png, .npy or .dcm"));
 }
 
+bool isDisplayed(const fs::path &out) {
+    const OutputKind kind = outputKind(out);
+    return kind == OutputKind::png || kind == OutputKind::capture;
+}
+
 void writeImage(const fs::path &path, const picture::ProjectionImage &image,
                 const scene::Scene &scene, const volume::Lattice &patient,
                 const dicom::CaptureLabels &labels) {
+    const auto shown = [&] {
+        return picture::compose(image, picture::displayOf(scene.tone, scene.camera.orientation));
+    };
     switch (outputKind(path)) {
     case OutputKind::png:
-        files::writePng(path, picture::compose(image, scene.tone), image.height, image.width);
+        files::writePng(path, shown(), image.height, image.width);
         break;
     case OutputKind::npy:
         files::writeNpy(path, image.samples, image.height, image.width, image.channels);
@@ -57,8 +66,9 @@ void writeImage(const fs::path &path, const picture::ProjectionImage &image,
         of.pixelMm = scene.camera.pixelMm;
         of.patientOrientation =
             scene::dicomOrientation(scene.camera.axes()[0], scene.camera.axes()[1]);
-        dicom::writeCapture(path, picture::compose(image, scene.tone), image.height, image.width,
-                            of);
+        const scene::PositionerAngles angles = scene::positionerAngles(scene.camera.orientation);
+        of.positionerDeg = {angles.primaryDeg, angles.secondaryDeg};
+        dicom::writeCapture(path, shown(), image.height, image.width, of);
         break;
     }
     case OutputKind::nrrd:

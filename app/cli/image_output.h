@@ -13,8 +13,12 @@ namespace pellucid::cli {
 /// picture.
 void checkOutput(const std::filesystem::path &out, bool isGrey);
 
-/// Writes a projection: as a picture through the scene's tone (.png, .dcm), or its values (.npy,
-/// .nrrd). `labels`: for a Secondary Capture. *Throws* Error{output}, Error{usage} for a kind that
+/// Whether the file shows the picture through the scene's tone, as .png and .dcm do; the others
+/// hold its values.
+bool isDisplayed(const std::filesystem::path &out);
+
+/// Writes a projection: as a picture through the scene's tone, whose exposure is known, or its
+/// values. `labels`: for a Secondary Capture. *Throws* Error{output}, Error{usage} for a kind that
 /// cannot hold it.
 void writeImage(const std::filesystem::path &path, const picture::ProjectionImage &image,
                 const scene::Scene &scene, const volume::Lattice &patient,

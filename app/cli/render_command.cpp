@@ -180,6 +180,9 @@ private:
                 m_scene.camera.orientation;
             const picture::ProjectionImage image = imageOf(turned.camera);
             takeErrors(frame == 0);
+            if (isDisplayed(m_options.out) && !m_scene.tone.exposure)
+                m_scene.tone.exposure = m_renderer->exposure(picture::backgroundOf(volume()));
+            turned.tone = m_scene.tone;
             task::Progress(m_context.stop).check();
             Stopwatch watch;
             labels.instanceNumber = frame + 1;

@@ -11,6 +11,7 @@
 #include "app/cli/commands.h"
 #include "core/accuracy/view_error.h"
 #include "core/classify/shown_fields.h"
+#include "core/picture/exposure.h"
 #include "core/prepare/prepared_engine.h"
 #include "gpu/gpu_engine.h"
 
@@ -49,6 +50,12 @@ public:
 
     /// `times` receives the times of this image, all channels together.
     picture::ProjectionImage image(const scene::Camera &camera, picture::FrameTimes &times);
+
+    /// The exposure of the scene's study, for its contrast.
+    scene::Exposure exposure(picture::Background background) const {
+        return picture::measureExposure(*m_engine, m_lattice.radiusMm(), m_scene.image,
+                                        m_scene.shading, m_scene.tone, background);
+    }
 
     /// Describes the engine that makes the images, one line.
     std::string description() const;

@@ -13,7 +13,9 @@
 #include "app/cli/input.h"
 #include "app/cli/look_options.h"
 #include "app/cli/segment_options.h"
+#include "core/classify/couch.h"
 #include "core/files/read_text.h"
+#include "core/scene/positioner_angles.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
 
@@ -91,14 +93,24 @@ void addCameraOptions(CLI::App &command, SceneOptions &options) {
                             .add_option("--roll", options.rollDeg,
                                         "Roll the view about the line of sight, in degrees")
                             ->check(finite());
+    CLI::Option *orientation =
+        command
+            .add_option("--orientation", options.orientation,
+                        "Quaternion w,x,y,z of the rotation whose columns are the image axes "
+                        "(right, up, toward the viewer)")
+            ->excludes(view)
+            ->excludes(azimuth)
+            ->excludes(elevation)
+            ->excludes(roll);
     command
-        .add_option("--orientation", options.orientation,
-                    "Quaternion w,x,y,z of the rotation whose columns are the image axes "
-                    "(right, up, toward the viewer)")
+        .add_option("--carm", options.carm,
+                    "The view as angles of a C-arm, such as LAO30,CRA20: LAO or RAO, CRA or CAU; "
+                    "AP and PA are the front and the back")
+        ->check(notEmpty())
         ->excludes(view)
         ->excludes(azimuth)
         ->excludes(elevation)
-        ->excludes(roll);
+        ->excludes(orientation);
     command.add_option("--size", options.size,
                        "Image size WIDTHxHEIGHT in pixels; default: large enough for every view");
     command
@@ -122,6 +134,8 @@ void addLookOptions(CLI::App &command, SceneOptions &options) {
                     "NAME=WEIGHT[:#rrggbb]: show only the named classes, each with a weight "
                     "from 0 to 2; may be repeated")
         ->allow_extra_args(false);
+    command.add_flag("--without-couch", options.isWithoutCouch,
+                     "Show only the patient, in every class of the volume");
     CLI::Option *segmentation =
         command
             .add_option("--segmentation", options.segmentations,
@@ -136,6 +150,21 @@ void addLookOptions(CLI::App &command, SceneOptions &options) {
         ->allow_extra_args(false)
         ->needs(segmentation);
     addPointOption(command, options.points);
+}
+
+void addDisplayOptions(CLI::App &command, SceneOptions &options) {
+    command
+        .add_option(
+            "--detail", options.detail,
+            "A or A,MM: amplify structures finer than MM (default 2) by up to 1 + A, A from "
+            "0 to 4; a linear filter, of values too")
+        ->check(notEmpty());
+    command
+        .add_option("--contrast", options.contrast,
+                    "DETAIL,LATITUDE: multi-scale contrast of .png and .dcm, each 0 to 1, or "
+                    "'none'; default: chosen from the study")
+        ->check(notEmpty());
+    command.add_flag("--film", options.isFilm, "Inverted, as a film: bone is dark");
 }
 
 void addShadingOptions(CLI::App &command, SceneOptions &options) {
@@ -223,6 +252,10 @@ void setOrientation(scene::Camera &camera, const SceneOptions &o, const CLI::App
             throw Error(ErrorCode::usage,
                         because::inWords("--orientation: the quaternion must not be zero"));
         camera.orientation = glm::normalize(rotation);
+    } else if (isGiven(command, "--carm")) {
+        const scene::PositionerAngles angles = scene::positionerAnglesFromText(o.carm);
+        camera.orientation = scene::viewOrientation(
+            scene::StandardView::front, {angles.primaryDeg, angles.secondaryDeg, o.rollDeg});
     } else if (o.scene.empty() || isGiven(command, "--view") || isGiven(command, "--azimuth") ||
                isGiven(command, "--elevation") || isGiven(command, "--roll")) {
         camera.orientation =
@@ -277,6 +310,9 @@ void setLook(scene::Scene &scene, const SceneOptions &o, const CLI::App &command
         scene.look = presets::lookFor(
             *preset, scene.fieldWindow.value_or(classify::defaultFieldWindow(volume)));
     changeLook(scene.look, o);
+    if (o.isWithoutCouch)
+        classify::removeCouch(scene.look,
+                              scene.fieldWindow.value_or(classify::defaultFieldWindow(volume)));
     if (segments != nullptr)
         showSegments(scene.look, o, *segments);
     addPoints(scene.look, o.points, volume.lattice());
@@ -294,6 +330,29 @@ void setShading(scene::Scene &scene, const SceneOptions &o, const CLI::App &comm
             light.direction = axes * glm::normalize(light.direction);
             light.frame = shading::LightFrame::patient;
         }
+}
+
+void setDisplay(scene::Scene &scene, const SceneOptions &o, const CLI::App &command) {
+    if (isGiven(command, "--detail")) {
+        const bool hasSize = o.detail.find(',') != std::string::npos;
+        const auto n = parseNumbers("--detail", o.detail, ',', hasSize ? 2 : 1);
+        scene.image.detail = n[0];
+        if (hasSize)
+            scene.image.detailMm = n[1];
+        scene.tone.exposure.reset();
+    }
+    if (o.isFilm)
+        scene.tone.inverted = true;
+    if (!isGiven(command, "--contrast"))
+        return;
+    if (o.contrast == "none") {
+        scene.tone.detail = scene.tone.latitude = 0.0;
+    } else {
+        const auto n = parseNumbers("--contrast", o.contrast, ',', 2);
+        scene.tone.detail = n[0];
+        scene.tone.latitude = n[1];
+    }
+    scene.tone.exposure.reset(); // of another contrast
 }
 
 void setQuality(scene::Scene &scene, const SceneOptions &o, const CLI::App &command) {
@@ -322,6 +381,7 @@ void setQuality(scene::Scene &scene, const SceneOptions &o, const CLI::App &comm
 void addSceneOptions(CLI::App &command, SceneOptions &options) {
     addCameraOptions(command, options);
     addLookOptions(command, options);
+    addDisplayOptions(command, options);
     addShadingOptions(command, options);
     addQualityOptions(command, options);
     command.add_option("--crop", options.crop,
@@ -350,6 +410,7 @@ scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
         scene.crop = {{n[0], n[2], n[4]}, {n[1], n[3], n[5]}};
     }
     setQuality(scene, o, command);
+    setDisplay(scene, o, command);
     scene::validate(scene);
     return scene;
 }

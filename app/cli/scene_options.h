@@ -17,8 +17,9 @@ namespace pellucid::cli {
 
 /// The options for what a projection shows, as typed.
 struct SceneOptions {
-    std::string scene, preset, view, orientation, size, window, bezier, reconstruction, quality,
-        kernel, storage, depthCue, lightFrame, crop;
+    bool isFilm = false, isWithoutCouch = false;
+    std::string carm, contrast, detail, scene, preset, view, orientation, size, window, bezier,
+        reconstruction, quality, kernel, storage, depthCue, lightFrame, crop;
     bool isUniform = false, weightsAreOptional = false; ///< the latter: of --class
     std::vector<std::string> classes, lights, segmentations, segments, points;
     double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0, pixelMm = 0.0, rollOff = -1.0,

@@ -55,15 +55,18 @@ double relativeError(double energy, double error) {
 ViewErrorModel::ViewErrorModel(const plan::RenderPlan &plan,
                                std::span<const plan::FieldSummary> fields)
     : m_fields(coarseFields(plan, fields)), m_fieldOfView(plan.fieldOfView),
-      m_bound(plan.predictedError), m_together(plan.together) {}
+      m_bound(plan.predictedError / scene::detailGain(plan.image)), m_together(plan.together) {}
 
 PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
                                      const scene::Camera &camera,
                                      const scene::ImageDefinition &image,
                                      const render::EngineParts &engine,
                                      const shading::Shading &shading) const {
+    // What follows is predicted for the image without amplified detail. The shown picture has at
+    // least the energy of that.
+    const double gain = scene::detailGain(image);
     if (picture.samples.empty())
-        return {m_bound, true};
+        return {gain * m_bound, true};
     const std::vector<render::ChannelWeights> &channelWeights = engine.channelWeights;
     // Without light the weights do not depend on R and the step.
     const shading::SliceShading slices = shading::sliceShading(shading, camera.axes(), {});
@@ -92,8 +95,8 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
         isAsPlanned = isAsPlanned && std::count_if(channelWeights.begin(), channelWeights.end(),
                                                    isShown) <= m_together;
     }
-    const double estimate = relativeError(energy, error);
-    return {isWhole && isAsPlanned ? std::min(m_bound, estimate) : estimate, isWhole};
+    const double estimate = relativeError(energy, gain * gain * error);
+    return {isWhole && isAsPlanned ? std::min(gain * m_bound, estimate) : estimate, isWhole};
 }
 
 } // namespace pellucid::accuracy

@@ -15,14 +15,17 @@ namespace {
 // samples within it.
 enum class Beyond { zero, mean };
 
-volume::Volume blockMeans(const volume::Field &field, int side, Beyond beyond,
-                          volume::ValueUnit unit) {
+// The samples of a block along each axis, so that there are at most `side` blocks.
+std::array<int, 3> blocksOf(const volume::GridSize &size, int side) {
+    return {(size.i + side - 1) / side, (size.j + side - 1) / side, (size.k + side - 1) / side};
+}
+
+volume::Volume blockMeans(const volume::Field &field, const std::array<int, 3> &block,
+                          Beyond beyond, volume::ValueUnit unit) {
     const volume::Lattice &fine = field.lattice();
-    std::array<int, 3> block{}, count{};
-    for (int d = 0; d < 3; ++d) {
-        block[d] = (fine.size()[d] + side - 1) / side;
+    std::array<int, 3> count{};
+    for (int d = 0; d < 3; ++d)
         count[d] = (fine.size()[d] + block[d] - 1) / block[d];
-    }
     // Blocks are symmetric about the centre of the lattice, so that both fields rotate about the
     // same point. The outer blocks may extend beyond the last sample, where the field is zero.
     glm::dvec3 firstBlock;
@@ -76,11 +79,16 @@ volume::Volume blockMeans(const volume::Field &field, int side, Beyond beyond,
 } // namespace
 
 DensityField coarseField(const DensityField &field, int side) {
-    return fieldOf(blockMeans(field.values, side, Beyond::zero, volume::ValueUnit::none));
+    return fieldOf(blockMeans(field.values, blocksOf(field.values.lattice().size(), side),
+                              Beyond::zero, volume::ValueUnit::none));
 }
 
 volume::Volume coarseVolume(const volume::Volume &volume, int side) {
-    return blockMeans(volume, side, Beyond::mean, volume.unit());
+    return blockMeans(volume, blocksOf(volume.lattice().size(), side), Beyond::mean, volume.unit());
+}
+
+volume::Volume coarseVolume(const volume::Volume &volume, const std::array<int, 3> &block) {
+    return blockMeans(volume, block, Beyond::mean, volume.unit());
 }
 
 } // namespace pellucid::classify

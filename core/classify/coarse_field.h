@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+
 #include "core/classify/density_field.h"
 
 namespace pellucid::classify {
@@ -11,5 +13,8 @@ DensityField coarseField(const DensityField &field, int side);
 
 /// The values of a volume as means of blocks, which look the same from a distance.
 volume::Volume coarseVolume(const volume::Volume &volume, int side);
+/// The same with blocks of that many samples along each axis. The blocks together are symmetric
+/// about the middle of the volume.
+volume::Volume coarseVolume(const volume::Volume &volume, const std::array<int, 3> &block);
 
 } // namespace pellucid::classify

@@ -14,8 +14,9 @@ bool isOfTheVolume(const TissueClass &tissue) {
 }
 
 bool isOfTheBody(const TissueClass &tissue) {
-    return std::any_of(tissue.steps.begin(), tissue.steps.end(),
-                       [](const Step &step) { return step.kind == StepKind::body; });
+    return std::any_of(tissue.steps.begin(), tissue.steps.end(), [](const Step &step) {
+        return step.kind == StepKind::body || step.kind == StepKind::skin;
+    });
 }
 
 // The class that shows only the patient, in place of the whole volume.

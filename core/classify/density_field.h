@@ -13,7 +13,9 @@ struct FieldWindow {
     bool operator==(const FieldWindow &) const = default;
 };
 
-/// -900..2000 HU for CT, which hides air and its noise; for differences from 0 to the largest
+/// Of CT, in HU: hides air and its noise.
+inline constexpr FieldWindow ctFieldWindow{-900.0, 2000.0};
+/// `ctFieldWindow` for CT; for differences from 0 to the largest
 /// 0.5 % of their magnitudes; for other volumes the 0.5 and 99.5 % quantiles of the finite samples.
 FieldWindow defaultFieldWindow(const volume::Volume &volume);
 

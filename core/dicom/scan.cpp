@@ -59,6 +59,7 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
     const InstanceHeader &h = *headers.at(entry.frames.front().path);
     entry.notes.title = h.seriesDescription.empty() ? h.modality : h.seriesDescription;
     entry.notes.modality = h.modality;
+    entry.notes.bodyPart = h.bodyPart;
     // If images have their own windows, the middle image's are used: the first image is often
     // noise.
     entry.notes.windows = headers.at(entry.frames[entry.frames.size() / 2].path)->windows;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -21,7 +23,10 @@ struct CaptureLabels {
     int seriesNumber = 9001, instanceNumber = 1;
     std::string patientOrientation; ///< of rows and columns, "L\F"; may be empty
     double pixelMm = 0.0;           ///< in the plane of the picture; 0: unknown
-    bool isDeidentified = false;    ///< the file states it
+    /// Positioner Primary and Secondary Angle of a projection, degrees; none: not one of a patient.
+    std::optional<std::array<double, 2>> positionerDeg;
+    bool isDeidentified = false;   ///< the file states it
+    bool isNamedInPicture = false; ///< the pixels identify the patient
 };
 
 /// The same without identifying attributes: removes, empties or replaces what the Basic Application
@@ -35,7 +40,7 @@ CaptureLabels captureLabels(const Selection &selection);
 std::string newSeriesUid();
 
 /// Writes a picture as a Secondary Capture Image (PS3.3 A.8.1) in explicit little endian: 8-bit
-/// grey if all its pixels are grey, else RGB; marked as derived, without burned-in annotation, and
+/// grey if all its pixels are grey, else RGB; marked as derived, and
 /// "Not for diagnostic use". *Shape*: height x width x 4, RGBA, rows from the top; alpha is
 /// ignored. The file appears only when complete. *Throws* Error{output}.
 void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,

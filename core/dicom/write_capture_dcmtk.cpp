@@ -7,6 +7,7 @@
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/dcmdata/dctk.h>
+#include <fmt/format.h>
 
 #include "core/dcmtk/dictionary.h"
 #include "core/dicom/write_dataset.h"
@@ -95,7 +96,11 @@ void putIdentity(DcmDataset &d, const CaptureLabels &labels) {
     put(d, DCM_SeriesNumber, std::to_string(labels.seriesNumber));
     put(d, DCM_InstanceNumber, std::to_string(labels.instanceNumber));
     put(d, DCM_PatientOrientation, labels.patientOrientation);
-    put(d, DCM_BurnedInAnnotation, "NO");
+    if (labels.positionerDeg) {
+        put(d, DCM_PositionerPrimaryAngle, fmt::format("{:.4f}", (*labels.positionerDeg)[0]));
+        put(d, DCM_PositionerSecondaryAngle, fmt::format("{:.4f}", (*labels.positionerDeg)[1]));
+    }
+    put(d, DCM_BurnedInAnnotation, labels.isNamedInPicture ? "YES" : "NO");
 }
 
 void putPixels(DcmDataset &d, std::span<const std::uint8_t> rgba, int height, int width) {

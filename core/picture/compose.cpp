@@ -2,67 +2,58 @@
 #include "core/picture/compose.h"
 
 #include <algorithm>
-#include <span>
+#include <optional>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/picture/contrast.h"
+#include "core/picture/contrast_rows.h"
 #include "core/picture/tone_pixels.h"
 
 namespace pellucid::picture {
 
-namespace {
-
-// The brightest channel of each pixel.
-Samples brightness(const ProjectionImage &image) {
+Samples brightnessOf(const ProjectionImage &image) {
     if (image.channels == 1)
         return image.samples;
     Samples most(image.samples.size() / std::size_t(image.channels));
-    for (std::size_t n = 0; n < most.size(); ++n) {
-        const float *const pixel = image.samples.data() + n * std::size_t(image.channels);
-        most[n] = *std::max_element(pixel, pixel + image.channels);
+    for (int row = 0; row < image.height; ++row) {
+        const std::size_t first = std::size_t(row) * std::size_t(image.width);
+        brightest(image.samples.data() + first * std::size_t(image.channels), image.width,
+                  image.channels, most.data() + first);
     }
     return most;
 }
 
-double automaticHigh(std::span<const float> pixels) {
-    // Pixels outside the patient are no measure of the patient's brightness.
-    float brightest = 0.0F;
-    for (const float p : pixels)
-        brightest = std::max(brightest, p);
-    std::vector<float> inside;
-    for (const float p : pixels)
-        if (p > 1e-3F * brightest)
-            inside.push_back(p);
-    if (inside.empty())
-        return 0.0;
-    const auto at = inside.begin() + std::ptrdiff_t(0.998 * double(inside.size() - 1));
-    std::nth_element(inside.begin(), at, inside.end());
-    return *at;
-}
-
-} // namespace
-
-ToneRange toneRange(const ProjectionImage &image, const scene::Tone &tone) {
-    ToneRange range{tone.low.value_or(0.0),
-                    tone.high ? *tone.high : automaticHigh(brightness(image))};
-    if (!(range.high > range.low))
-        range.high = range.low + 1.0;
-    return range;
-}
-
-Pixels compose(const ProjectionImage &image, const scene::Tone &tone, PixelOrder order) {
-    const ToneRange range = toneRange(image, tone);
-    const ToneCurve curve{float(range.low), float(1.0 / (range.high - range.low)), tone.inverted,
-                          order == PixelOrder::bgra};
-    const auto channels = std::size_t(image.channels);
-    const std::size_t pixels = image.samples.size() / channels;
-    Pixels bytes(4 * pixels);
-    constexpr std::size_t block = 1U << 14U;
-    tbb::parallel_for(std::size_t(0), (pixels + block - 1) / block, [&](std::size_t n) {
-        const std::size_t first = n * block;
-        tonePixels(image.samples.data() + channels * first, std::min(block, pixels - first),
-                   image.channels, curve, bytes.data() + 4 * first);
-    });
+Pixels compose(const ProjectionImage &image, const Display &display, PixelOrder order) {
+    const ToneRange &range = display.range;
+    const ToneCurve curve{.low = float(range.low),
+                          .scale = float(1.0 / (range.high - range.low)),
+                          .exponent = float(display.exponent),
+                          .air = float(display.air),
+                          .airBelow = float(std::max(0.0, display.airBelow)),
+                          .inverted = display.inverted,
+                          .blueFirst = order == PixelOrder::bgra};
+    std::optional<ContrastCorrection> correction;
+    if (!display.contrast.isOff() && image.width > 0 && image.height > 0)
+        correction.emplace(image, display);
+    const auto channels = std::size_t(image.channels), width = std::size_t(image.width);
+    Pixels bytes(4 * width * std::size_t(image.height));
+    constexpr std::size_t pixelsAtOnce = 1U << 14U;
+    const int grain = int(std::max<std::size_t>(1, pixelsAtOnce / std::max<std::size_t>(1, width)));
+    tbb::parallel_for(tbb::blocked_range<int>(0, image.height, std::size_t(grain)),
+                      [&](const auto &rows) {
+                          std::vector<float> corrections(
+                              correction ? width + std::size_t(ContrastCorrection::slack) : 0);
+                          for (int row = rows.begin(); row < rows.end(); ++row) {
+                              const std::size_t first = std::size_t(row) * width;
+                              if (correction)
+                                  correction->row(row, corrections.data());
+                              tonePixels(image.samples.data() + channels * first,
+                                         correction ? corrections.data() : nullptr, width,
+                                         image.channels, curve, bytes.data() + 4 * first);
+                          }
+                      });
     return bytes;
 }
 

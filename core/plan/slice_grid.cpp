@@ -23,7 +23,10 @@ double reachPixels(const scene::Camera &camera, const FieldOfView &fieldOfView,
     double radiusMm = 0.0;
     for (const auto &spread : fieldOfView.spreads)
         radiusMm = std::max(radiusMm, spread->radiusMm);
-    return (radiusMm + scene::reconstructionReach(image) * lattice.longestStepMm()) /
+    // The filter that amplifies detail falls by e every `detailMm`.
+    constexpr double folds = 6.0;
+    const double filterMm = image.detail > 0.0 ? folds * image.detailMm : 0.0;
+    return (radiusMm + scene::reconstructionReach(image) * lattice.longestStepMm() + filterMm) /
            camera.pixelMm;
 }
 

@@ -93,9 +93,11 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                                     std::move(coarse), reduction};
                 plan::RenderPlan &plan = fitting.plan;
                 plan.predictedError =
-                    std::hypot(plan.predictedError, composition.errorFactor() * lost);
+                    std::hypot(plan.predictedError,
+                               scene::detailGain(scene.image) * composition.errorFactor() * lost);
                 plan.predictedMaximum =
-                    std::max(plan.predictedMaximum, composition.together * lost);
+                    std::max(plan.predictedMaximum,
+                             (1.0 + 2.0 * scene.image.detail) * composition.together * lost);
                 plan.bytes += held;
                 const volume::GridSize size =
                     fitting.reduced->fields.front().values.lattice().size();
@@ -204,9 +206,11 @@ std::optional<double> errorOf(const PreparedEngine &prepared,
         prepared.viewError
             ? prepared.viewError->errorOf(picture, camera, image, parts, shading).relative
             : prepared.plan.predictedError;
-    return prepared.isCoarse ? std::hypot(fieldError, prepared.detailLoss->relativeError(
-                                                          picture, parts.channelWeights, shading))
-                             : fieldError;
+    if (!prepared.isCoarse)
+        return fieldError;
+    return std::hypot(
+        fieldError, scene::detailGain(image) *
+                        prepared.detailLoss->relativeError(picture, parts.channelWeights, shading));
 }
 
 std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double fieldError,
@@ -215,8 +219,9 @@ std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double f
         return fieldError;
     if (!prepared.detailLoss)
         return std::nullopt;
-    return std::hypot(fieldError, prepared.detailLoss->relativeError(
-                                      prepared.engine->parts().channelWeights, shading));
+    return std::hypot(fieldError, scene::detailGain(prepared.plan.image) *
+                                      prepared.detailLoss->relativeError(
+                                          prepared.engine->parts().channelWeights, shading));
 }
 
 PreparedEngine withoutLight(const PreparedEngine &prepared) {

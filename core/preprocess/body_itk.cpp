@@ -2,6 +2,8 @@
 #include "core/preprocess/body.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include <itkBinaryFillholeImageFilter.h>
@@ -11,6 +13,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/classify/coarse_field.h"
 #include "core/preprocess/itk_images_itk.inc"
 #include "core/preprocess/morphology.h"
 #include "core/preprocess/parts.h"
@@ -147,9 +150,117 @@ Mask filledSlices(const volume::Lattice &lattice, const Mask &mask,
     return samplesOf(*slices->GetOutput());
 }
 
-} // namespace
+// Which parts are round and solid in their slices, as a limb is and a board, a holder or the shell
+// of a couch is not.
+std::vector<std::uint8_t> limbsAmong(const volume::Lattice &lattice, const Parts &parts,
+                                     const Mask &tissue) {
+    constexpr double leastAspect = 0.3, leastFilled = 0.5, leastTissue = 0.7, leastMl = 20.0;
+    struct Slice {
+        int minI = 0, maxI = -1, minJ = 0, maxJ = -1;
+        std::size_t count = 0;
+    };
+    struct Sums {
+        double aspect = 0.0, filled = 0.0;
+        std::size_t slices = 0, count = 0, ofTissue = 0;
+    };
+    const volume::GridSize size = lattice.size();
+    std::vector<Sums> sums(parts.count + 1);
+    std::size_t n = 0;
+    for (int k = 0; k < size.k; ++k) {
+        std::vector<Slice> slices(parts.count + 1);
+        for (int j = 0; j < size.j; ++j)
+            for (int i = 0; i < size.i; ++i, ++n) {
+                const std::uint32_t label = parts.labels[n];
+                if (label == 0)
+                    continue;
+                Slice &slice = slices[label];
+                if (slice.count++ == 0)
+                    slice = {i, i, j, j, 1};
+                slice.minI = std::min(slice.minI, i);
+                slice.maxI = std::max(slice.maxI, i);
+                slice.maxJ = j; // rows come in order
+                ++sums[label].count;
+                sums[label].ofTissue += tissue[n];
+            }
+        for (std::size_t label = 1; label < slices.size(); ++label) {
+            const Slice &slice = slices[label];
+            if (slice.count == 0)
+                continue;
+            const double across = (slice.maxI - slice.minI + 1) * lattice.spacingMm(0),
+                         down = (slice.maxJ - slice.minJ + 1) * lattice.spacingMm(1);
+            const double area = double(slice.count) * lattice.spacingMm(0) * lattice.spacingMm(1);
+            sums[label].aspect += std::min(across, down) / std::max(across, down);
+            sums[label].filled += area / (across * down);
+            ++sums[label].slices;
+        }
+    }
+    const double voxelMl = lattice.cellVolumeMm3() / 1000.0;
+    std::vector<std::uint8_t> areLimbs(parts.count + 1);
+    for (std::size_t label = 1; label < sums.size(); ++label) {
+        const Sums &of = sums[label];
+        areLimbs[label] = double(of.count) * voxelMl >= leastMl &&
+                          double(of.ofTissue) >= leastTissue * double(of.count) &&
+                          of.aspect >= leastAspect * double(of.slices) &&
+                          of.filled >= leastFilled * double(of.slices);
+    }
+    return areLimbs;
+}
 
-namespace {
+// The trunk or head, and limbs beside it.
+Mask thickPartsOfPatient(const volume::Lattice &lattice, const Mask &thick, const Mask &tissue,
+                         const task::Progress &progress) {
+    const Parts parts = partsOf(lattice, thick, "body", progress);
+    std::vector<std::size_t> counts(parts.count + 1);
+    for (const std::uint32_t label : parts.labels)
+        ++counts[label];
+    std::vector<std::uint8_t> isPatient = limbsAmong(lattice, parts, tissue);
+    if (parts.count > 0)
+        isPatient[std::size_t(std::max_element(counts.begin() + 1, counts.end()) -
+                              counts.begin())] = 1;
+    Mask patient(thick.size());
+    for (std::size_t n = 0; n < patient.size(); ++n)
+        patient[n] = isPatient[parts.labels[n]];
+    return patient;
+}
+
+Mask tissueOf(const volume::Volume &volume) {
+    const double threshold = airThreshold(volume);
+    Mask tissue(volume.lattice().size().count());
+    volume.visit([&](auto samples) {
+        for (std::size_t n = 0; n < tissue.size(); ++n)
+            tissue[n] = double(samples[n]) > threshold;
+    });
+    return tissue;
+}
+
+// Means of at most `largestMm`, which the body is found in.
+std::array<int, 3> blocksWithin(const volume::Lattice &lattice, double largestMm) {
+    std::array<int, 3> block{};
+    for (int d = 0; d < 3; ++d)
+        block[std::size_t(d)] = std::max(1, int(largestMm / lattice.spacingMm(d)));
+    return block;
+}
+
+// A mask of means, on the samples.
+Mask onSamples(const Mask &coarse, const volume::GridSize &blocks, const std::array<int, 3> &block,
+               const volume::GridSize &size) {
+    std::array<std::vector<std::size_t>, 3> at;
+    for (int d = 0; d < 3; ++d) {
+        const double first = 0.5 * (size[d] - 1) - 0.5 * (blocks[d] - 1) * block[std::size_t(d)];
+        for (int n = 0; n < size[d]; ++n)
+            at[std::size_t(d)].push_back(std::size_t(std::clamp(
+                int(std::floor((n - first) / block[std::size_t(d)] + 0.5)), 0, blocks[d] - 1)));
+    }
+    Mask mask(size.count());
+    std::size_t n = 0;
+    for (const std::size_t k : at[2])
+        for (const std::size_t j : at[1]) {
+            const std::size_t row = (k * std::size_t(blocks.j) + j) * std::size_t(blocks.i);
+            for (const std::size_t i : at[0])
+                mask[n++] = coarse[row + i];
+        }
+    return mask;
+}
 
 // The patient without a margin, and the shells around.
 struct Patient {
@@ -166,16 +277,11 @@ struct Patient {
 
 Patient patientOf(const volume::Volume &volume, const task::Progress &progress) {
     const volume::Lattice &lattice = volume.lattice();
-    const double threshold = airThreshold(volume);
-    Mask tissue(lattice.size().count());
-    volume.visit([&](auto samples) {
-        for (std::size_t n = 0; n < tissue.size(); ++n)
-            tissue[n] = double(samples[n]) > threshold;
-    });
+    Mask tissue = tissueOf(volume);
     // Slices are filled first, because an opening would connect the lungs to the surrounding air.
     const Mask opened = opening(lattice, filledSlices(lattice, tissue, progress.part(0.0, 0.2)),
                                 couchRadiusMm, progress.part(0.2, 0.6));
-    Mask core = largestPart(lattice, opened, 1.0, progress.part(0.6, 0.7));
+    Mask core = thickPartsOfPatient(lattice, opened, tissue, progress.part(0.6, 0.7));
     Mask shells = volume.unit() == volume::ValueUnit::hounsfield
                       ? shellsOf(volume, core, progress.part(0.7, 0.72))
                       : Mask();
@@ -191,8 +297,32 @@ Patient patientOf(const volume::Volume &volume, const task::Progress &progress) 
 } // namespace
 
 Mask body(const volume::Volume &volume, double marginMm, const task::Progress &progress) {
-    const Patient patient = patientOf(volume, progress.part(0.0, 0.9));
-    return patient.withMargin(volume.lattice(), marginMm, progress.part(0.9, 1.0));
+    // The margin hides the means' rounding.
+    constexpr double largestMeanMm = 2.0;
+    const auto block = blocksWithin(volume.lattice(), largestMeanMm);
+    if (block == std::array{1, 1, 1}) {
+        const Patient patient = patientOf(volume, progress.part(0.0, 0.9));
+        return patient.withMargin(volume.lattice(), marginMm, progress.part(0.9, 1.0));
+    }
+    const volume::Volume coarse = classify::coarseVolume(volume, block);
+    const Patient patient = patientOf(coarse, progress.part(0.0, 0.8));
+    return onSamples(patient.withMargin(coarse.lattice(), marginMm, progress.part(0.8, 0.9)),
+                     coarse.lattice().size(), block, volume.lattice().size());
+}
+
+bool hasCouch(const volume::Volume &volume, const task::Progress &progress) {
+    constexpr double largestMeanMm = 3.0, aroundMm = 4.0, leastMl = 30.0;
+    if (volume.unit() != volume::ValueUnit::hounsfield || volume.notes().isDifference)
+        return false;
+    const volume::Volume coarse =
+        classify::coarseVolume(volume, blocksWithin(volume.lattice(), largestMeanMm));
+    const Patient patient = patientOf(coarse, progress.part(0.0, 0.9));
+    const Mask around = patient.withMargin(coarse.lattice(), aroundMm, progress.part(0.9, 1.0));
+    const Mask tissue = tissueOf(coarse);
+    std::size_t beside = 0;
+    for (std::size_t n = 0; n < tissue.size(); ++n)
+        beside += tissue[n] != 0 && around[n] == 0 ? 1 : 0;
+    return double(beside) * coarse.lattice().cellVolumeMm3() / 1000.0 >= leastMl;
 }
 
 Mask skin(const volume::Volume &volume, double depthMm, double marginMm,

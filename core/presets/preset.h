@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "core/classify/density_field.h"
 #include "core/classify/look.h"
+#include "core/presets/study_traits.h"
 #include "core/shading/shading.h"
 #include "core/task/reason.h"
 
@@ -23,6 +25,8 @@ enum class RangeUnit {
 struct Preset {
     std::string name;
     std::string modality;                        ///< "CT", "MR", ...; empty: any
+    std::set<BodyRegion> regions;                ///< that it is meant for; empty: any
+    bool needsContrast = false;                  ///< it shows contrast medium
     std::optional<classify::FieldWindow> window; ///< not set: the volume's own
     RangeUnit unit = RangeUnit::value;
     classify::Look look;

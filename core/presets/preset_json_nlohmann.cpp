@@ -175,6 +175,11 @@ Preset parsed(const JsonValue &in, const std::string &source) {
         in["name"].refuse(because::mustBeALine(longestName));
     preset.modality = textOrEmpty(in["modality"]);
     preset.notes = textOrEmpty(in["notes"]);
+    if (const JsonValue regions = in["regions"])
+        for (const JsonValue &region : regions.elements())
+            preset.regions.insert(region.checked([&] { return regionFromName(region.text()); }));
+    if (const JsonValue contrast = in["contrast"])
+        preset.needsContrast = contrast.boolean();
     const std::string unit = textOrEmpty(in["units"]);
     if (!unit.empty() && unit != "value" && unit != "window")
         in["units"].refuse(because::mustBeValueOrWindow);
@@ -226,7 +231,7 @@ std::string toJson(const Preset &preset) {
         out = json::object();
     json formerClasses = out.value("classes", json::array());
     for (const char *known : {"transfer_function", "classes", "window", "units", "modality",
-                              "notes", "cue", "ambient", "lights"})
+                              "regions", "contrast", "notes", "cue", "ambient", "lights"})
         out.erase(known);
     out["schema"] = schema;
     out["name"] = preset.name;
@@ -234,6 +239,13 @@ std::string toJson(const Preset &preset) {
         out["modality"] = preset.modality;
     if (!preset.notes.empty())
         out["notes"] = preset.notes;
+    if (!preset.regions.empty()) {
+        out["regions"] = json::array();
+        for (const BodyRegion region : preset.regions)
+            out["regions"].push_back(regionName(region));
+    }
+    if (preset.needsContrast)
+        out["contrast"] = true;
     if (preset.unit == RangeUnit::window)
         out["units"] = "window";
     if (preset.window)

@@ -31,6 +31,9 @@ Period periodOf(const volume::Lattice &lattice, const scene::Camera &camera,
     // The lattice's own band is tapered too: allow three times its length if that is longer.
     if (image.reconstruction == scene::Reconstruction::bandLimited)
         margin *= std::max(1.0, 0.5 * lattice.longestStepMm() / camera.pixelMm);
+    // The filter that amplifies detail falls by e every `detailMm`.
+    if (image.detail > 0.0)
+        margin += 24.0 * image.detailMm / camera.pixelMm;
     const auto pixels = [&](int size, double panMm) {
         const double needed =
             std::max(extent, 0.5 * (extent + size) + std::abs(panMm) / camera.pixelMm);
@@ -72,7 +75,8 @@ std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::La
             if (radius >= 1.0)
                 break;
             const glm::dvec3 s = su * axes[0] + sv * axes[1];
-            double w = scene::rollOffFactor(image.rollOff, radius) * du * dv;
+            double w = scene::rollOffFactor(image.rollOff, radius) *
+                       scene::detailFactor(image, std::hypot(su, sv)) * du * dv;
             for (int d = 0; d < 3; ++d)
                 w *= scene::reconstructionFactor(image, glm::dot(lattice.step(d), s));
             frequencies.push_back(s);

@@ -23,10 +23,10 @@ struct FrameBuffers {
         : team(threads), setup(fieldOfView), scratch(team.slots()) {}
 
     // Prepares for a frame of a picture of so many rows.
-    void fit(const FrameInputs &inputs, double rollOffShare, int imageRows) {
+    void fit(const FrameInputs &inputs, int imageRows) {
         const int all = stripsOf(inputs.grid.columns / 2),
                   count = inputs.widths ? std::min(all, inputs.widths->strips) : all;
-        takeTables(inputs.grid, rollOffShare, count, all);
+        takeTables(inputs.grid, inputs.radial, count, all);
         strips = std::span(tables->strips).first(std::size_t(count));
         const plan::SliceGrid need{std::max(allocated.columns, inputs.grid.columns),
                                    std::max(allocated.rows, inputs.grid.rows)};
@@ -56,9 +56,9 @@ struct FrameBuffers {
     }
 
     // `count`: of strips that are needed, of all.
-    void takeTables(const plan::SliceGrid &grid, double rollOffShare, int count, int all) {
+    void takeTables(const plan::SliceGrid &grid, const RadialFactors &factors, int count, int all) {
         const auto fits = [&](const std::unique_ptr<GridTables> &kept) {
-            return kept && kept->grid == grid && kept->rollOffShare == rollOffShare &&
+            return kept && kept->grid == grid && kept->factors == factors &&
                    int(kept->strips.size()) >= count;
         };
         for (auto &kept : others)
@@ -68,7 +68,7 @@ struct FrameBuffers {
             return;
         // Other views need a few strips more.
         auto made =
-            std::make_unique<GridTables>(grid, rollOffShare, std::min(all, count + count / 4 + 4));
+            std::make_unique<GridTables>(grid, factors, std::min(all, count + count / 4 + 4));
         // The tables that were used before the current ones are dropped.
         others.back() = std::move(others.front());
         others.front() = std::move(tables);
@@ -304,7 +304,7 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
         camera.width, camera.height, camera.pixelMm, {}, inputs.pictureChannels()};
     task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
         if (!inputs.isEmpty())
-            buffers.fit(inputs, image.rollOff, camera.height);
+            buffers.fit(inputs, camera.height);
         result.samples.resize(std::size_t(camera.width) * camera.height *
                               std::size_t(result.channels));
     });

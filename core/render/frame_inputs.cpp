@@ -144,6 +144,7 @@ FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
         return inputs;
     inputs.grid = m_framed.gridFor(camera, m_fieldOfView, spectrum.lattice(), image);
     inputs.geometry = FrameGeometry(camera, inputs.grid, spectrum);
+    inputs.radial = RadialFactors(image, camera.pixelMm);
     inputs.shading = frameShading(slices, inputs.mixing, spectrum, inputs.geometry.toWrap, axes[2],
                                   spectra.scale.stepMm);
     inputs.isShaded = !slices.isPlain();

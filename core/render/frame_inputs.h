@@ -22,6 +22,8 @@ struct FrameInputs {
     std::optional<plan::WidthMap> widths;
     std::shared_ptr<const fourier::KernelsByWidth> kernels;
 
+    RadialFactors radial;
+
     /// Whether nothing is shown, so that the picture is zero.
     bool isEmpty() const { return mixing.sources.empty(); }
     /// 1 for a grey picture, else 3.

@@ -23,8 +23,18 @@ std::vector<std::complex<double>> rotations(int count, double turns) {
     return result;
 }
 
-GridTables::GridTables(const plan::SliceGrid &size, double share, int count)
-    : grid(size), rollOffShare(share), alongRows(size.rows), halfColumns(size.columns / 2) {
+RadialFactors::RadialFactors(const scene::ImageDefinition &image, double pixelMm)
+    : rollOffShare(image.rollOff), detail(image.detail),
+      // The band ends at |s| = 1/(2 pixel).
+      detailWidth(image.detail > 0.0 ? std::numbers::pi * image.detailMm / pixelMm : 0.0) {}
+
+double RadialFactors::at(double radius) const {
+    const double x = radius * detailWidth, u = x * x;
+    return scene::rollOffFactor(rollOffShare, radius) * (1.0 + detail * u / (1.0 + u));
+}
+
+GridTables::GridTables(const plan::SliceGrid &size, const RadialFactors &radial, int count)
+    : grid(size), factors(radial), alongRows(size.rows), halfColumns(size.columns / 2) {
     for (const auto &factor : rotations(size.columns / 2, 1.0 / size.columns))
         unpackReal.emplace_back(factor);
     const auto radius = [&](int column, int row) {
@@ -36,13 +46,13 @@ GridTables::GridTables(const plan::SliceGrid &size, double share, int count)
         StripBounds bounds;
         while (bounds.outerRow + 1 < size.rows / 2 && radius(first, bounds.outerRow + 1) < 1.0)
             ++bounds.outerRow;
-        while (bounds.innerRow < bounds.outerRow &&
-               radius(last, bounds.innerRow + 1) <= 1.0 - share)
+        while (factors.detail <= 0.0 && bounds.innerRow < bounds.outerRow &&
+               radius(last, bounds.innerRow + 1) <= 1.0 - factors.rollOffShare)
             ++bounds.innerRow;
         bounds.rollOff = rollOff.size();
         for (int row = bounds.innerRow + 1; row <= bounds.outerRow; ++row)
             for (int column = first; column <= last; ++column)
-                rollOff.push_back(float(scene::rollOffFactor(share, radius(column, row))));
+                rollOff.push_back(float(factors.at(radius(column, row))));
         strips.push_back(bounds);
     }
 }

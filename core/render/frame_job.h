@@ -19,7 +19,7 @@ namespace pellucid::render {
 
 /// One strip of the slice: 16 columns of the frequency grid and every row within the band's disc.
 struct StripBounds {
-    int innerRow = -1; ///< the roll-off is 1 in every lane up to this row, on both sides of 0
+    int innerRow = -1; ///< the radial factor is 1 in every lane up to this row, on both sides of 0
     int outerRow = -1; ///< last row with a frequency inside the disc; -1: none
     /// The index in `FrameJob::rollOff` of the values of row innerRow + 1; 16 values a row.
     std::size_t rollOff = 0;
@@ -167,13 +167,24 @@ inline int stripsOf(int lines) {
 /// exp(+i 2 pi n turns), n = 0..count-1, within 1e-13.
 std::vector<std::complex<double>> rotations(int count, double turns);
 
-/// Tables that depend only on the slice grid and the roll-off, kept from frame to frame.
+/// The factors of a frequency that depend only on its distance from 0: roll-off and detail.
+struct RadialFactors {
+    double rollOffShare = 0.0;
+    double detail = 0.0;      ///< see scene::detailFactor
+    double detailWidth = 0.0; ///< u = (radius detailWidth)^2, where the band ends at radius 1
+    RadialFactors() = default;
+    RadialFactors(const scene::ImageDefinition &image, double pixelMm);
+    double at(double radius) const;
+    bool operator==(const RadialFactors &) const = default;
+};
+
+/// Tables that depend only on the slice grid and these factors, kept from frame to frame.
 struct GridTables {
     /// `count`: of strips, at most as many as half the grid has.
-    GridTables(const plan::SliceGrid &grid, double rollOffShare, int count);
+    GridTables(const plan::SliceGrid &grid, const RadialFactors &factors, int count);
 
     plan::SliceGrid grid;
-    double rollOffShare;
+    RadialFactors factors;
     fourier::StripTransform alongRows;           ///< length rows
     fourier::StripTransform halfColumns;         ///< length columns / 2
     std::vector<std::complex<float>> unpackReal; ///< see FrameJob::unpackReal

@@ -25,6 +25,15 @@ double rollOffFactor(double rollOff, double q) {
     return 0.5 * (1.0 + std::cos(std::numbers::pi * (q - (1.0 - rollOff)) / rollOff));
 }
 
+double detailFactor(const ImageDefinition &definition, double perMm) {
+    const double x = 2.0 * std::numbers::pi * definition.detailMm * perMm, u = x * x;
+    return 1.0 + definition.detail * u / (1.0 + u);
+}
+
+double detailGain(const ImageDefinition &definition) {
+    return 1.0 + definition.detail;
+}
+
 double reconstructionFactor(const ImageDefinition &definition, double q) {
     const double s = sinc(q);
     switch (definition.reconstruction) {

@@ -11,15 +11,27 @@ namespace pellucid::scene {
 enum class Reconstruction { cubic, linear, bandLimited, spline };
 
 /// The definition of an image, independent of the method that computes it: the projection's
-/// spectrum is P(s) = D(s) prod_d K(a_d.s) t(2 pixel |s|). Engines and the exact reference share
-/// this definition and nothing else.
+/// spectrum is P(s) = D(s) prod_d K(a_d.s) t(2 pixel |s|) H(|s|). Engines and the exact reference
+/// share this definition and nothing else.
 struct ImageDefinition {
     Reconstruction reconstruction = Reconstruction::cubic;
     /// F, the share of the band in which the roll-off falls, 0..1.
     double rollOff = 0.05;
+    /// A, 0 to `mostDetail`: amplifies structures finer than `detailMm`, see `detailFactor`.
+    double detail = 0.0;
+    double detailMm = 2.0;
 
     bool operator==(const ImageDefinition &) const = default;
 };
+
+inline constexpr double mostDetail = 4.0;
+
+/// H = 1 + A u/(1 + u), u = (2 pi r |s|)^2: the image plus A times its difference from a smoothed
+/// one. From 1 for large structures to 1 + A for fine ones. *Units*: r (`detailMm`): mm, |s|
+/// (`perMm`): cycles per mm.
+double detailFactor(const ImageDefinition &definition, double perMm);
+/// By how much the factor can raise a relative error: it is nowhere below 1.
+double detailGain(const ImageDefinition &definition);
 
 /// t(q): 1 below q = 1 - F, then a raised cosine that falls to 0 at q = 1, then 0.
 double rollOffFactor(double rollOff, double q);

@@ -18,6 +18,17 @@ void require(bool holds, const task::Reason &what) {
 
 } // namespace
 
+void validate(const Exposure &exposure) {
+    const auto isShare = [](double value) { return value >= 0.0 && value <= 1.0; };
+    require(isShare(exposure.detail) && isShare(exposure.latitude), because::contrastOutOfRange);
+    require(std::isfinite(exposure.fineMm) && exposure.fineMm > 0.0,
+            because::exposureIsNotPlausible);
+    for (const Exposure::Axis &axis : exposure.axes)
+        require(std::isfinite(axis.air) && axis.bright > axis.dark && axis.high > axis.low &&
+                    axis.exponent >= 0.1 && axis.exponent <= 10.0,
+                because::exposureIsNotPlausible);
+}
+
 void validate(const Scene &scene) {
     const Camera &camera = scene.camera;
     require(camera.width >= 1 && camera.height >= 1 && camera.width <= largestImageSize &&
@@ -29,6 +40,9 @@ void validate(const Scene &scene) {
     const double norm = glm::dot(camera.orientation, camera.orientation);
     require(std::isfinite(norm) && norm > 1e-12, because::orientationIsZero);
     require(scene.image.rollOff >= 0.0 && scene.image.rollOff <= 1.0, because::rollOffOutOfRange);
+    require(scene.image.detail >= 0.0 && scene.image.detail <= mostDetail &&
+                scene.image.detailMm >= 0.01 && scene.image.detailMm <= 20.0,
+            because::detailOutOfRange);
     require(std::isfinite(scene.tolerance) && scene.tolerance > 0.0,
             because::toleranceMustBePositive);
     const auto &padding = scene.interpolation.padding;
@@ -37,6 +51,10 @@ void validate(const Scene &scene) {
         require(std::isfinite(scene.fieldWindow->low) && std::isfinite(scene.fieldWindow->high) &&
                     scene.fieldWindow->low < scene.fieldWindow->high,
                 because::windowIsEmpty);
+    for (const auto &share : {scene.tone.detail, scene.tone.latitude})
+        require(!share || (*share >= 0.0 && *share <= 1.0), because::contrastOutOfRange);
+    if (scene.tone.exposure)
+        validate(*scene.tone.exposure);
     classify::validate(scene.look);
     classify::validate(scene.crop);
     shading::validate(scene.shading);

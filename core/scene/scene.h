@@ -12,17 +12,10 @@
 #include "core/fourier/storage.h"
 #include "core/scene/camera.h"
 #include "core/scene/image_definition.h"
+#include "core/scene/tone.h"
 #include "core/shading/shading.h"
 
 namespace pellucid::scene {
-
-/// How the float image becomes grey: [low, high] in image units, or automatic; bright on dark, or
-/// inverted like a film.
-struct Tone {
-    std::optional<double> low, high;
-    bool inverted = false;
-    bool operator==(const Tone &) const = default;
-};
 
 /// The choices of the user about storage and interpolation of the spectrum. The planner makes those
 /// that are absent.
@@ -77,8 +70,9 @@ inline constexpr std::array<NamedTolerance, 5> namedTolerances{{{"draft", 3e-2},
                                                                 {"fine", 1e-4},
                                                                 {"reference", referenceTolerance}}};
 
-/// *Throws* Error{usage} if a value of the scene is out of range; the reason names the value.
+/// *Throws* Error{usage} if a value is out of range; the reason names the value.
 void validate(const Scene &scene);
+void validate(const Exposure &exposure);
 
 /// The scene as JSON, `"schema": "pellucid-scene/2"`.
 std::string toJson(const Scene &scene);

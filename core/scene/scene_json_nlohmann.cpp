@@ -64,6 +64,10 @@ ImageDefinition imageFrom(const JsonValue &in, bool isFirstVersion) {
         image.reconstruction = Reconstruction::spline;
     if (const JsonValue rollOff = in["roll_off"])
         image.rollOff = rollOff.number();
+    if (const JsonValue detail = in["detail"])
+        image.detail = detail.number();
+    if (const JsonValue size = in["detail_mm"])
+        image.detailMm = size.number();
     return image;
 }
 
@@ -84,6 +88,45 @@ Interpolation interpolationFrom(const JsonValue &in) {
     return fixed;
 }
 
+Exposure exposureFrom(const JsonValue &in) {
+    Exposure exposure;
+    exposure.detail = in.at("detail").number();
+    exposure.latitude = in.at("latitude").number();
+    exposure.fineMm = in.at("fine_mm").number();
+    const auto corner = [&](const char *name) {
+        const auto [x, y, z] = in.at(name).threeNumbers();
+        return glm::dvec3(x, y, z);
+    };
+    exposure.lowMm = corner("low_mm");
+    exposure.highMm = corner("high_mm");
+    const JsonValue axes = in.at("axes");
+    for (std::size_t n = 0; n < exposure.axes.size(); ++n) {
+        const JsonValue axis = axes.at(n);
+        exposure.axes[n] = {axis.at("air").number(),    axis.at("dark").number(),
+                            axis.at("bright").number(), axis.at("low").number(),
+                            axis.at("high").number(),   axis.at("exponent").number()};
+    }
+    in.checked([&] { validate(exposure); });
+    return exposure;
+}
+
+json jsonOf(const Exposure &exposure) {
+    json axes = json::array();
+    for (const Exposure::Axis &axis : exposure.axes)
+        axes.push_back({{"air", axis.air},
+                        {"dark", axis.dark},
+                        {"bright", axis.bright},
+                        {"low", axis.low},
+                        {"high", axis.high},
+                        {"exponent", axis.exponent}});
+    return {{"detail", exposure.detail},
+            {"latitude", exposure.latitude},
+            {"fine_mm", exposure.fineMm},
+            {"low_mm", {exposure.lowMm.x, exposure.lowMm.y, exposure.lowMm.z}},
+            {"high_mm", {exposure.highMm.x, exposure.highMm.y, exposure.highMm.z}},
+            {"axes", axes}};
+}
+
 Tone toneFrom(const JsonValue &in) {
     if (!in.isObject())
         in.refuse(because::mustBeAnObject);
@@ -94,6 +137,12 @@ Tone toneFrom(const JsonValue &in) {
         tone.low = low.number();
     if (const JsonValue high = in["high"])
         tone.high = high.number();
+    if (const JsonValue detail = in["detail"])
+        tone.detail = detail.number();
+    if (const JsonValue latitude = in["latitude"])
+        tone.latitude = latitude.number();
+    if (const JsonValue exposure = in["exposure"])
+        tone.exposure = exposureFrom(exposure);
     return tone;
 }
 
@@ -139,6 +188,10 @@ std::string toJson(const Scene &scene) {
                 {"roll_off", scene.image.rollOff},
                 {"tolerance", scene.tolerance},
                 {"tone", {{"inverted", scene.tone.inverted}}}};
+    if (scene.image.detail > 0.0) {
+        out["detail"] = scene.image.detail;
+        out["detail_mm"] = scene.image.detailMm;
+    }
     if (scene.isOfDifference)
         out["of_difference"] = true;
     if (scene.plannedFor == PlannedFor::volume)
@@ -154,6 +207,12 @@ std::string toJson(const Scene &scene) {
         out["tone"]["low"] = *scene.tone.low;
     if (scene.tone.high)
         out["tone"]["high"] = *scene.tone.high;
+    if (scene.tone.detail)
+        out["tone"]["detail"] = *scene.tone.detail;
+    if (scene.tone.latitude)
+        out["tone"]["latitude"] = *scene.tone.latitude;
+    if (scene.tone.exposure)
+        out["tone"]["exposure"] = jsonOf(*scene.tone.exposure);
     const Interpolation &fixed = scene.interpolation;
     if (fixed.kernel)
         out["kernel"] = fourier::kernelName(*fixed.kernel);

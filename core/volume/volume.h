@@ -33,6 +33,7 @@ struct SliceRange {
 struct VolumeNotes {
     std::string title;    ///< series description or file name
     std::string modality; ///< DICOM modality, empty if unknown
+    std::string bodyPart; ///< DICOM BodyPartExamined, empty if unknown
     /// Segmentations and other objects refer to the study and space by these; empty if unknown.
     std::string studyUid, frameOfReferenceUid;
     std::vector<ValueWindow> windows; ///< the file's own windows

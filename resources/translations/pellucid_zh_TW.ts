@@ -219,10 +219,6 @@
         <translation>X 光</translation>
     </message>
     <message>
-        <source>X-ray without couch</source>
-        <translation>X 光，不含檢查床</translation>
-    </message>
-    <message>
         <source>Bone</source>
         <translation>骨骼</translation>
     </message>
@@ -421,6 +417,102 @@
     <message>
         <source>Region</source>
         <translation>區域</translation>
+    </message>
+    <message>
+        <source>Abdomen: gas, organs, bone</source>
+        <translation>腹部：氣體、器官、骨骼</translation>
+    </message>
+    <message>
+        <source>Pelvis: bone</source>
+        <translation>骨盆：骨骼</translation>
+    </message>
+    <message>
+        <source>Spine: vertebrae</source>
+        <translation>脊椎：椎骨</translation>
+    </message>
+    <message>
+        <source>MR angiography: vessels</source>
+        <translation>MR 血管攝影：血管</translation>
+    </message>
+    <message>
+        <source>PET: uptake</source>
+        <translation>PET：攝取</translation>
+    </message>
+    <message>
+        <source>Organs</source>
+        <translation>器官</translation>
+    </message>
+    <message>
+        <source>Gas</source>
+        <translation>氣體</translation>
+    </message>
+    <message>
+        <source>Cortical bone</source>
+        <translation>皮質骨</translation>
+    </message>
+    <message>
+        <source>End plates</source>
+        <translation>終板</translation>
+    </message>
+    <message>
+        <source>Vertebrae</source>
+        <translation>椎骨</translation>
+    </message>
+    <message>
+        <source>Vessels</source>
+        <translation>血管</translation>
+    </message>
+    <message>
+        <source>Uptake</source>
+        <translation>攝取</translation>
+    </message>
+    <message>
+        <source>AP</source>
+        <translation>AP</translation>
+    </message>
+    <message>
+        <source>PA</source>
+        <translation>PA</translation>
+    </message>
+    <message>
+        <source>Left lateral</source>
+        <translation>左側位</translation>
+    </message>
+    <message>
+        <source>Right lateral</source>
+        <translation>右側位</translation>
+    </message>
+    <message>
+        <source>AP cranial</source>
+        <translation>AP 頭側</translation>
+    </message>
+    <message>
+        <source>AP caudal</source>
+        <translation>AP 足側</translation>
+    </message>
+    <message>
+        <source>LAO</source>
+        <translation>LAO</translation>
+    </message>
+    <message>
+        <source>RAO</source>
+        <translation>RAO</translation>
+    </message>
+    <message>
+        <source>LAO cranial</source>
+        <translation>LAO 頭側</translation>
+    </message>
+    <message>
+        <source>Spider (LAO caudal)</source>
+        <translation>蜘蛛位（LAO 足側）</translation>
+    </message>
+    <message>
+        <source>RAO cranial</source>
+        <translation>RAO 頭側</translation>
+    </message>
+    <message>
+        <source>RAO caudal</source>
+        <translation>RAO 足側</translation>
     </message>
 </context>
 <context>
@@ -2584,6 +2676,22 @@
         <source>the steps of the class &apos;%1&apos; need the class &apos;%2&apos;, and the look has several of that name</source>
         <translation>類別「%1」的步驟需要類別「%2」，但外觀中有數個同名類別</translation>
     </message>
+    <message>
+        <source>&apos;%1&apos; is not an angulation such as &apos;LAO 30 CRA 20&apos;: LAO or RAO to 180 degrees, CRA or CAU to 90</source>
+        <translation>「%1」不是如「LAO 30 CRA 20」的角度：LAO 或 RAO 至 180 度，CRA 或 CAU 至 90 度</translation>
+    </message>
+    <message>
+        <source>the amplification of detail must be between 0 and 4, its size between 0.01 and 20 mm</source>
+        <translation>細節的放大倍數必須在 0 與 4 之間，大小在 0.01 與 20 mm 之間</translation>
+    </message>
+    <message>
+        <source>detail and latitude must be between 0 and 1</source>
+        <translation>細節與寬容度必須在 0 與 1 之間</translation>
+    </message>
+    <message>
+        <source>the exposure is not plausible: each range needs a lower end below the upper one</source>
+        <translation>曝光不合理：每個範圍的下限必須低於上限</translation>
+    </message>
 </context>
 <context>
     <name>RegionTexts</name>
@@ -2618,6 +2726,14 @@
     <message>
         <source>Point</source>
         <translation>點</translation>
+    </message>
+    <message>
+        <source>Remove the couch</source>
+        <translation>移除檢查床</translation>
+    </message>
+    <message>
+        <source>Show the couch</source>
+        <translation>顯示檢查床</translation>
     </message>
 </context>
 <context>
@@ -3084,6 +3200,37 @@
     </message>
 </context>
 <context>
+    <name>pellucid::ui::AngleDialog</name>
+    <message>
+        <source>C-arm angles</source>
+        <translation>C 臂角度</translation>
+    </message>
+    <message>
+        <source>The detector&apos;s turn to the patient&apos;s left (LAO) or right (RAO)</source>
+        <translation>偵測器轉向病患左側（LAO）或右側（RAO）的角度</translation>
+    </message>
+    <message>
+        <source>The detector&apos;s tilt to the head (CRA) or the feet (CAU)</source>
+        <translation>偵測器傾向頭部（CRA）或足部（CAU）的角度</translation>
+    </message>
+    <message>
+        <source>Common angulations</source>
+        <translation>常用角度</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>LAO / RAO</source>
+        <translation>LAO／RAO</translation>
+    </message>
+    <message>
+        <source>Cranial / caudal</source>
+        <translation>頭側／足側</translation>
+    </message>
+</context>
+<context>
     <name>pellucid::ui::CardCopier</name>
     <message>
         <source>Copying to the graphics card</source>
@@ -3469,6 +3616,18 @@
         <source>does not identify the patient</source>
         <translation>不含任何病患身分資料</translation>
     </message>
+    <message>
+        <source>How the annotations name the patient: choose, or type a pseudonym</source>
+        <translation>註記如何標示病患：選擇，或輸入代號</translation>
+    </message>
+    <message>
+        <source>not named</source>
+        <translation>不標示</translation>
+    </message>
+    <message>
+        <source>Patient</source>
+        <translation>病患</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::FileMenu</name>
@@ -3748,6 +3907,10 @@
         <source>QUALITY</source>
         <translation>品質</translation>
     </message>
+    <message>
+        <source>RADIOGRAPH</source>
+        <translation>X 光影像</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::LookMenu</name>
@@ -3822,14 +3985,6 @@
     <message>
         <source>Remove the c&amp;ouch</source>
         <translation>移除檢查床(&amp;O)</translation>
-    </message>
-    <message>
-        <source>Show the couch</source>
-        <translation>顯示檢查床</translation>
-    </message>
-    <message>
-        <source>Remove the couch</source>
-        <translation>移除檢查床</translation>
     </message>
 </context>
 <context>
@@ -4155,6 +4310,14 @@
         <source>Points, strokes and cuts belong to this study: the preset asks for new points, and has no strokes and cuts</source>
         <translation>點、筆畫與剪裁屬於此檢查：預設集會要求新的點，且不含筆畫與剪裁</translation>
     </message>
+    <message>
+        <source>All</source>
+        <translation>全部</translation>
+    </message>
+    <message>
+        <source>List all presets, not only those for the region of the body that is open</source>
+        <translation>列出所有預設集，而不只是適合目前部位者</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::ProblemList</name>
@@ -4467,6 +4630,57 @@
     <message>
         <source>not read: %1</source>
         <translation>不讀取：%1</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::RadiographPanel</name>
+    <message>
+        <source>Without couch</source>
+        <translation>不含檢查床</translation>
+    </message>
+    <message>
+        <source>Automatic</source>
+        <translation>自動</translation>
+    </message>
+    <message>
+        <source>Choose detail and latitude from the study</source>
+        <translation>依檢查選擇細節與寬容度</translation>
+    </message>
+    <message>
+        <source>Detail</source>
+        <translation>細節</translation>
+    </message>
+    <message>
+        <source>How much fine structures stand out, such as trabeculae and vessels; 0 shows them as they are. Double-click: automatic</source>
+        <translation>骨小樑與血管等細微構造的突顯程度；0 為原樣。按兩下：自動</translation>
+    </message>
+    <message>
+        <source>Latitude</source>
+        <translation>寬容度</translation>
+    </message>
+    <message>
+        <source>How much thick and thin parts are brought together, so that both are seen; 0 shows them as they are. Double-click: automatic</source>
+        <translation>拉近厚薄部位的程度，使兩者皆可見；0 為原樣。按兩下：自動</translation>
+    </message>
+    <message>
+        <source>Sharpness</source>
+        <translation>銳利度</translation>
+    </message>
+    <message>
+        <source>Amplifies fine structures by a linear filter, in exported values too; double-click: none</source>
+        <translation>以線性濾波器放大細微構造，匯出的數值亦然；按兩下：無</translation>
+    </message>
+    <message>
+        <source>Leave out the couch, head rests and clothes, in every preset</source>
+        <translation>在每個預設集中去除檢查床、頭枕與衣物</translation>
+    </message>
+    <message>
+        <source>Automatic contrast</source>
+        <translation>自動對比</translation>
+    </message>
+    <message>
+        <source>auto</source>
+        <translation>自動</translation>
     </message>
 </context>
 <context>
@@ -5523,6 +5737,14 @@
     <message>
         <source>&amp;Tint segments in the planes</source>
         <translation>切面對分割區著色(&amp;T)</translation>
+    </message>
+    <message>
+        <source>&amp;Free rotation, as a trackball</source>
+        <translation>自由旋轉，如軌跡球(&amp;F)</translation>
+    </message>
+    <message>
+        <source>C-arm an&amp;gles...</source>
+        <translation>C 臂角度(&amp;G)…</translation>
     </message>
 </context>
 </TS>

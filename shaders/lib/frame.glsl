@@ -32,6 +32,7 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     float rollOff;
     float unit;                  // of the slice
     float cueBase;               // of a linear cue
+    float detail, detailWidth;   // see core/render/frame_job.h
     ivec4 padded;                // by axis, like the following vectors
     ivec4 firstCell;             // grid index of the first texel
     vec4 inversePadded;

@@ -186,7 +186,9 @@ void sliceAt(int column, int row, out vec2 slice[IMAGES]) {
         addTerm(term, taps, mirrored, term == 0 && column == 0 && row == 0, q, slice);
     }
     float radius = length(2.0 * vec2(column, row) / vec2(frame.columns, frame.rows));
+    float u = radius * radius * frame.detailWidth * frame.detailWidth;
     float factor = frame.unit * rollOffFactor(frame.rollOff, radius) *
+                   (1.0 + frame.detail * u / (1.0 + u)) *
                    reconstructionFactor(frame.reconstruction, frame.wraps != 0, frame.rollOff,
                                         ofCentre);
     float turns = turnsOf(centre);

@@ -158,7 +158,7 @@ void writeSessions(const fs::path &folder) {
     ui::Session session;
     session.files = {"/a/b.dcm", "/a/c.dcm"};
     session.key = "0123456789abcdef";
-    session.shown.brightness = {1.5, 240.0};
+    session.shown.exposure = scene::Exposure();
     writeText(folder / "files", ui::toJson(session));
     session.files.clear();
     session.phantom = "head";

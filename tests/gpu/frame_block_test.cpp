@@ -50,6 +50,8 @@ TEST_F(FrameBlock, LiesWhereTheShadersReadIt) {
         {"rowRotations", offsetof(FrameBlock, rowRotations)},
         {"unpackRotations", offsetof(FrameBlock, unpackRotations)},
         {"rollOff", offsetof(FrameBlock, rollOff)},
+        {"detail", offsetof(FrameBlock, detail)},
+        {"detailWidth", offsetof(FrameBlock, detailWidth)},
         {"unit", offsetof(FrameBlock, unit)},
         {"cueBase", offsetof(FrameBlock, cueBase)},
         {"padded", offsetof(FrameBlock, padded)},

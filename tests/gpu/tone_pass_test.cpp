@@ -8,6 +8,7 @@
 
 #include <epoxy/gl.h>
 
+#include "core/picture/compose.h"
 #include "core/prepare/prepared_engine.h"
 #include "core/task/error.h"
 #include "gpu/capabilities.h"
@@ -52,11 +53,12 @@ std::vector<std::uint8_t> drawnBy(int width, int height, const std::function<voi
     return flipped;
 }
 
-std::vector<std::uint8_t> drawn(const picture::ProjectionImage &image, const scene::Tone &tone) {
+std::vector<std::uint8_t> drawn(const picture::ProjectionImage &image,
+                                const picture::Display &display) {
     return drawnBy(image.width, image.height, [&] {
         gpu::TonePass pass;
         pass.upload(image);
-        pass.draw(picture::toneRange(image, tone), tone.inverted);
+        pass.draw(display);
     });
 }
 
@@ -76,15 +78,36 @@ TEST_F(TonePass, DrawsWhatComposeComputes) {
     picture::ProjectionImage colored{37, 23, 1.0, picture::Samples(37 * 23 * 3), 3};
     for (float &p : colored.samples)
         p = uniform(random);
-    for (const auto &[shown, tone] : {std::pair(image, scene::Tone{}),
-                                      {image, scene::Tone{10.0, 70.0, true}},
-                                      {colored, scene::Tone{}},
-                                      {colored, scene::Tone{10.0, 70.0, true}},
-                                      {colored, scene::Tone{-60.0, 70.0, false}}}) {
-        const auto expected = picture::compose(shown, tone);
-        const auto found = drawn(shown, tone);
-        EXPECT_LE(largestDifference(expected, found), 1); // rounding to eight bits
-    }
+    const picture::Contrast contrast{0.6, 0.8, 90.0, 40.0, 2.0}, latitude{0.0, 1.0, 90.0, 40.0};
+    for (const picture::Display &display : {picture::Display{{0.0, 100.0}, false, 0.7},
+                                            {{10.0, 70.0}, true, 1.3, {}, 4.0, 6.0},
+                                            {{-60.0, 70.0}},
+                                            {{-60.0, 90.0}, false, 1.2, contrast, 3.0, 5.0},
+                                            {{0.0, 90.0}, true, 1.0, latitude, 0.0, 5.0}})
+        for (const auto *shown : {&image, &colored}) {
+            const auto expected = picture::compose(*shown, display);
+            const auto found = drawn(*shown, display);
+            EXPECT_LE(largestDifference(expected, found), 1); // rounding to eight bits
+        }
+}
+
+// Pictures of every shape, with pixels so small that the processing averages 1, 2 or 4 of them, so
+// large that it has no levels, and with a body beside air.
+TEST_F(TonePass, DrawsTheContrastThatComposeComputes) {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> noise(0.0F, 30.0F);
+    for (const auto &[width, height] : {std::pair(64, 48), {201, 77}, {31, 130}, {5, 9}, {1, 1}})
+        for (const double pixelMm : {0.1, 0.3, 1.0, 7.0, 100.0}) {
+            picture::ProjectionImage image{width, height, pixelMm};
+            for (int r = 0; r < height; ++r)
+                for (int c = 0; c < width; ++c)
+                    image.samples.push_back(
+                        c < width / 4 ? 0.0F : 50.0F + 0.3F * float(r) + noise(random));
+            const picture::Display display{{20.0, 140.0}, false, 1.2, {0.7, 0.5, 120.0, 70.0, 2.0},
+                                           2.0,           6.0};
+            EXPECT_LE(largestDifference(picture::compose(image, display), drawn(image, display)), 1)
+                << width << " x " << height << ", " << pixelMm << " mm";
+        }
 }
 
 class CardTone : public test::CardTest {};
@@ -106,15 +129,16 @@ TEST_F(CardTone, DrawsPicturesOfTheCard) {
         const auto picture = engine->renderOnCard(scene.camera, scene.image);
         EXPECT_EQ(picture->layers(), int(fields.channels.size()));
         const auto image = picture->download();
-        const scene::Tone tone{2.0, 15.0, false};
+        const picture::Display display{{2.0, 15.0}, false, 1.1, {0.5, 0.5, 12.0, 6.0, 2.0},
+                                       0.0,         1.0};
         std::vector<std::uint8_t> found;
         card->device().run([&] {
             found = drawnBy(image.width, image.height, [&] {
-                const gpu::TonePass pass;
-                pass.draw(*picture, picture::toneRange(image, tone), tone.inverted);
+                gpu::TonePass pass;
+                pass.draw(*picture, display);
             });
         });
-        EXPECT_LE(largestDifference(picture::compose(image, tone), found), 1);
+        EXPECT_LE(largestDifference(picture::compose(image, display), found), 1);
     }
 }
 
@@ -137,8 +161,8 @@ TEST_F(TonePass, ABrokenShaderIsNamed) {
 
 TEST(Shaders, IncludesAreReplacedAndNumbered) {
     const auto shader = gpu::assembledShader("tone.frag");
-    ASSERT_EQ(shader.files.size(), 2U);
-    EXPECT_EQ(shader.files[1], "lib/tone.glsl");
+    ASSERT_EQ(shader.files.size(), 3U);
+    EXPECT_EQ(shader.files[2], "lib/tone.glsl");
     EXPECT_EQ(shader.text.find("#include"), std::string::npos);
     EXPECT_EQ(shader.text.rfind("#version 330 core", 0), 0U);
     EXPECT_NE(shader.text.find("#line 1 1"), std::string::npos);

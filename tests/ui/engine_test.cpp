@@ -95,10 +95,10 @@ private slots:
         picture::ProjectionImage image{.width = 40, .height = 30, .channels = 3};
         for (int n = 0; n < 40 * 30 * 3; ++n)
             image.samples.push_back(float(n % 113) / 113.0F);
-        const scene::Tone tone{0.1, 0.8, true};
-        const auto rgba = picture::compose(image, tone);
+        const picture::Display display{{0.1, 0.8}, true, 1.2, {0.5, 0.5, 0.9, 0.5, 2.0}, 0.0, 0.05};
+        const auto rgba = picture::compose(image, display);
         const QImage expected(rgba.data(), 40, 30, QImage::Format_RGBA8888);
-        canvas->setTone({*tone.low, *tone.high}, tone.inverted);
+        canvas->setDisplay(display);
         canvas->setImage(std::make_shared<const picture::ProjectionImage>(std::move(image)));
         widget->show();
         QVERIFY(
@@ -183,7 +183,8 @@ private slots:
         worker.setEngine(prepared, gpu::copyToCard(card, *prepared.engine), 1);
         const auto next = [&]() -> std::shared_ptr<const ui::RenderedFrame> {
             frames.clear();
-            worker.request(scene.camera, scene.image, {}, {}, true, true);
+            worker.request(scene.camera, scene.image, {}, {}, ui::RenderWorker::Exposed{100.0, {}},
+                           true);
             return QTest::qWaitFor([&] { return !frames.empty(); }, patienceMs) ? frames.front()
                                                                                 : nullptr;
         };
@@ -194,7 +195,7 @@ private slots:
         QVERIFY(onCard->onCard ||
                 QTest::qWaitFor([&] { return frames.back()->onCard != nullptr; }, patienceMs));
         onCard = frames.back();
-        QVERIFY(onCard->automaticTone);
+        QVERIFY(onCard->exposure);
         const auto picture = onCard->onCard->download();
         *lost = true;
         const auto after = next();
@@ -202,7 +203,7 @@ private slots:
         QCOMPARE(failures, 1);
         QCOMPARE(after->image.samples.size(), picture.samples.size());
         QVERIFY(relativeL2(picture.samples, after->image.samples) < 3e-4);
-        QVERIFY(after->automaticTone && after->refusal == task::because::cardWasReset);
+        QVERIFY(after->exposure && after->refusal == task::because::cardWasReset);
         const auto later = next();
         QVERIFY(later && !later->refusal); // the lost one is not asked again
     }
@@ -356,7 +357,9 @@ private:
         return QImage(out).convertToFormat(QImage::Format_RGBA8888);
     }
     QImage composed(const picture::ProjectionImage &image) {
-        const auto rgba = picture::compose(image, projection()->sceneOfPicture().tone);
+        const scene::Scene scene = projection()->sceneOfPicture();
+        const auto rgba =
+            picture::compose(image, picture::displayOf(scene.tone, scene.camera.orientation));
         return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
     }
     // Waits until jobs, render worker and queued frames have released their objects on the card,

@@ -164,14 +164,25 @@ private slots:
                              dicom::TransferSyntax::explicitLittle);
         open(QString::fromStdString((m_folder / "couch").string()));
         auto *const command = find<QAction>("removeCouchAction");
-        const QImage with = projection()->picture();
+        auto *const box = find<QCheckBox>("withoutCouchBox");
+        QVERIFY(command->isChecked() && box->isChecked()); // it opens that way
+        QCOMPARE(document().undoStack()->count(), 0);
+        const QImage without = projection()->picture();
         command->trigger();
         settle();
+        QVERIFY(!command->isChecked() && !box->isChecked());
+        QVERIFY(document().scene().look.classes.empty());
+        QVERIFY(changed(projection()->picture(), without) > 0.02);
+        QTest::mouseClick(box, Qt::LeftButton, {}, QPoint(8, box->height() / 2));
+        settle();
         QVERIFY(command->isChecked());
-        const QImage without = projection()->picture();
-        QVERIFY(changed(with, without) > 0.02);
+        QVERIFY(changed(projection()->picture(), without) < 0.001);
+        // Every preset stays without it.
+        choosePreset("Bone in relief");
+        QVERIFY(command->isChecked());
         // The head alone is what a scan without a couch shows.
         open(headPath());
+        QVERIFY(!command->isChecked()); // there is none
         command->trigger();
         settle();
         QVERIFY(changed(without, projection()->picture()) < 0.01);
@@ -179,7 +190,6 @@ private slots:
         settle();
         QVERIFY(!command->isChecked());
         QVERIFY(document().scene().look.classes.empty());
-
         // Classes of a preset show the couch, and again only the patient.
         choosePreset("Bone over soft tissue");
         const classify::Look look = document().scene().look;

@@ -3,12 +3,15 @@
 // of looks.
 #include "tests/ui/workstation.h"
 
+#include <QDialog>
 #include <QLabel>
 #include <QListWidget>
 #include <QProcess>
 #include <QSignalSpy>
+#include <QSpinBox>
 #include <QToolButton>
 
+#include "core/scene/positioner_angles.h"
 #include "ui/document/commands.h"
 #include "ui/panels/study_panel.h"
 #include "ui/views/mpr_view.h"
@@ -27,6 +30,7 @@ private slots:
 
     void turningAboutTheCrosshairLeavesItInPlace() {
         ui::Document &document = mainWindow().document();
+        QTest::keyClick(projection(), Qt::Key_1, Qt::KeypadModifier);
         document.setCrosshair({document.volume()->lattice().center().mm + glm::dvec3(40, -30, 25)});
         const glm::dvec2 before = onPicture(document.crosshair());
         drag({60, 25});
@@ -36,8 +40,10 @@ private slots:
         const glm::dvec2 now = onPicture(document.crosshair());
         drag({-130, 70});
         QVERIFY(glm::distance(onPicture(document.crosshair()), now) < 1e-6);
+        turnWheel(projection(), 1); // no longer fitted: a standard view would be fitted, too
+        const glm::dvec2 zoomed = onPicture(document.crosshair());
         QTest::keyClick(projection(), Qt::Key_3, Qt::KeypadModifier);
-        QVERIFY(glm::distance(onPicture(document.crosshair()), now) < 1e-6);
+        QVERIFY(glm::distance(onPicture(document.crosshair()), zoomed) < 1e-6);
         settle();
         save("orbit_crosshair");
     }
@@ -85,13 +91,14 @@ private slots:
         find<QAction>("chestPhantomAction")->trigger();
         QTRY_VERIFY(document.currentSource() == 1);
         settle();
-        QVERIFY(document.pose() == ui::Pose());
+        QVERIFY(document.pose().isFitted); // of its own
+        QVERIFY(document.pose().orientation == ui::Pose().orientation);
         const int height = document.scene().camera.height;
         find<QAction>("twoByTwoAction")->trigger();
         QTRY_VERIFY(document.scene().camera.height < height);
         turnWheel(projection(), -1);
         const ui::Pose chest = document.pose();
-        QVERIFY(chest.zoom < 1.0);
+        QVERIFY(chest.zoom < head.zoom);
         auto *studies = find<ui::StudyPanel>("studyPanel");
         emit studies->sourceActivated(0);
         QVERIFY(document.pose() == head);
@@ -113,7 +120,118 @@ private slots:
             turnWheel(projection(), -1);
         QCOMPARE(document.pose().zoom, ui::minZoom);
         QTest::keyClick(projection(), Qt::Key_0, Qt::KeypadModifier);
-        QVERIFY(document.pose() == ui::Pose());
+        QVERIFY(document.pose().isFitted);
+        QVERIFY(document.pose().orientation == ui::Pose().orientation);
+        settle();
+    }
+
+    // The shadow of the head fills the pane, whatever the view, and does not move while it turns.
+    void theViewFitsTheBody() {
+        ui::Document &document = mainWindow().document();
+        QTest::keyClick(projection(), Qt::Key_R);
+        settle();
+        const auto shadow = [this] {
+            const QImage picture = projection()->picture();
+            QRect area;
+            for (int y = 0; y < picture.height(); ++y)
+                for (int x = 0; x < picture.width(); ++x)
+                    if (qGray(picture.pixel(x, y)) > 8)
+                        area |= QRect(x, y, 1, 1);
+            return std::pair(area, picture.rect());
+        };
+        for (const int key : {Qt::Key_1, Qt::Key_3, Qt::Key_7}) {
+            QTest::keyClick(projection(), key, Qt::KeypadModifier);
+            settle();
+            const auto [area, pane] = shadow();
+            QVERIFY(pane.adjusted(4, 4, -4, -4).contains(area));
+            const double share = std::max(double(area.width()) / pane.width(),
+                                          double(area.height()) / pane.height());
+            QVERIFY2(share > 0.8, qPrintable(QString::number(share)));
+        }
+        QTest::keyClick(projection(), Qt::Key_1, Qt::KeypadModifier);
+        const double zoom = document.pose().zoom;
+        drag({200, 0});
+        QCOMPARE(document.pose().zoom, zoom);
+        QVERIFY(document.pose().isFitted);
+        // Another layout fits it again; a view that was zoomed by hand keeps its own zoom.
+        find<QAction>("twoByTwoAction")->trigger();
+        settle();
+        QVERIFY(shadow().second.contains(shadow().first));
+        turnWheel(projection(), 1);
+        QVERIFY(!document.pose().isFitted);
+        QTest::keyClick(projection(), Qt::Key_R);
+        QVERIFY(document.pose().isFitted);
+        find<QAction>("onePlusThreeAction")->trigger();
+        settle();
+    }
+
+    // A turntable: dragging sideways turns about the long axis, up and down to the poles. Alt
+    // rolls.
+    void aDragKeepsThePatientUpright() {
+        ui::Document &document = mainWindow().document();
+        QTest::keyClick(projection(), Qt::Key_R);
+        const auto axes = [&] { return document.scene().camera.axes(); };
+        for (const QPoint &delta : {QPoint(90, 40), QPoint(-250, 60), QPoint(30, -170)}) {
+            drag(delta);
+            QVERIFY(std::abs(axes()[0].z) < 1e-9);
+            QVERIFY(axes()[1].z >= 0.0);
+        }
+        drag({0, 3000});
+        QVERIFY(axes()[2].z > 0.999999); // from above, and no further
+        drag({0, -3000});
+        QVERIFY(axes()[2].z < -0.999999);
+        QTest::keyClick(projection(), Qt::Key_R);
+        find<QAction>("freeRotationAction")->trigger();
+        drag({120, 80});
+        drag({-20, 90});
+        QVERIFY(std::abs(axes()[0].z) > 0.01);
+        find<QAction>("freeRotationAction")->trigger();
+        QTest::keyClick(projection(), Qt::Key_R);
+        settle();
+    }
+
+    // The cube turns to the side that is clicked; the angles beside it open their dialog.
+    void theCubeAndTheAnglesTurnTheView() {
+        ui::Document &document = mainWindow().document();
+        QTest::keyClick(projection(), Qt::Key_R);
+        settle();
+        const QPoint cube(58, projection()->height() - 72);
+        const auto angles = [&] {
+            return scene::positionerAngles(document.scene().camera.orientation);
+        };
+        QTest::mouseClick(projection(), Qt::LeftButton, {},
+                          cube + QPoint(20, 0)); // edge to the left
+        QVERIFY(std::abs(angles().primaryDeg - 45.0) < 1e-6);
+        QVERIFY(std::abs(angles().secondaryDeg) < 1e-6);
+        QTest::keyClick(projection(), Qt::Key_R);
+        QTest::mouseClick(projection(), Qt::LeftButton, {}, cube + QPoint(0, -20));
+        QVERIFY(std::abs(angles().secondaryDeg - 45.0) < 1e-6);
+        settle();
+        QTest::mouseClick(projection(), Qt::LeftButton, {},
+                          QPoint(20, projection()->height() - 22));
+        auto *const dialog = find<QDialog>("angleDialog");
+        QVERIFY(dialog->isVisible());
+        auto *const primary = find<QSpinBox>("primaryAngleBox");
+        auto *const secondary = find<QSpinBox>("secondaryAngleBox");
+        QCOMPARE(secondary->text(), QString::fromUtf8("CRA 45°"));
+        primary->selectAll();
+        QTest::keyClicks(primary, "rao 30");
+        QTest::keyClick(primary, Qt::Key_Return);
+        secondary->selectAll();
+        QTest::keyClicks(secondary, "-20");
+        QTest::keyClick(secondary, Qt::Key_Return);
+        QVERIFY(dialog->isVisible());
+        QVERIFY(std::abs(angles().primaryDeg + 30.0) < 1e-6);
+        QVERIFY(std::abs(angles().secondaryDeg + 20.0) < 1e-6);
+        QCOMPARE(primary->text(), QString::fromUtf8("RAO 30°"));
+        auto *const list = find<QListWidget>("commonAnglesList");
+        clickItem(*list, *list->item(9)); // spider
+        QVERIFY(std::abs(angles().primaryDeg - 45.0) < 1e-6);
+        QVERIFY(std::abs(angles().secondaryDeg + 30.0) < 1e-6);
+        settle();
+        save("angles");
+        dialog->close();
+        QTest::keyClick(projection(), Qt::Key_R);
         settle();
     }
 

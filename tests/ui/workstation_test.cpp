@@ -143,7 +143,6 @@ private slots:
     void aReopenedStudyAppearsAtOnceAsItWas() {
         open(headPath());
         choosePreset("Bone");
-        // The brightness of the first view stays; this view alone has a different one.
         QTest::keyClick(projection(), Qt::Key_3, Qt::KeypadModifier);
         settle();
         const QImage before = projection()->picture();

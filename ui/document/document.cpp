@@ -114,7 +114,8 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
     if (!same) {
         // Edits belong to their study.
         m_undo.clear();
-        m_brightness.reset();
+        m_exposure.reset();
+        m_traits = {presets::regionsNamed(volume.notes().bodyPart + " " + volume.notes().title)};
         m_crosshair = middleSample(volume.lattice());
         // Other planes would cut only a strip out of a few slices.
         m_cut.axes = volume.lattice().size().k < fewSlices && volume.notes().placed
@@ -143,9 +144,16 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
     emit volumeChanged();
 }
 
+void Document::setTraits(const presets::StudyTraits &traits) {
+    if (traits == m_traits)
+        return;
+    m_traits = traits;
+    emit traitsChanged();
+}
+
 void Document::closeVolume() {
     m_volume.reset();
-    m_brightness.reset();
+    m_exposure.reset();
     m_measured.clear();
     m_selectedMeasurement = -1;
     m_preview = false;
@@ -195,7 +203,7 @@ void Document::setPose(const Pose &pose) {
 }
 
 Pose Document::poseOf(const scene::Camera &camera) const {
-    return {camera.orientation, camera.panMm, fittingPixelMm() / camera.pixelMm};
+    return {camera.orientation, camera.panMm, fittingPixelMm() / camera.pixelMm, false};
 }
 
 void Document::setProjectionSize(const QSizeF &size) {
@@ -297,18 +305,18 @@ void Document::selectMeasurement(int index) {
     emit selectedMeasurementChanged();
 }
 
-std::optional<picture::ToneRange> Document::brightness() const {
-    return m_brightness && m_brightness->of == picture::ToneSubject(m_scene)
-               ? std::optional(m_brightness->range)
+std::optional<scene::Exposure> Document::exposure() const {
+    return m_exposure && m_exposure->of == picture::ToneSubject(m_scene)
+               ? std::optional(m_exposure->exposure)
                : std::nullopt;
 }
 
-void Document::setBrightness(const picture::ToneRange &range) {
-    const Brightness brightness{range, picture::ToneSubject(m_scene)};
-    if (brightness == m_brightness)
+void Document::setExposure(const scene::Exposure &exposure) {
+    const MeasuredExposure measured{exposure, picture::ToneSubject(m_scene)};
+    if (measured == m_exposure)
         return;
-    m_brightness = brightness;
-    emit brightnessChanged();
+    m_exposure = measured;
+    emit exposureChanged();
 }
 
 void Document::setCrosshair(volume::PatientPoint point) {

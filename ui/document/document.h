@@ -16,6 +16,7 @@
 #include "core/mpr/reslice.h"
 #include "core/picture/compose.h"
 #include "core/picture/tone_subject.h"
+#include "core/presets/study_traits.h"
 #include "core/scene/scene.h"
 #include "core/segment/segment_set.h"
 #include "core/task/reason.h"
@@ -79,6 +80,9 @@ public:
     }
     const classify::FieldWindow &defaultFieldWindow() const { return m_fieldWindow; }
     const volume::ValueWindow &initialWindow() const { return m_initialWindow; }
+    /// What the open volume shows, as far as known.
+    const presets::StudyTraits &traits() const { return m_traits; }
+    void setTraits(const presets::StudyTraits &traits);
     void closeVolume();
 
     /// Protects the open studies from being overwritten: *throws* Error{usage} if one of the paths
@@ -93,6 +97,8 @@ public:
     const Pose &pose() const { return m_pose; }
     /// Limits the zoom to `minZoom` .. `maxZoom`.
     void setPose(const Pose &pose);
+    /// See ui::fittingPixelMm; 1 without a volume.
+    double fittingPixelMm() const;
     /// The pose that looks the way a camera does, at its pixel size. The camera may belong to
     /// another pane.
     Pose poseOf(const scene::Camera &camera) const;
@@ -104,10 +110,10 @@ public:
     /// The state behind the edits; call through `EditDisplayWindow`.
     void setDisplayWindow(const volume::ValueWindow &window);
 
-    /// The automatic brightness of the projection for the present scene; none until its picture has
+    /// The exposure of the projection for the present scene; none until its picture has
     /// been shown.
-    std::optional<picture::ToneRange> brightness() const;
-    void setBrightness(const picture::ToneRange &range);
+    std::optional<scene::Exposure> exposure() const;
+    void setExposure(const scene::Exposure &exposure);
 
     volume::PatientPoint crosshair() const { return m_crosshair; }
     void setCrosshair(volume::PatientPoint point);
@@ -162,7 +168,8 @@ signals:
     /// The camera of the scene has other pixels; the pose is the same.
     void projectionResized();
     void displayWindowChanged();
-    void brightnessChanged();
+    void traitsChanged();
+    void exposureChanged();
     void crosshairChanged();
     void cutChanged();
     void measurementsChanged();
@@ -175,7 +182,6 @@ signals:
     void segmentsChanged();
 
 private:
-    double fittingPixelMm() const;
     void updateCamera();
 
     std::vector<StudySource> m_sources;
@@ -194,12 +200,13 @@ private:
     Pose m_pose;
     QSizeF m_projectionSize{2.0, 2.0};
     volume::ValueWindow m_window{40.0, 400.0, {}}, m_initialWindow{40.0, 400.0, {}};
-    struct Brightness {
-        picture::ToneRange range;
+    struct MeasuredExposure {
+        scene::Exposure exposure;
         picture::ToneSubject of;
-        bool operator==(const Brightness &) const = default;
+        bool operator==(const MeasuredExposure &) const = default;
     };
-    std::optional<Brightness> m_brightness;
+    presets::StudyTraits m_traits;
+    std::optional<MeasuredExposure> m_exposure;
     volume::PatientPoint m_crosshair;
     Cut m_cut;
     std::vector<Measured> m_measured;

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
 namespace pellucid::ui {
 
 double fittingPixelMm(double radiusMm, const QSizeF &paneSize) {
@@ -11,6 +15,25 @@ double fittingPixelMm(double radiusMm, const QSizeF &paneSize) {
     // The outer seventh of the sphere around a scan contains only the corners of its box, which are
     // air.
     return 2.0 * radiusMm / side * 0.86;
+}
+
+Pose fitted(const Pose &pose, const glm::dvec3 &lowMm, const glm::dvec3 &highMm, double fitMm,
+            const QSizeF &paneSize) {
+    // Beside the body, there is room for names, letters, and the scale.
+    constexpr double shareOfPane = 0.9;
+    Pose fit = pose;
+    fit.isFitted = true;
+    const glm::dvec3 half = 0.5 * (highMm - lowMm), middle = 0.5 * (highMm + lowMm);
+    if (!(std::min({half.x, half.y, half.z}) > 0.0))
+        return fit;
+    const glm::dmat3 axes = glm::mat3_cast(pose.orientation);
+    const auto reach = [&](const glm::dvec3 &axis) { return glm::dot(glm::abs(axis), half); };
+    const double pixelMm = std::max(2.0 * reach(axes[0]) / std::max(1.0, paneSize.width()),
+                                    2.0 * reach(axes[1]) / std::max(1.0, paneSize.height())) /
+                           shareOfPane;
+    fit.zoom = std::clamp(fitMm / pixelMm, minZoom, maxZoom);
+    fit.panMm = {glm::dot(axes[0], middle), glm::dot(axes[1], middle)};
+    return fit;
 }
 
 scene::Camera cameraOf(const Pose &pose, double fitMm, const QSizeF &paneSize) {

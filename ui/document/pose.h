@@ -18,6 +18,8 @@ struct Pose {
     glm::dvec2 panMm{0.0};
     /// 1: the volume fits the pane; above 1: the picture is larger.
     double zoom = 1.0;
+    /// The view follows the shadow of the body: nobody has zoomed or panned by hand.
+    bool isFitted = true;
 
     bool operator==(const Pose &) const = default;
 };
@@ -28,6 +30,11 @@ inline constexpr double minZoom = 0.2, maxZoom = 20.0;
 /// not rounded.
 double fittingPixelMm(double radiusMm, const QSizeF &paneSize);
 
+/// The pose that fits the shadow of a box, seen from `pose`, into a pane; the same pose if the box
+/// is empty. *Units*: `lowMm`, `highMm`: LPS, from the middle of the volume; `fitMm`, `paneSize`:
+/// as `cameraOf`.
+Pose fitted(const Pose &pose, const glm::dvec3 &lowMm, const glm::dvec3 &highMm, double fitMm,
+            const QSizeF &paneSize);
 /// The camera of a pose in a pane of this size. *Units*: as `fittingPixelMm`, whose result is
 /// `fitMm`.
 scene::Camera cameraOf(const Pose &pose, double fitMm, const QSizeF &paneSize);

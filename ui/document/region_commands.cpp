@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 
+#include "core/classify/couch.h"
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
 
@@ -105,6 +106,15 @@ void useStep(Document &document, const classify::Step &step, const QString &text
         editLook(document, text, noDrag, [&](classify::Look &look) {
             classify::addStep(look, step, std::size_t(selected));
         });
+}
+
+void setWithoutCouch(Document &document, bool isWithout) {
+    editScene(document,
+              isWithout ? RegionTexts::tr("Remove the couch") : RegionTexts::tr("Show the couch"),
+              noDrag, [&](scene::Scene &scene) {
+                  (isWithout ? classify::removeCouch
+                             : classify::restoreCouch)(scene.look, document.fieldWindow());
+              });
 }
 
 void askForPoints(Document &document) {

@@ -28,6 +28,9 @@ void usePoint(Document &document, volume::PatientPoint point);
 /// Adds a step to the selected class.
 void useStep(Document &document, const classify::Step &step, const QString &text);
 
+/// Leaves out the couch in every class of the volume, or shows it again.
+void setWithoutCouch(Document &document, bool isWithout);
+
 /// If a class of the look waits for points, selects it and asks for the tool that adds points.
 void askForPoints(Document &document);
 

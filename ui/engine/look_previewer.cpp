@@ -5,6 +5,7 @@
 
 #include "core/classify/coarse_field.h"
 #include "core/picture/compose.h"
+#include "core/picture/exposure.h"
 #include "core/prepare/prepared_engine.h"
 #include "core/preprocess/step_cache.h"
 #include "ui/document/document.h"
@@ -44,7 +45,9 @@ QImage pictureOf(const volume::Volume &volume, const classify::FieldWindow &wind
     auto fields = classify::shownFields(volume, window, look, &steps, progress);
     const auto prepared = prepare::prepareEngine(scene, std::move(fields), {}, progress, scale);
     const auto image = prepared.engine->render(scene.camera, scene.image, scene.shading);
-    const auto rgba = picture::compose(image, {});
+    scene::Tone tone;
+    tone.exposure = picture::exposureOf(image, tone, picture::backgroundOf(volume));
+    const auto rgba = picture::compose(image, picture::displayOf(tone, scene.camera.orientation));
     return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
 }
 

@@ -49,13 +49,13 @@ void RenderWorker::setEngine(const std::optional<prepare::PreparedEngine> &prepa
 std::uint64_t RenderWorker::request(const scene::Camera &camera,
                                     const scene::ImageDefinition &image,
                                     const shading::Shading &shading, const Reduction &reduction,
-                                    bool wantsTone, bool wantsError,
+                                    const std::optional<Exposed> &exposed, bool wantsError,
                                     const std::optional<Compared> &compared) {
     const std::lock_guard lock(m_mutex);
     if (!m_prepared)
         return m_number;
-    m_next = Request{*m_prepared, m_onCard,  m_generation, camera,   image,     shading,
-                     reduction,   wantsTone, wantsError,   compared, ++m_number};
+    m_next = Request{*m_prepared, m_onCard, m_generation, camera,   image,     shading,
+                     reduction,   exposed,  wantsError,   compared, ++m_number};
     m_wake.notify_one();
     return m_number;
 }
@@ -125,6 +125,11 @@ void RenderWorker::makeFrame(const Request &request) {
         auto frame = frameFor(request);
         if (!request.onCard || !renderOnCard(frame, request))
             renderInto(*frame, request);
+        frame->orientation = request.camera.orientation;
+        if (const auto &exposed = request.exposed)
+            frame->exposure =
+                picture::measureExposure(*request.prepared.engine, exposed->radiusMm, request.image,
+                                         request.shading, exposed->tone, exposed->background);
         if (const auto &other = request.compared)
             frame->compared = other->engine->render(request.camera, other->image, other->shading);
         emit frameReady(std::move(frame));
@@ -144,14 +149,9 @@ RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
             request.onCard->renderOnCard(request.camera, request.image, request.shading, &times);
         // The loss of detail depends on the part that the picture shows.
         const bool wantsError = request.wantsError && request.prepared.isCoarse;
-        if (request.wantsTone || wantsError) {
-            const picture::ProjectionImage image = frame->onCard->download();
-            if (request.wantsTone)
-                frame->automaticTone = picture::toneRange(image, {});
-            if (wantsError)
-                frame->error = prepare::errorOf(request.prepared, image, request.camera,
-                                                request.image, request.shading);
-        }
+        if (wantsError)
+            frame->error = prepare::errorOf(request.prepared, frame->onCard->download(),
+                                            request.camera, request.image, request.shading);
         frame->times = {times.sliceMs, times.transformMs, times.widthShares};
         answer.frame = std::move(frame);
     } catch (const task::Error &error) {
@@ -219,8 +219,6 @@ bool RenderWorker::take(const CardFrame &answer, std::shared_ptr<RenderedFrame> 
 void RenderWorker::renderInto(RenderedFrame &frame, const Request &request) {
     frame.image = request.prepared.engine->render(request.camera, request.image, request.shading,
                                                   &frame.times);
-    if (request.wantsTone)
-        frame.automaticTone = picture::toneRange(frame.image, {});
     if (request.wantsError)
         frame.error = prepare::errorOf(request.prepared, frame.image, request.camera, request.image,
                                        request.shading);

@@ -12,7 +12,7 @@
 
 #include <QObject>
 
-#include "core/picture/compose.h"
+#include "core/picture/exposure.h"
 #include "core/prepare/prepared_engine.h"
 #include "core/task/reason.h"
 #include "gpu/gpu_engine.h"
@@ -28,8 +28,9 @@ struct RenderedFrame {
     std::shared_ptr<const gpu::CardPicture> onCard;
     /// Why the processor made it, if the card was to make it.
     std::optional<task::Reason> refusal;
-    /// The automatic tone of this frame, if requested.
-    std::optional<picture::ToneRange> automaticTone;
+    /// The exposure of the study, if requested.
+    std::optional<scene::Exposure> exposure;
+    glm::dquat orientation; ///< of the camera
     /// The same view of the compared look, if requested.
     std::optional<picture::ProjectionImage> compared;
     picture::FrameTimes times;
@@ -58,6 +59,12 @@ public:
         /// Pixels are made at least this large; finer ones would only magnify.
         double finestPixelMm = 0.0;
     };
+    /// The study whose exposure is measured with a frame: that takes three small ones.
+    struct Exposed {
+        double radiusMm;  ///< of the volume
+        scene::Tone tone; ///< its contrast
+        picture::Background background = picture::Background::zero;
+    };
     /// Another look that is rendered with each frame, too.
     struct Compared {
         std::shared_ptr<render::ProjectionEngine> engine;
@@ -69,7 +76,7 @@ public:
     /// view moves.
     std::uint64_t request(const scene::Camera &camera, const scene::ImageDefinition &image,
                           const shading::Shading &shading, const Reduction &reduction,
-                          bool wantsTone, bool wantsError,
+                          const std::optional<Exposed> &exposed, bool wantsError,
                           const std::optional<Compared> &compared = {});
     /// Renders a single picture before the next frame, as engines render on this thread only. The
     /// future *throws* as rendering does, and std::future_error if the worker ends before.
@@ -94,7 +101,8 @@ private:
         scene::ImageDefinition image;
         shading::Shading shading;
         Reduction reduction;
-        bool wantsTone, wantsError;
+        std::optional<Exposed> exposed;
+        bool wantsError;
         std::optional<Compared> compared;
         std::uint64_t number;
     };

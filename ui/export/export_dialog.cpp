@@ -17,6 +17,7 @@
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
 #include "ui/document/document.h"
+#include "ui/export/capture_labels.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/jobs/job_strip.h"
 #include "ui/language/reasons.h"
@@ -47,7 +48,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
                                        tr("DICOM Secondary Capture"), tr("Turntable, frames (PNG)"),
                                        tr("Turntable, video (MP4)")})),
       m_scale(box("exportScaleBox", {"1 x", "2 x", "3 x", "4 x"})),
-      m_annotated(new QCheckBox(tr("With annotations"))),
+      m_annotated(new QCheckBox(tr("With annotations"))), m_patient(new QComboBox),
       m_deidentified(new QCheckBox(tr("Without the patient's identity"))), m_path(new QLineEdit),
       m_frames(new QSpinBox), m_message(new QLabel) {
     setObjectName("exportDialog");
@@ -61,6 +62,20 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     m_deidentified->setObjectName("exportDeidentifiedBox");
     m_deidentified->setToolTip(tr("No name, number, dates or study of the patient, and a new study "
                                   "UID (DICOM PS3.15, basic profile)"));
+    m_patient->setObjectName("exportPatientBox");
+    m_patient->setToolTip(tr("How the annotations name the patient: choose, or type a pseudonym"));
+    m_patient->setEditable(true);
+    const dicom::CaptureLabels study = studyLabels(document);
+    const QString named =
+        QStringList{QString::fromStdString(study.patientName).replace('^', ' ').simplified(),
+                    QString::fromStdString(study.patientId)}
+            .join("  ")
+            .trimmed();
+    if (!named.isEmpty())
+        m_patient->addItem(named);
+    m_patient->addItem(QString());
+    m_patient->lineEdit()->setPlaceholderText(tr("not named"));
+    m_patient->lineEdit()->setMaxLength(80);
     m_frames->setObjectName("exportFramesBox");
     m_frames->setRange(2, 720);
     m_frames->setValue(PictureExport().frameCount);
@@ -80,6 +95,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     form->addRow(tr("Format"), m_format);
     form->addRow(tr("Size"), m_scale);
     form->addRow(QString(), m_annotated);
+    form->addRow(tr("Patient"), m_patient);
     form->addRow(QString(), m_deidentified);
     form->addRow(tr("Frames"), m_frames);
     form->addRow(tr("File"), where);
@@ -92,7 +108,8 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     form->addRow(buttons);
     for (QComboBox *choice : {m_pane, m_format, m_scale})
         connect(choice, &QComboBox::currentIndexChanged, this, &ExportDialog::showChosen);
-    connect(m_deidentified, &QCheckBox::toggled, this, &ExportDialog::showChosen);
+    for (QCheckBox *choice : {m_annotated, m_deidentified})
+        connect(choice, &QCheckBox::toggled, this, &ExportDialog::showChosen);
     connect(m_panes.projection, &ProjectionView::finalImageShown, this, &ExportDialog::showChosen);
     connect(&document, &Document::volumeChanged, this, &ExportDialog::showChosen);
     connect(other, &QPushButton::clicked, this, &ExportDialog::browse);
@@ -111,14 +128,16 @@ PictureExport ExportDialog::chosen() const {
             m_scale->currentIndex() + 1,
             m_annotated->isChecked(),
             m_frames->value(),
-            m_deidentified->isEnabled() && m_deidentified->isChecked()};
+            m_deidentified->isEnabled() && m_deidentified->isChecked(),
+            m_patient->currentText().trimmed()};
 }
 
 void ExportDialog::showChosen() {
     const PictureExport what = chosen();
     m_annotated->setEnabled(what.isPicture());
     m_frames->setEnabled(what.isTurn());
-    m_deidentified->setEnabled(what.format == PictureFormat::capture);
+    m_deidentified->setEnabled(what.isPicture());
+    m_patient->setEnabled(what.isPicture() && what.isAnnotated && !what.isDeidentified);
     const QWidget *const pane = m_panes.of(what.pane);
     const QSize pixels = pane->size() * pane->devicePixelRatioF() * what.scale;
     const auto why = obstacle(what, m_panes, m_document);

@@ -48,7 +48,9 @@ private:
     Panes m_panes;
     JobRunner &m_jobs;
     QComboBox *m_pane, *m_format, *m_scale;
-    QCheckBox *m_annotated, *m_deidentified;
+    QCheckBox *m_annotated;
+    QComboBox *m_patient;
+    QCheckBox *m_deidentified;
     QLineEdit *m_path;
     QSpinBox *m_frames;
     QLabel *m_message;

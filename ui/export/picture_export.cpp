@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include <QDate>
 #include <QImage>
 #include <QPainter>
 #include <QPicture>
@@ -13,7 +14,9 @@
 #include "core/files/atomic_file.h"
 #include "core/files/file_set.h"
 #include "core/files/image_files.h"
+#include "core/picture/compose.h"
 #include "core/picture/projection_volume.h"
+#include "core/scene/positioner_angles.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 #include "ui/document/document.h"
@@ -33,22 +36,23 @@ namespace fs = std::filesystem;
 constexpr int framesPerSecond = 25;
 
 // Linear from the lower to the upper end of the window, as the grey values are measured.
-QImage sixteenBits(const picture::ProjectionImage &image, const scene::Tone &tone) {
+QImage sixteenBits(const picture::ProjectionImage &image, const picture::Display &display) {
     QImage out(image.width, image.height, QImage::Format_Grayscale16);
-    const double scale = 65535.0 / (*tone.high - *tone.low);
+    const picture::ToneRange &range = display.range;
+    const double scale = 65535.0 / (range.high - range.low);
     for (int r = 0; r < image.height; ++r) {
         auto *const row = reinterpret_cast<quint16 *>(out.scanLine(r));
         const float *const in = image.samples.data() + std::size_t(r) * std::size_t(image.width);
         for (int c = 0; c < image.width; ++c) {
-            const double v = std::clamp((double(in[c]) - *tone.low) * scale, 0.0, 65535.0);
-            row[c] = quint16(std::lround(tone.inverted ? 65535.0 - v : v));
+            const double v = std::clamp((double(in[c]) - range.low) * scale, 0.0, 65535.0);
+            row[c] = quint16(std::lround(display.inverted ? 65535.0 - v : v));
         }
     }
     return out;
 }
 
-QImage onScreen(const picture::ProjectionImage &image, const scene::Tone &tone) {
-    const auto rgba = picture::compose(image, tone);
+QImage onScreen(const picture::ProjectionImage &image, const picture::Display &display) {
+    const auto rgba = picture::compose(image, display);
     return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888)
         .convertToFormat(QImage::Format_RGB32);
 }
@@ -75,6 +79,23 @@ void putOver(QImage &picture, const Annotations &annotations, double pixelRatio)
     painter.drawPicture(0, 0, *annotations);
     painter.end();
     picture.setDevicePixelRatio(1.0);
+}
+
+// Names the patient and the date of the study in a corner that the pane leaves free for it.
+// *Units*: `line`: of text from the top.
+void paintPatient(QPainter &painter, const QRect &area, int line, const PictureExport &what,
+                  const dicom::CaptureLabels &labels) {
+    if (what.isDeidentified)
+        return;
+    const QDate date = QDate::fromString(QString::fromStdString(labels.studyDate), "yyyyMMdd");
+    QStringList parts;
+    if (!what.patient.isEmpty())
+        parts << what.patient;
+    if (date.isValid())
+        parts << date.toString(Qt::ISODate);
+    const int height = painter.fontMetrics().height() + 3;
+    drawText(painter, area.adjusted(10, 8 + line * height, -10, -8), Qt::AlignRight | Qt::AlignTop,
+             parts.join("  "), overlayColors("accent").text);
 }
 
 // `isGrey`: the picture is grey; its annotations then lose their color, as fewer programs read
@@ -110,12 +131,15 @@ PictureWriter planeWriter(const PictureExport &what, const Panes &panes, const D
     dicom::CaptureLabels labels = labelsOf(document, plane.axes, plane.pixelMm / what.scale);
     labels.seriesDescription = "Plane";
     labels.derivation = "Reformatted plane";
+    const dicom::CaptureLabels study = labels;
     if (what.isDeidentified)
         labels = dicom::deidentified(labels);
+    labels.isNamedInPicture = what.namesPatient();
     const Names names = what.isDeidentified ? Names::hidden : Names::shown;
     return [make = view.pictureMaker(what.scale), what, path, ratio, labels,
             isGrey = !document.tint(), over = recorded(what.isAnnotated, [&](QPainter &painter) {
                                            view.paintOver(painter, names);
+                                           paintPatient(painter, view.rect(), 1, what, study);
                                        })](const task::Progress &progress) {
         QImage picture = make();
         progress.report(0.3);
@@ -154,7 +178,8 @@ struct ProjectionJob {
 };
 
 QImage ProjectionJob::picture(std::size_t n) const {
-    QImage made = onScreen(render(turn.cameras[n]), scene.tone);
+    QImage made = onScreen(render(turn.cameras[n]),
+                           picture::displayOf(scene.tone, turn.cameras[n].orientation));
     putOver(made, turn.over[n], ratio);
     return made;
 }
@@ -175,7 +200,9 @@ void ProjectionJob::run(const task::Progress &progress) const {
         write(picture(0), what.format, path, labels, isGrey);
         break;
     case PictureFormat::png16:
-        writePictureFile(path, sixteenBits(render(scene.camera), scene.tone));
+        writePictureFile(
+            path, sixteenBits(render(scene.camera),
+                              picture::plainDisplayOf(scene.tone, scene.camera.orientation)));
         break;
     case PictureFormat::npy: {
         const picture::ProjectionImage image = render(scene.camera);
@@ -220,6 +247,7 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
     job.isGrey = classify::isGrey(job.scene.look) && job.scene.shading.isGrey();
     const int count = what.isTurn() ? what.frameCount : 1;
     const Names names = what.isDeidentified ? Names::hidden : Names::shown;
+    const dicom::CaptureLabels study = studyLabels(document);
     for (int n = 0; n < count; ++n) {
         const double degrees = 360.0 * n / count;
         job.turn.cameras.push_back(view.turnedAroundPatient(camera, degrees));
@@ -227,11 +255,17 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
             recorded(what.isAnnotated && what.isPicture(), [&](QPainter &painter) {
                 view.paintAnnotations(
                     painter, view.turnedAroundPatient(document.scene().camera, degrees), names);
+                paintPatient(painter, view.rect(), 0, what, study);
             }));
     }
     job.labels = labelsOf(document, {camera.axes()[0], camera.axes()[1]}, camera.pixelMm);
+    if (document.volume()->notes().placed) {
+        const scene::PositionerAngles angles = scene::positionerAngles(camera.orientation);
+        job.labels.positionerDeg = {angles.primaryDeg, angles.secondaryDeg};
+    }
     if (what.isDeidentified)
         job.labels = dicom::deidentified(job.labels);
+    job.labels.isNamedInPicture = what.namesPatient();
     return [job](const task::Progress &progress) { job.run(progress); };
 }
 

@@ -41,8 +41,13 @@ struct PictureExport {
     int scale = 1; ///< pixels a side for one of the screen
     bool isAnnotated = true;
     int frameCount = 120;        ///< of a turn
-    bool isDeidentified = false; ///< a capture without the patient's identity
+    bool isDeidentified = false; ///< without the patient's identity and the study's date
+    QString patient;             ///< as annotations name the patient; may be empty
 
+    /// Whether its annotations name the patient.
+    bool namesPatient() const {
+        return isPicture() && isAnnotated && !isDeidentified && !patient.isEmpty();
+    }
     /// Whether it has colors and annotations.
     bool isPicture() const {
         return format != PictureFormat::png16 && format != PictureFormat::npy &&

@@ -9,6 +9,7 @@
 #include "core/mpr/plane.h"
 #include "core/picture/compose.h"
 #include "core/prepare/prepared_engine.h"
+#include "core/presets/study_traits.h"
 #include "core/segment/segment_set.h"
 #include "ui/document/pose.h"
 #include "ui/engine/look_preparer.h"
@@ -29,7 +30,8 @@ struct KeptStudy {
     volume::ValueWindow displayWindow;
     volume::PatientPoint crosshair;
     mpr::PlaneAxes axes;
-    std::optional<picture::ToneRange> brightness;
+    std::optional<scene::Exposure> exposure;
+    presets::StudyTraits traits;
     std::shared_ptr<const segment::SegmentSet> segments; ///< or null
 
     std::size_t bytes() const;

@@ -42,7 +42,7 @@ std::optional<Session> currentSession(const Document &document) {
     session.difference = source.difference;
     session.key = source.digest();
     session.shown = {document.scene(), document.displayWindow(), document.crosshair(),
-                     document.cut(), document.brightness()};
+                     document.cut(), document.exposure()};
     if (document.segments())
         for (const segment::Segmentation &segmentation : document.segments()->segmentations())
             session.segmentations << QString::fromStdString(segmentation.path.string());

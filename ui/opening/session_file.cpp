@@ -84,12 +84,6 @@ mpr::PlaneAxes planesFrom(const QJsonArray &in) {
     return mpr::PlaneAxes(axes);
 }
 
-std::optional<picture::ToneRange> brightnessFrom(const QJsonValue &value) {
-    const QJsonArray in = value.toArray();
-    const picture::ToneRange range{in[0].toDouble(), in[1].toDouble()};
-    return range.low < range.high ? std::optional(range) : std::nullopt; // older versions: none
-}
-
 // Older versions kept none: they only subtracted.
 subtraction::Weights weightsFrom(const QJsonValue &value) {
     const QJsonArray in = value.toArray();
@@ -103,9 +97,8 @@ QJsonObject objectOf(const Session &s) {
     for (const dicom::Skipped &skipped : s.leftOut)
         leftOut << QJsonObject{{"path", QString::fromStdString(skipped.path.string())},
                                {"reason", toLine(skipped.reason)}};
-    QJsonArray brightness;
-    if (s.shown.brightness)
-        brightness = {s.shown.brightness->low, s.shown.brightness->high};
+    scene::Scene scene = s.shown.scene;
+    scene.tone.exposure = s.shown.exposure;
     QJsonObject difference;
     if (s.difference)
         difference = {{"minuend", s.difference->minuend},
@@ -113,25 +106,23 @@ QJsonObject objectOf(const Session &s) {
                       {"aligned", s.difference->isAligned},
                       {"weights", QJsonArray{s.difference->weights.minuend,
                                              s.difference->weights.subtrahend}}};
-    return {
-        {"schema", schema},
-        {"difference", difference},
-        {"ended", s.hasEnded},
-        {"files", QJsonArray::fromStringList(s.files)},
-        {"left_out", leftOut},
-        {"segmentations", QJsonArray::fromStringList(s.segmentations)},
-        {"phantom", s.phantom},
-        {"key", s.key},
-        {"scene",
-         QJsonDocument::fromJson(QByteArray::fromStdString(scene::toJson(s.shown.scene))).object()},
-        {"window", QJsonObject{{"center", s.shown.displayWindow.center},
-                               {"width", s.shown.displayWindow.width},
-                               {"name", QString::fromStdString(s.shown.displayWindow.name)}}},
-        {"brightness", brightness},
-        {"crosshair", toJson(s.shown.crosshair.mm)},
-        {"planes", toJson(s.shown.cut.axes)},
-        {"slab", QJsonObject{{"mm", cut.slab.thicknessMm}, {"mode", int(cut.slab.mode)}}},
-        {"nearest", cut.interpolation == mpr::Interpolation::nearest}};
+    return {{"schema", schema},
+            {"difference", difference},
+            {"ended", s.hasEnded},
+            {"files", QJsonArray::fromStringList(s.files)},
+            {"left_out", leftOut},
+            {"segmentations", QJsonArray::fromStringList(s.segmentations)},
+            {"phantom", s.phantom},
+            {"key", s.key},
+            {"scene",
+             QJsonDocument::fromJson(QByteArray::fromStdString(scene::toJson(scene))).object()},
+            {"window", QJsonObject{{"center", s.shown.displayWindow.center},
+                                   {"width", s.shown.displayWindow.width},
+                                   {"name", QString::fromStdString(s.shown.displayWindow.name)}}},
+            {"crosshair", toJson(s.shown.crosshair.mm)},
+            {"planes", toJson(s.shown.cut.axes)},
+            {"slab", QJsonObject{{"mm", cut.slab.thicknessMm}, {"mode", int(cut.slab.mode)}}},
+            {"nearest", cut.interpolation == mpr::Interpolation::nearest}};
 }
 
 Session fromJson(const QJsonObject &in) {
@@ -159,7 +150,7 @@ Session fromJson(const QJsonObject &in) {
     s.shown.displayWindow = {window["center"].toDouble(),
                              std::max(1e-6, window["width"].toDouble(1.0)),
                              window["name"].toString().toStdString()};
-    s.shown.brightness = brightnessFrom(in["brightness"]);
+    s.shown.exposure = std::exchange(s.shown.scene.tone.exposure, std::nullopt);
     s.shown.crosshair = {vectorFrom(in["crosshair"])};
     s.shown.cut.axes = planesFrom(in["planes"].toArray());
     const QJsonObject slab = in["slab"].toObject();

@@ -4,7 +4,10 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/classify/couch.h"
 #include "core/dicom/scan.h"
+#include "core/preprocess/body.h"
+#include "core/preprocess/study_content.h"
 #include "core/system/memory.h"
 #include "ui/document/document.h"
 #include "ui/engine/look_preparer.h"
@@ -62,8 +65,8 @@ void StudyOpener::keepCurrent() {
     m_kept.keep({m_document.currentSource(), *volume, m_document.initialWindow(),
                  m_document.defaultFieldWindow(), m_document.scene(), m_document.pose(),
                  m_preparer.preparedFor(), m_preparer.fullEngine(), m_document.displayWindow(),
-                 m_document.crosshair(), m_document.cut().axes, m_document.brightness(),
-                 m_document.segments()});
+                 m_document.crosshair(), m_document.cut().axes, m_document.exposure(),
+                 m_document.traits(), m_document.segments()});
     // The next study may need half of the memory.
     m_kept.trim(system::availableMemoryBytes() / 2 + m_kept.bytes() / 2);
 }
@@ -87,12 +90,13 @@ void StudyOpener::resume(const Continuity &continuity) {
     m_document.setDisplayWindow(continuity.displayWindow);
     m_document.setCrosshair(continuity.crosshair);
     m_document.setCut(continuity.cut);
-    if (continuity.brightness)
-        emit brightnessKept(*continuity.brightness);
+    if (continuity.exposure)
+        emit exposureKept(*continuity.exposure);
 }
 
 void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &continuity) {
     m_document.setVolume(study.volume, study.initialWindow, study.fieldWindow, false);
+    m_document.setTraits(study.traits);
     m_document.setSegments(study.segments);
     if (continuity) {
         resume(*continuity);
@@ -117,8 +121,8 @@ void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &
     Cut cut = m_document.cut();
     cut.axes = study.axes;
     m_document.setCut(cut);
-    if (study.brightness)
-        emit brightnessKept(*study.brightness);
+    if (study.exposure)
+        emit exposureKept(*study.exposure);
     m_preparer.prepareAgain(); // if the quality changed or the engine was dropped
 }
 
@@ -281,7 +285,7 @@ void StudyOpener::closeSource(int index) {
 
 Continuity StudyOpener::leavePhase(int next) {
     Continuity stays{m_document.scene(), m_document.displayWindow(), m_document.crosshair(),
-                     m_document.cut(),   m_document.brightness(),    m_document.segments()};
+                     m_document.cut(),   m_document.exposure(),      m_document.segments()};
     // A volume's own window would differ from phase to phase.
     if (m_document.volume()->unit() == volume::ValueUnit::none)
         stays.scene.fieldWindow = m_document.fieldWindow();
@@ -387,7 +391,11 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
     QStringList segmentations;
     if (m_resumption && source.digest() == m_resumption->digest)
         segmentations = m_resumption->segmentations;
-    return [this, source, segmentations,
+    // What is shown at first of a study that has a couch.
+    PreparedFor bare = wanted;
+    classify::removeCouch(bare.look, classify::ctFieldWindow);
+    return [this, source, segmentations, bare,
+            prepareBare = m_preparer.preparation(bare, 0.6, prepare::Detail::coarse),
             prepare =
                 m_preparer.preparation(wanted, 0.6, prepare::Detail::coarse)](const Job &job) {
         dicom::LoadObserver observer;
@@ -401,10 +409,23 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
         const classify::FieldWindow field = classify::defaultFieldWindow(volume);
         const LoadedSegments segments =
             loadSegments(segmentations, volume, nullptr, job.progress().part(0.6, 0.6));
-        job.deliver([this, loaded, window, field, segments] {
+        const bool hasCouch =
+            volume.notes().placed && preprocess::hasCouch(volume, job.progress().part(0.6, 0.6));
+        const presets::StudyTraits traits =
+            preprocess::traitsOf(volume, job.progress().part(0.6, 0.6));
+        job.deliver([this, loaded, window, field, segments, bare, hasCouch, traits] {
             m_document.addProblems(loaded.skipped);
             m_document.addProblems(segments.problems);
+            m_preparer.setHeld(true);
             m_document.setVolume(loaded.volume, window, field, false);
+            m_document.setTraits(traits);
+            if (hasCouch && m_document.scene().look == classify::Look()) {
+                scene::Scene scene = m_document.scene();
+                scene.look = bare.look;
+                m_document.setScene(scene);
+                m_preparer.expect(bare);
+            }
+            m_preparer.setHeld(false);
             m_document.setSegments(segments.set);
             applyResumption();
             // The quality may have changed during the load.
@@ -419,7 +440,7 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
             return;
         }
         job.stage(tr("Preparing the projection"));
-        prepare(job, volume);
+        (hasCouch ? prepareBare : prepare)(job, volume);
     };
 }
 

@@ -22,7 +22,7 @@ struct Continuity {
     volume::ValueWindow displayWindow;
     volume::PatientPoint crosshair;
     Cut cut;
-    std::optional<picture::ToneRange> brightness; ///< see Document
+    std::optional<scene::Exposure> exposure; ///< see Document
     /// Kept if the other volume has the same lattice; may be null.
     std::shared_ptr<const segment::SegmentSet> segments = nullptr;
 };
@@ -71,9 +71,9 @@ signals:
     void pathsOpened(const QStringList &paths);
     /// They contain images so large that they are opened only if the user asks for it.
     void hugeFound(const QStringList &paths, const std::vector<pellucid::dicom::Skipped> &huge);
-    /// A study came back with the automatic brightness that it had.
-    void brightnessKept(const pellucid::picture::ToneRange &range);
-    /// Another phase follows: the brightness of the projection has to stay.
+    /// A study came back with the exposure that it had.
+    void exposureKept(const pellucid::scene::Exposure &exposure);
+    /// Another phase follows: the exposure of the projection has to stay.
     void phaseLeft();
     /// The open volume cannot be projected.
     void notProjectable(const QString &reason);

@@ -14,6 +14,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "core/classify/couch.h"
 #include "core/presets/slicer_preset.h"
 #include "core/task/error.h"
 #include "ui/document/commands.h"
@@ -32,6 +33,9 @@ namespace {
 // The untranslated name of a preset.
 constexpr int nameRole = Qt::UserRole;
 
+// It comes first of the built-in ones.
+constexpr auto plainPreset = "X-ray";
+
 constexpr QSize pictureSize{LookPreviewer::pictureWidth, LookPreviewer::pictureHeight};
 
 QIcon emptyIcon() {
@@ -44,8 +48,9 @@ QIcon emptyIcon() {
 
 PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_library(presets::PresetLibrary::ofUser()),
-      m_save(new QPushButton), m_gallery(new QListWidget), m_name(new QLineEdit),
-      m_confirm(new QPushButton(tr("Save"))), m_nameRow(new QWidget), m_message(new QLabel) {
+      m_corner(new QWidget), m_listsAll(new QPushButton(tr("All"))), m_save(new QPushButton),
+      m_gallery(new QListWidget), m_name(new QLineEdit), m_confirm(new QPushButton(tr("Save"))),
+      m_nameRow(new QWidget), m_message(new QLabel) {
     setObjectName("presetsPanel");
     setAttribute(Qt::WA_StyledBackground);
     m_gallery->setObjectName("presetGallery");
@@ -65,6 +70,16 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     m_save->setObjectName("saveLookButton");
     m_save->setToolTip(tr("Save the current look as your own preset (Ctrl+S)"));
     m_save->setProperty("role", "link");
+    m_listsAll->setObjectName("allPresetsButton");
+    m_listsAll->setCheckable(true);
+    m_listsAll->setToolTip(
+        tr("List all presets, not only those for the region of the body that is open"));
+    m_listsAll->setProperty("role", "link");
+    auto *corner = new QHBoxLayout(m_corner);
+    corner->setContentsMargins(0, 0, 0, 0);
+    corner->setSpacing(10);
+    corner->addWidget(m_listsAll);
+    corner->addWidget(m_save);
     m_name->setObjectName("lookNameEdit");
     m_name->setAccessibleName(tr("Name of the look"));
     m_name->setMaxLength(60);
@@ -94,6 +109,8 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
 
 void PresetsPanel::connectControls() {
     connect(m_save, &QPushButton::clicked, this, &PresetsPanel::askForName);
+    connect(m_listsAll, &QPushButton::toggled, this, &PresetsPanel::list);
+    connect(&m_document, &Document::traitsChanged, this, &PresetsPanel::list);
     connect(m_confirm, &QPushButton::clicked, this, &PresetsPanel::saveLook);
     connect(m_name, &QLineEdit::returnPressed, this, &PresetsPanel::saveLook);
     connect(m_gallery, &QListWidget::itemClicked, this, &PresetsPanel::apply);
@@ -111,7 +128,7 @@ void PresetsPanel::connectControls() {
 }
 
 QWidget *PresetsPanel::corner() {
-    return m_save;
+    return m_corner;
 }
 
 template <class F> void PresetsPanel::attempt(const F &what) {
@@ -130,12 +147,30 @@ bool PresetsPanel::suits(const presets::Preset &preset) const {
     return !volume || !presets::mismatch(preset, *volume);
 }
 
+bool PresetsPanel::isOffered(const presets::PresetEntry &entry) const {
+    return suits(entry.preset) &&
+           (m_listsAll->isChecked() || !entry.isBuiltIn() || !m_document.volume() ||
+            presets::isFor(entry.preset, m_document.traits()));
+}
+
 void PresetsPanel::list() {
     std::vector<presets::Preset> listed;
     m_gallery->clear();
-    for (const auto &entry : m_library.entries()) {
-        if (!suits(entry.preset))
-            continue;
+    // The user's own first, then those for the region, then those for any.
+    std::vector<const presets::PresetEntry *> offered;
+    for (const auto &entry : m_library.entries())
+        if (isOffered(entry))
+            offered.push_back(&entry);
+    const auto rank = [](const presets::PresetEntry *entry) {
+        return !entry->isBuiltIn()                 ? 0
+               : entry->preset.name == plainPreset ? 1
+               : !entry->preset.regions.empty()    ? 2
+                                                   : 3;
+    };
+    std::stable_sort(offered.begin(), offered.end(),
+                     [&](const auto *a, const auto *b) { return rank(a) < rank(b); });
+    for (const presets::PresetEntry *offer : offered) {
+        const presets::PresetEntry &entry = *offer;
         listed.push_back(entry.preset);
         const QString name = QString::fromStdString(entry.preset.name);
         auto *item = new QListWidgetItem(emptyIcon(), translatedName(entry.preset.name));
@@ -183,13 +218,21 @@ void PresetsPanel::showCurrent() {
     const bool isFree = m_document.volume()->unit() == volume::ValueUnit::none;
     const classify::FieldWindow defaultWindow = isFree ? shown : m_document.defaultFieldWindow();
     QString current = tr("Custom look");
-    if (scene.look == classify::Look() && scene.shading == shading::Shading() &&
-        shown == defaultWindow)
+    // With or without the couch, it is the same preset.
+    const auto isShown = [&](classify::Look look) {
+        if (look == scene.look)
+            return true;
+        classify::Look present = scene.look;
+        classify::removeCouch(look, shown);
+        classify::removeCouch(present, shown);
+        return look == present;
+    };
+    if (isShown({}) && scene.shading == shading::Shading() && shown == defaultWindow)
         current = tr("Plain density");
     for (const auto &entry : m_library.entries()) {
         const auto window = entry.preset.window.value_or(defaultWindow);
         if (!suits(entry.preset) || !(window == shown) ||
-            !(presets::lookFor(entry.preset, window) == scene.look) ||
+            !isShown(presets::lookFor(entry.preset, window)) ||
             !(entry.preset.shading == scene.shading))
             continue;
         current = translatedName(entry.preset.name);
@@ -211,9 +254,12 @@ void PresetsPanel::apply(QListWidgetItem *item) {
         return;
     }
     editScene(m_document, tr("Preset %1").arg(item->text()), noDrag, [&](scene::Scene &scene) {
+        const bool isWithoutCouch = classify::isWithoutCouch(scene.look);
         scene.fieldWindow = entry->preset.window;
-        scene.look = presets::lookFor(entry->preset,
-                                      scene.fieldWindow.value_or(m_document.defaultFieldWindow()));
+        const auto window = scene.fieldWindow.value_or(m_document.defaultFieldWindow());
+        scene.look = presets::lookFor(entry->preset, window);
+        if (isWithoutCouch)
+            classify::removeCouch(scene.look, window);
         scene.shading = entry->preset.shading;
     });
     askForPoints(m_document);

@@ -23,7 +23,7 @@ class PresetsPanel : public QWidget {
 public:
     explicit PresetsPanel(Document &document, QWidget *parent = nullptr);
 
-    /// The button beside the panel's heading.
+    /// The buttons beside the panel's heading.
     QWidget *corner();
     void setPicture(const QString &preset, const QImage &picture);
     /// Asks for a name under which to save the current look.
@@ -54,10 +54,13 @@ private:
     /// Runs `what` and reports a task::Error that it throws.
     template <class F> void attempt(const F &what);
     bool suits(const presets::Preset &preset) const;
+    /// Whether it is listed: the built-in ones only for studies of their region.
+    bool isOffered(const presets::PresetEntry &entry) const;
 
     Document &m_document;
     presets::PresetLibrary m_library;
-    QPushButton *m_save;
+    QWidget *m_corner;
+    QPushButton *m_listsAll, *m_save;
     QListWidget *m_gallery;
     QLineEdit *m_name;
     QPushButton *m_confirm;

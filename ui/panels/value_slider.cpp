@@ -66,7 +66,10 @@ void ValueSlider::setNames(const QString &accessibleName, const QString &tip) {
 
 bool ValueSlider::eventFilter(QObject *watched, QEvent *event) {
     if (watched == m_slider && event->type() == QEvent::MouseButtonDblClick) {
-        emit changed(m_range.initial, noDrag);
+        if (m_range.initial)
+            emit changed(*m_range.initial, noDrag);
+        else
+            emit automaticRequested();
         return true;
     }
     return QWidget::eventFilter(watched, event);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include <QWidget>
 
 #include "ui/document/commands.h"
@@ -10,13 +12,14 @@ class QSlider;
 
 namespace pellucid::ui {
 
-/// A slider with a number box beside it; a double-click restores the initial value.
+/// A slider with a number box beside it; a double-click restores the initial value, or asks for the
+/// automatic one.
 class ValueSlider : public QWidget {
     Q_OBJECT
 public:
     struct Range {
-        double largest = 1.0; ///< from 0
-        double initial = 1.0;
+        double largest = 1.0;                ///< from 0
+        std::optional<double> initial = 1.0; ///< none: it is automatic
     };
     /// Takes the object names of the two controls.
     ValueSlider(const Range &range, const QString &sliderName, const QString &valueName,
@@ -29,6 +32,8 @@ signals:
     /// `drag`: constant during one drag.
     void changed(double value, pellucid::ui::DragId drag);
     void pressed();
+    /// The value is to be automatic.
+    void automaticRequested();
 
 protected:
     bool eventFilter(QObject *watched, QEvent *event) override;

@@ -20,7 +20,7 @@ struct ShownLook {
     std::shared_ptr<render::ProjectionEngine> engine;
     scene::ImageDefinition image;
     shading::Shading shading;
-    scene::Tone tone; ///< with both ends
+    scene::Tone tone; ///< with its exposure
     QString name;
 };
 

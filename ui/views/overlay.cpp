@@ -105,19 +105,51 @@ void drawScaleBar(QPainter &painter, QPoint bottomLeft, double pixelsPerMm, int 
     painter.restore();
 }
 
+namespace {
+
+struct CubeFace {
+    glm::dvec3 normal, a, b;
+    char letter;
+};
+constexpr std::array<CubeFace, 6> cubeFaces{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 'L'},
+                                             {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 'R'},
+                                             {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, 'P'},
+                                             {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}, 'A'},
+                                             {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 'S'},
+                                             {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, 'I'}}};
+// Half an edge of a cube whose corners are within a radius.
+constexpr double edgeOfRadius = 1.0 / 1.75;
+
+} // namespace
+
+std::optional<glm::dvec3> cubeSideAt(const QPointF &at, QPointF center, double radius,
+                                     const glm::dmat3 &axes) {
+    // The rest of a face belongs to its edges and corners.
+    constexpr double middleOfFace = 0.6, edgeOn = 0.02;
+    const double half = radius * edgeOfRadius;
+    const glm::dvec3 onPicture =
+        ((at.x() - center.x()) * axes[0] - (at.y() - center.y()) * axes[1]) / half;
+    for (const CubeFace &face : cubeFaces) {
+        const double facing = glm::dot(face.normal, axes[2]);
+        if (facing <= edgeOn)
+            continue;
+        // Where the line of sight meets the face.
+        const glm::dvec3 met =
+            onPicture + (1.0 - glm::dot(face.normal, onPicture)) / facing * axes[2];
+        const double a = glm::dot(met, face.a), b = glm::dot(met, face.b);
+        if (std::max(std::abs(a), std::abs(b)) > 1.0)
+            continue;
+        const auto beyond = [&](double x) {
+            return std::abs(x) > middleOfFace ? std::copysign(1.0, x) : 0.0;
+        };
+        return face.normal + beyond(a) * face.a + beyond(b) * face.b;
+    }
+    return std::nullopt;
+}
+
 void drawOrientationCube(QPainter &painter, QPointF center, double radius, const glm::dmat3 &axes,
                          const OverlayColors &colors) {
-    struct Face {
-        glm::dvec3 normal, a, b;
-        char letter;
-    };
-    static const std::array<Face, 6> faces{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 'L'},
-                                            {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 'R'},
-                                            {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, 'P'},
-                                            {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}, 'A'},
-                                            {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 'S'},
-                                            {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, 'I'}}};
-    const double half = radius / 1.75;
+    const double half = radius * edgeOfRadius;
     const auto project = [&](const glm::dvec3 &p) {
         return QPointF(center.x() + half * glm::dot(p, axes[0]),
                        center.y() - half * glm::dot(p, axes[1]));
@@ -127,7 +159,7 @@ void drawOrientationCube(QPainter &painter, QPointF center, double radius, const
     QFont font = painter.font();
     font.setBold(true);
     painter.setFont(font);
-    for (const Face &face : faces) {
+    for (const CubeFace &face : cubeFaces) {
         const double facing = glm::dot(face.normal, axes[2]);
         if (facing <= 0.02)
             continue;

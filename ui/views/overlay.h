@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include <QColor>
 #include <QRect>
 #include <QRegion>
@@ -44,6 +46,10 @@ QRegion upperAndLowerLetters(const QRect &area);
 void drawScaleBar(QPainter &painter, QPoint bottomLeft, double pixelsPerMm, int longestPixels,
                   const OverlayColors &colors);
 
+/// The side of the cube at a position: a face, an edge between two or a corner; none beside the
+/// cube. Its direction has components -1, 0 and 1.
+std::optional<glm::dvec3> cubeSideAt(const QPointF &at, QPointF center, double radius,
+                                     const glm::dmat3 &axes);
 /// Draws a cube with the patient's letters as the viewer sees it; `axes` are [U V W].
 void drawOrientationCube(QPainter &painter, QPointF center, double radius, const glm::dmat3 &axes,
                          const OverlayColors &colors);

@@ -33,6 +33,11 @@ public:
         m_image = std::move(image);
         m_picture.reset();
         m_fresh = true;
+        if (!m_image && m_pass) {
+            makeCurrent();
+            m_pass->releaseContrast();
+            doneCurrent();
+        }
         update();
     }
     void setPicture(std::shared_ptr<const gpu::CardPicture> picture) override {
@@ -40,9 +45,8 @@ public:
         m_image.reset();
         update();
     }
-    void setTone(const picture::ToneRange &range, bool inverted) override {
-        m_range = range;
-        m_inverted = inverted;
+    void setDisplay(const picture::Display &display) override {
+        m_display = display;
         update();
     }
 
@@ -64,7 +68,7 @@ protected:
         const bool sees =
             QOpenGLContext::areSharing(context(), QOpenGLContext::globalShareContext());
         if (m_pass && m_picture && sees) {
-            m_pass->draw(*m_picture, m_range, m_inverted);
+            m_pass->draw(*m_picture, m_display);
             return;
         }
         if (m_picture)
@@ -72,7 +76,7 @@ protected:
         if (!m_image)
             return;
         if (!m_pass) {
-            const auto rgba = picture::compose(*m_image, {m_range.low, m_range.high, m_inverted});
+            const auto rgba = picture::compose(*m_image, m_display);
             QPainter(this).drawImage(rect(), QImage(rgba.data(), m_image->width, m_image->height,
                                                     QImage::Format_RGBX8888));
             return;
@@ -80,7 +84,7 @@ protected:
         if (m_fresh)
             m_pass->upload(*m_image);
         m_fresh = false;
-        m_pass->draw(m_range, m_inverted);
+        m_pass->draw(m_display);
     }
 
 private:
@@ -105,8 +109,8 @@ private:
     std::unique_ptr<gpu::TonePass> m_pass;
     Image m_image;
     std::shared_ptr<const gpu::CardPicture> m_picture;
-    picture::ToneRange m_range;
-    bool m_inverted = false, m_fresh = false;
+    picture::Display m_display;
+    bool m_fresh = false;
 };
 
 class RasterCanvas final : public QWidget, public ProjectionCanvas {
@@ -129,8 +133,8 @@ public:
             // The card has failed; the next frame comes from the processor.
         }
     }
-    void setTone(const picture::ToneRange &range, bool inverted) override {
-        m_tone = {range.low, range.high, inverted};
+    void setDisplay(const picture::Display &display) override {
+        m_display = display;
         m_stale = true;
         update();
     }
@@ -155,12 +159,12 @@ private:
         if (!m_image)
             return;
         // The window's own format: a painter need neither convert nor blend.
-        m_pixels = picture::compose(*m_image, m_tone, picture::PixelOrder::bgra);
+        m_pixels = picture::compose(*m_image, m_display, picture::PixelOrder::bgra);
         m_picture = QImage(m_pixels.data(), m_image->width, m_image->height, QImage::Format_RGB32);
     }
 
     Image m_image;
-    scene::Tone m_tone;
+    picture::Display m_display;
     picture::Pixels m_pixels; ///< of `m_picture`
     QImage m_picture;
     bool m_stale = false;
@@ -186,26 +190,24 @@ public:
         if (m_gl == nullptr) {
             m_gl = new GlCanvas(this);
             m_stack->addWidget(m_gl);
-            m_gl->setTone(m_range, m_inverted);
+            m_gl->setDisplay(m_display);
         }
         m_gl->setPicture(std::move(picture));
         m_stack->setCurrentWidget(m_gl);
         m_raster->setImage(nullptr);
     }
-    void setTone(const picture::ToneRange &range, bool inverted) override {
-        m_range = range;
-        m_inverted = inverted;
-        m_raster->setTone(range, inverted);
+    void setDisplay(const picture::Display &display) override {
+        m_display = display;
+        m_raster->setDisplay(display);
         if (m_gl != nullptr)
-            m_gl->setTone(range, inverted);
+            m_gl->setDisplay(display);
     }
 
 private:
     RasterCanvas *m_raster;
     GlCanvas *m_gl = nullptr; ///< made for the first picture of the card
     QStackedLayout *m_stack;
-    picture::ToneRange m_range;
-    bool m_inverted = false;
+    picture::Display m_display;
 };
 
 } // namespace

@@ -21,7 +21,7 @@ public:
     /// Shows a picture that is on the graphics card; a canvas that cannot draw it there downloads
     /// it.
     virtual void setPicture(std::shared_ptr<const gpu::CardPicture> picture) = 0;
-    virtual void setTone(const picture::ToneRange &range, bool inverted) = 0;
+    virtual void setDisplay(const picture::Display &display) = 0;
 };
 
 /// A canvas on OpenGL 3.3 or newer with the GLSL tone pass; on the processor if there is no OpenGL,

@@ -8,9 +8,20 @@
 
 #include "ui/document/document.h"
 #include "ui/views/overlay.h"
+#include "ui/views/projection_texts.h"
 #include "ui/views/tools/projection_tools.h"
 
 namespace pellucid::ui {
+
+namespace {
+
+constexpr double cubeRadius = 40.0;
+
+QString anglesOf(const glm::dmat3 &axes) {
+    return anglesText(scene::positionerAngles(glm::quat_cast(axes)));
+}
+
+} // namespace
 
 ProjectionOverlay::ProjectionOverlay(const Document &document, const ProjectionTools &tools,
                                      QWidget *parent)
@@ -109,6 +120,28 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping, Mar
         paintPicture(painter, mapping, marks);
 }
 
+QPointF ProjectionOverlay::cubeCenter() const {
+    return {58.0, height() - 72.0};
+}
+
+QRect ProjectionOverlay::anglesRect(const QFontMetrics &metrics, const QString &text) const {
+    const int line = metrics.height() + 4;
+    return {12, height() - 14 - line, metrics.horizontalAdvance(text) + 8, line};
+}
+
+std::optional<glm::dvec3> ProjectionOverlay::cubeSideAt(const QPointF &at) const {
+    const mpr::Axes &seen = m_mapping.plane.axes;
+    if (m_texts.figures.isEmpty())
+        return std::nullopt;
+    return ui::cubeSideAt(at, cubeCenter(), cubeRadius, {seen.right, seen.up, seen.toViewer()});
+}
+
+bool ProjectionOverlay::isOnAngles(const QPointF &at) const {
+    const mpr::Axes &seen = m_mapping.plane.axes;
+    const QString text = anglesOf({seen.right, seen.up, seen.toViewer()});
+    return !m_texts.figures.isEmpty() && anglesRect(fontMetrics(), text).contains(at.toPoint());
+}
+
 // The pivot of turning.
 void ProjectionOverlay::paintCrosshair(QPainter &painter, const PaneMapping &mapping) const {
     constexpr double gap = 4.0, arm = 12.0;
@@ -122,12 +155,16 @@ void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mappi
                                      Marks marks) const {
     const OverlayColors colors = this->colors();
     const int line = painter.fontMetrics().height() + 3;
-    drawText(painter, rect().adjusted(10, 8, -10, -8), Qt::AlignRight | Qt::AlignTop,
-             m_texts.figures, colors.text);
+    if (marks != Marks::plain) // a printed picture needs no times
+        drawText(painter, rect().adjusted(10, 8, -10, -8), Qt::AlignRight | Qt::AlignTop,
+                 m_texts.figures, colors.text);
     const mpr::Axes &seen = mapping.plane.axes;
     const glm::dmat3 axes(seen.right, seen.up, seen.toViewer());
     drawOrientationLetters(painter, rect().adjusted(0, line, 0, -line), axes[0], axes[1], colors);
-    drawOrientationCube(painter, QPointF(58, height() - 58), 40, axes, colors);
+    drawOrientationCube(painter, cubeCenter(), cubeRadius, axes, colors);
+    const QString angles = anglesOf(axes);
+    drawText(painter, anglesRect(painter.fontMetrics(), angles), Qt::AlignLeft | Qt::AlignVCenter,
+             angles, colors.text);
     // Bar and text fit beside the lower letter even in the smallest pane.
     const int barLeft = std::max(width() - 180, width() / 2 + 14);
     drawScaleBar(painter, QPoint(barLeft, height() - 34), mapping.pixelsPerMm(),

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
+#include <QFontMetrics>
 #include <QImage>
 #include <QWidget>
 
@@ -29,6 +32,11 @@ public:
     void setShowsCrosshair(bool isShown);
     /// Covers the canvas with a picture; null: with none. `name`: of the look at its left.
     void setComparison(const QImage &picture, const QString &name);
+    /// The side of the orientation cube at a position, see ui::cubeSideAt.
+    std::optional<glm::dvec3> cubeSideAt(const QPointF &at) const;
+    /// Whether a position is on the angles of the view, beside the cube.
+    bool isOnAngles(const QPointF &at) const;
+    bool takesClick(const QPointF &at) const { return isOnAngles(at) || cubeSideAt(at); }
     /// Paints the annotations over any picture of the pane's size.
     void paint(QPainter &painter, const PaneMapping &mapping, Marks marks, Names names) const;
 
@@ -38,6 +46,8 @@ protected:
 private:
     void paintPicture(QPainter &painter, const PaneMapping &mapping, Marks marks) const;
     OverlayColors colors() const;
+    QPointF cubeCenter() const;
+    QRect anglesRect(const QFontMetrics &metrics, const QString &text) const;
     void paintCrosshair(QPainter &painter, const PaneMapping &mapping) const;
 
     const Document &m_document;

@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 #include <QObject>
+#include <QRegularExpression>
 
 #include "ui/views/overlay.h"
 
@@ -54,6 +55,12 @@ QString figuresText(const DescribedFrame &described) {
         .arg(frame.onCard ? "GPU" : "CPU")
         .arg(millisecondsText(frame.times.totalMs()))
         .arg(frame.draft ? ProjectionTexts::tr("draft") : qualityText(described));
+}
+
+QString anglesText(const scene::PositionerAngles &angles) {
+    // LAO, RAO, CRA and CAU are used in every language.
+    QString text = QString::fromStdString(scene::positionerText(angles));
+    return text.replace(QRegularExpression("(\\d+)"), "\\1°");
 }
 
 } // namespace pellucid::ui

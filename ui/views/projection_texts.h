@@ -5,6 +5,7 @@
 
 #include <QString>
 
+#include "core/scene/positioner_angles.h"
 #include "ui/engine/look_preparer.h"
 #include "ui/engine/render_worker.h"
 
@@ -21,5 +22,8 @@ struct DescribedFrame {
 
 /// Engine, time and error of a picture: "CPU  12.3 ms  error 0.021 %".
 QString figuresText(const DescribedFrame &described);
+
+/// The angles of a view: "LAO 30° CRA 20°".
+QString anglesText(const scene::PositionerAngles &angles);
 
 } // namespace pellucid::ui

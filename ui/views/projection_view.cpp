@@ -2,6 +2,7 @@
 #include "ui/views/projection_view.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <QScopedValueRollback>
 
@@ -92,6 +93,7 @@ void ProjectionView::forgetVolume() {
     if (m_tone.outlivesVolume(m_document.volume().has_value()))
         return;
     m_frame.reset();
+    m_fitsNext = true;
     m_drawnShading = {};
     m_message = m_document.volume() ? tr("Preparing the projection") : QString();
     m_canvas->setImage(nullptr);
@@ -151,18 +153,18 @@ void ProjectionView::setLookName(const QString &name) {
     showTexts();
 }
 
-void ProjectionView::holdTone() {
+void ProjectionView::holdExposure() {
     if (m_frame)
         m_tone.hold();
 }
 
-void ProjectionView::adoptTone(const picture::ToneRange &range) {
-    m_tone.adopt(range, m_document.scene());
-    m_document.setBrightness(range);
+void ProjectionView::adoptExposure(const scene::Exposure &exposure) {
+    m_tone.adopt(exposure, m_document.scene());
+    m_document.setExposure(exposure);
     updateTone();
 }
 
-void ProjectionView::retakeTone() {
+void ProjectionView::retakeExposure() {
     m_tone.retake();
     requestFrame(false);
 }
@@ -178,7 +180,8 @@ void ProjectionView::setMessage(const QString &message) {
 }
 
 void ProjectionView::resetView() {
-    moveTo({}, false);
+    m_body = m_tone.exposure();
+    moveTo(fittedToBody({}), false);
     editScene(m_document, tr("Reset window"), noDrag, [](scene::Scene &scene) {
         scene.tone.low.reset();
         scene.tone.high.reset();
@@ -198,11 +201,20 @@ void ProjectionView::setOrbitsCrosshair(bool isAboutCrosshair) {
 glm::dvec3 ProjectionView::pivotMm() const {
     return m_orbitsCrosshair && m_document.volume()
                ? m_document.crosshair().mm - m_document.volume()->lattice().center().mm
-               : glm::dvec3(0.0);
+               : 0.5 * (m_body.lowMm + m_body.highMm);
+}
+
+Pose ProjectionView::fittedToBody(const Pose &pose) const {
+    return fitted(pose, m_body.lowMm, m_body.highMm, m_document.fittingPixelMm(), sizeInPixels());
 }
 
 void ProjectionView::showStandardView(scene::StandardView view) {
-    moveTo(turnedTo(m_document.pose(), scene::viewOrientation(view), pivotMm()), false);
+    showOrientation(scene::viewOrientation(view));
+}
+
+void ProjectionView::showOrientation(const glm::dquat &orientation) {
+    const Pose turned = turnedTo(m_document.pose(), orientation, pivotMm());
+    moveTo(turned.isFitted ? fittedToBody(turned) : turned, false);
 }
 
 void ProjectionView::setComparing(bool isComparing) {
@@ -219,7 +231,8 @@ void ProjectionView::showComparison() {
     const ShownLook &before = *m_comparison.before();
     try {
         const QImage now = picture();
-        const auto rgba = picture::compose(*m_frame->compared, before.tone);
+        const auto rgba = picture::compose(*m_frame->compared,
+                                           picture::displayOf(before.tone, m_frame->orientation));
         const QImage then(rgba.data(), m_frame->compared->width, m_frame->compared->height,
                           QImage::Format_RGBA8888);
         m_overlay->setComparison(besideEachOther(then.scaled(now.size()), now), before.name);
@@ -246,14 +259,18 @@ void ProjectionView::requestFrame(bool moving) {
     if (shading.isLit() && !m_prepared->canBeLit) // until light is prepared, the shading stays
         shading = m_drawnShading;
     else
-        m_tone.follow(shading);
+        m_tone.follow(shading, m_document.scene());
     m_drawnShading = shading;
     std::optional<RenderWorker::Compared> compared;
     if (const auto &before = m_comparison.before(); m_isComparing && before)
         compared = {before->engine, before->image, before->shading};
-    m_requested = m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
-                                   {.draft = draft, .finestPixelMm = finest}, m_tone.isWanted(),
-                                   !moving, compared);
+    std::optional<RenderWorker::Exposed> exposed;
+    if (m_tone.isWanted())
+        exposed = {lattice.radiusMm(), m_document.scene().tone,
+                   picture::backgroundOf(*m_document.volume())};
+    m_requested =
+        m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
+                         {.draft = draft, .finestPixelMm = finest}, exposed, !moving, compared);
     if (moving)
         m_rest.start();
 }
@@ -262,9 +279,20 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     if (!m_prepared ||
         frame->generation != m_generation) // of a closed volume, or of the coarse engine
         return;
-    // It was requested before the automatic brightness was: the next frame has one.
-    if (m_tone.isWanted() && !frame->automaticTone)
+    // It was requested before the exposure was: the next frame has one.
+    if (m_tone.isWanted() && !frame->exposure)
         return;
+    if (m_tone.isWanted())
+        m_tone.take(*frame->exposure);
+    if (std::exchange(m_fitsNext, false)) {
+        m_body = m_tone.exposure();
+        const Pose now = m_document.pose(), pose = fittedToBody(now);
+        const bool isNew = now.isFitted && now.zoom == 1.0 && now.panMm == glm::dvec2(0.0);
+        if (isNew && !(pose == now)) {
+            moveTo(pose, false); // and its own frame follows
+            return;
+        }
+    }
     m_frame = frame;
     // A full frame from the card has only the plan's error.
     m_frameError = frame->onCard && !m_prepared->isCoarse ? m_predictedError : frame->error;
@@ -274,8 +302,6 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
         m_fullFrameMs = frame->times.totalMs() / (m_isFirstFrame ? firstFrameFactor : 1.0);
         m_isFirstFrame = false;
     }
-    if (m_tone.isWanted())
-        m_tone.take(*frame->automaticTone);
     if (frame->onCard)
         m_canvas->setPicture(frame->onCard);
     else
@@ -289,7 +315,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
         tr("%1: %2").arg(translated(engine), translated(frame->refusal.value_or(m_engineReason))));
     if (showsFinalImage()) {
         if (m_planState == PlanState::holds) {
-            m_document.setBrightness(m_tone.range());
+            m_document.setExposure(m_tone.exposure());
             m_comparison.settled({m_prepared->engine, m_document.scene().image, m_drawnShading,
                                   shownTone(), m_lookName});
         }
@@ -302,16 +328,29 @@ scene::Tone ProjectionView::shownTone() const {
     return m_tone.completed(m_document.scene().tone);
 }
 
+picture::Display ProjectionView::shownDisplay() const {
+    return picture::displayOf(shownTone(), m_frame ? m_frame->orientation
+                                                   : m_document.scene().camera.orientation);
+}
+
+picture::ToneRange ProjectionView::shownRange() const {
+    return shownDisplay().range;
+}
+
+picture::ToneRange ProjectionView::automaticRange() const {
+    const scene::Tone automatic = m_tone.completed({});
+    return picture::displayOf(automatic, m_document.scene().camera.orientation).range;
+}
+
 void ProjectionView::updateTone() {
-    const scene::Tone tone = shownTone();
-    m_canvas->setTone({*tone.low, *tone.high}, tone.inverted);
+    m_canvas->setDisplay(shownDisplay());
 }
 
 QImage ProjectionView::picture() const {
     if (!m_frame)
         return {};
     const auto shown = [&](const picture::ProjectionImage &image) {
-        const auto rgba = picture::compose(image, shownTone());
+        const auto rgba = picture::compose(image, shownDisplay());
         return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
     };
     return m_frame->onCard ? shown(m_frame->onCard->download()) : shown(m_frame->image);
@@ -363,6 +402,8 @@ void ProjectionView::resizeEvent(QResizeEvent *) {
     m_canvas->widget()->setGeometry(rect());
     m_overlay->setGeometry(rect());
     m_document.setProjectionSize(sizeInPixels());
+    if (m_document.pose().isFitted && m_frame)
+        moveTo(fittedToBody(m_document.pose()), false);
 }
 
 PaneMapping ProjectionView::mapping() const {
@@ -386,7 +427,7 @@ void ProjectionView::turnAroundPatient(double degrees) {
 
 void ProjectionView::lookAlong(const glm::dvec3 &right, const glm::dvec3 &up) {
     const glm::dquat orientation = glm::quat_cast(glm::dmat3(right, up, glm::cross(right, up)));
-    moveTo(turnedTo(m_document.pose(), orientation, pivotMm()), false);
+    showOrientation(orientation);
 }
 
 void ProjectionView::showTexts() {

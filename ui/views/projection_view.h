@@ -40,12 +40,12 @@ public:
     /// Whether the engine is made for what the scene asks for.
     void setPlanState(PlanState state);
     PlanState planState() const { return m_planState; }
-    /// Recomputes the automatic brightness from the next frame.
-    void retakeTone();
-    /// Uses this automatic brightness for the present scene.
-    void adoptTone(const picture::ToneRange &range);
-    /// The next volume is another phase: brightness and picture stay until its own picture comes.
-    void holdTone();
+    /// Measures the exposure again with the next frame.
+    void retakeExposure();
+    /// Uses this exposure for the present scene.
+    void adoptExposure(const scene::Exposure &exposure);
+    /// The next volume is another phase: exposure and picture stay until its own picture comes.
+    void holdExposure();
     void setMessage(const QString &message);
     /// Looks the way another camera does, at the same pixel size, within the limits of the zoom.
     /// `pivotMm`: what that camera turns about, if it shows another volume; this view then shows
@@ -58,12 +58,18 @@ public:
     void jobEnded();
     void jobStarted();
     void showStandardView(scene::StandardView view);
+    void showOrientation(const glm::dquat &orientation);
+    /// The front, fitted to the body, with automatic brightness.
     void resetView();
     /// The left button measures distances with that tool; with every other one it orbits.
     void setTool(Tool tool);
     /// Turns about the crosshair, or about the middle of the volume.
     void setOrbitsCrosshair(bool isAboutCrosshair);
     bool orbitsCrosshair() const { return m_orbitsCrosshair; }
+    /// Dragging turns the view as a trackball instead of a turntable, which keeps the patient
+    /// upright.
+    void setTurnsFreely(bool isFree) { m_turnsFreely = isFree; }
+    bool turnsFreely() const { return m_turnsFreely; }
     /// Shows the look before the last edit beside the present one.
     void setComparing(bool isComparing);
     bool isComparing() const { return m_isComparing; }
@@ -91,6 +97,8 @@ public:
 
 signals:
     void maximizeRequested(QWidget *pane);
+    /// The angles beside the cube were clicked.
+    void anglesRequested();
     /// Engine and reason for the status bar.
     void engineDescribed(const QString &text);
     void finalImageShown();
@@ -116,6 +124,10 @@ private:
     void requestFrame(bool moving);
     void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
     void updateTone();
+    /// The pose that fits the body's shadow into the pane.
+    Pose fittedToBody(const Pose &pose) const;
+    /// Cube and angles, which take clicks.
+    bool pressOnCube(const QPointF &at);
     /// `isMoving`: more moves may follow, so a draft will do.
     void moveTo(const Pose &pose, bool isMoving);
     QSizeF sizeInPixels() const;
@@ -132,8 +144,12 @@ private:
     bool showsPicture() const override { return m_frame != nullptr; }
     bool canMove() const override { return m_prepared.has_value(); }
     void orbitBy(const QPoint &delta) override;
-    const picture::ToneRange &automaticTone() const override { return m_tone.range(); }
-    scene::Tone shownTone() const override;
+    void rollBy(double radians) override;
+    picture::ToneRange automaticRange() const override;
+    picture::ToneRange shownRange() const override;
+    scene::Tone shownTone() const;
+    /// Of the frame on the screen.
+    picture::Display shownDisplay() const;
 
     Document &m_document;
     std::unique_ptr<ProjectionCanvas> m_canvas;
@@ -155,7 +171,10 @@ private:
     double m_predictedError = 0.0, m_fullFrameMs = 0.0;
     bool m_isFirstFrame = true; ///< of its size, or of an engine
     EngineStage m_stage = EngineStage::coarse;
-    bool m_orbitsCrosshair = false;
+    bool m_orbitsCrosshair = false, m_turnsFreely = false;
+    bool m_fitsNext = true; ///< the next picture is the first of its volume
+    /// Has the box of the body that the view was fitted to; other looks may show less of it.
+    scene::Exposure m_body;
     bool m_isMoving = false; ///< while moveTo sets the pose
     bool m_pending = false;
     bool m_isComparing = false;

@@ -4,6 +4,7 @@
 #include <QMouseEvent>
 #include <QWheelEvent>
 
+#include "core/scene/positioner_angles.h"
 #include "ui/document/document.h"
 #include "ui/views/camera_moves.h"
 #include "ui/views/projection_overlay.h"
@@ -26,7 +27,8 @@ void ProjectionView::showCursor() {
 
 void ProjectionView::mousePressEvent(QMouseEvent *event) {
     setFocus();
-    if (m_tools.isMarking())
+    if (m_tools.isMarking() ||
+        (event->button() == Qt::LeftButton && pressOnCube(event->position())))
         return;
     m_tools.press(event->button(), event->position());
     if (m_tools.isMarking())
@@ -40,6 +42,25 @@ void ProjectionView::mouseMoveEvent(QMouseEvent *event) {
     const bool isHovering = event->buttons() == Qt::NoButton && m_tools.hover(event->position());
     if (m_tools.isMarking() || isHovering)
         m_overlay->update();
+    if (event->buttons() == Qt::NoButton && !m_tools.isMarking()) {
+        if (m_overlay->takesClick(event->position()))
+            setCursor(Qt::PointingHandCursor);
+        else
+            showCursor();
+    }
+}
+
+bool ProjectionView::pressOnCube(const QPointF &at) {
+    if (!m_frame)
+        return false;
+    if (m_overlay->isOnAngles(at)) {
+        emit anglesRequested();
+        return true;
+    }
+    const auto side = m_overlay->cubeSideAt(at);
+    if (side)
+        showOrientation(scene::orientationFrom(*side));
+    return side.has_value();
 }
 
 void ProjectionView::mouseReleaseEvent(QMouseEvent *event) {
@@ -49,15 +70,20 @@ void ProjectionView::mouseReleaseEvent(QMouseEvent *event) {
 }
 
 void ProjectionView::mouseDoubleClickEvent(QMouseEvent *event) {
-    // With a tool for regions, two fast clicks are two regions.
-    if (event->button() == Qt::LeftButton && !m_tools.marksRegions())
+    // With a tool for regions, two fast clicks are two regions; on the cube they are two turns.
+    if (event->button() == Qt::LeftButton && !m_tools.marksRegions() &&
+        !m_overlay->takesClick(event->position()))
         emit maximizeRequested(this);
     else
         mousePressEvent(event);
 }
 
 void ProjectionView::orbitBy(const QPoint &delta) {
-    moveTo(orbited(m_document.pose(), delta, pivotMm()), true);
+    moveTo((m_turnsFreely ? orbited : turnedByTable)(m_document.pose(), delta, pivotMm()), true);
+}
+
+void ProjectionView::rollBy(double radians) {
+    moveTo(rolled(m_document.pose(), radians, pivotMm()), true);
 }
 
 void ProjectionView::panBy(const QPoint &delta) {

@@ -237,8 +237,11 @@ void FileMenu::openScene() {
                               path.toStdString());
         scene.isOfDifference = false;
         scene.plannedFor = {}; // the window always plans for the whole volume
+        const auto exposure = std::exchange(scene.tone.exposure, std::nullopt);
         editScene(m_bench.study.document, tr("Open scene"), noDrag,
                   [&](scene::Scene &shown) { shown = scene; });
+        if (exposure)
+            m_panes.projection->adoptExposure(*exposure);
         m_panes.projection->adoptCamera(scene.camera);
     });
 }

@@ -10,6 +10,7 @@
 #include "ui/panels/classes_panel.h"
 #include "ui/panels/presets_panel.h"
 #include "ui/panels/quality_panel.h"
+#include "ui/panels/radiograph_panel.h"
 #include "ui/panels/shading_panel.h"
 #include "ui/panels/transfer_function_panel.h"
 #include "ui/theme/dock.h"
@@ -38,15 +39,18 @@ QWidget *scrolling(QWidget *panel) {
 LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer,
                      CardCopier &copier, ProjectionView &projection, const Theme &theme)
     : QObject(&window), m_previewer(document), m_presets(new PresetsPanel(document)),
-      m_classes(new ClassesPanel(document)), m_function(new TransferFunctionPanel(document, theme)),
+      m_radiograph(new RadiographPanel(document)), m_classes(new ClassesPanel(document)),
+      m_function(new TransferFunctionPanel(document, theme)),
       m_shading(new ShadingPanel(document, theme)), m_quality(new QualityPanel(document)) {
     // At these heights, the docks fit in 900 pixels.
-    dock(window, tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 155);
-    dock(window, tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 165);
+    dock(window, tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 150);
+    dock(window, tr("RADIOGRAPH"), "radiographDock", scrolling(m_radiograph),
+         m_radiograph->corner(), 136);
+    dock(window, tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 140);
     dock(window, tr("TRANSFER FUNCTION"), "transferFunctionDock", m_function, m_function->corner(),
-         200);
-    dock(window, tr("SHADING"), "shadingDock", scrolling(m_shading), m_shading->corner(), 165);
-    dock(window, tr("QUALITY"), "qualityDock", scrolling(m_quality), m_quality->corner(), 170);
+         165);
+    dock(window, tr("SHADING"), "shadingDock", scrolling(m_shading), m_shading->corner(), 135);
+    dock(window, tr("QUALITY"), "qualityDock", scrolling(m_quality), m_quality->corner(), 130);
 
     connect(m_presets, &PresetsPanel::presetsListed, &m_previewer, &LookPreviewer::preview);
     connect(m_presets, &PresetsPanel::lookNamed, &projection, &ProjectionView::setLookName);

@@ -17,10 +17,12 @@ class LookPreparer;
 class PresetsPanel;
 class ProjectionView;
 class QualityPanel;
+class RadiographPanel;
 class ShadingPanel;
 class TransferFunctionPanel;
 
-/// The docks on the right of the window: presets, classes, transfer function, shading, quality.
+/// The docks on the right of the window: presets, radiograph, classes, transfer
+/// function, shading, quality.
 /// Connects them with the objects that they control.
 class LookDocks : public QObject {
     Q_OBJECT
@@ -42,6 +44,7 @@ private:
 
     LookPreviewer m_previewer;
     PresetsPanel *m_presets;
+    RadiographPanel *m_radiograph;
     ClassesPanel *m_classes;
     TransferFunctionPanel *m_function;
     ShadingPanel *m_shading;

@@ -8,6 +8,7 @@
 #include "ui/document/add_command.h"
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
+#include "ui/document/region_commands.h"
 #include "ui/panels/presets_panel.h"
 #include "ui/panels/shading_panel.h"
 #include "ui/views/projection_view.h"
@@ -40,15 +41,10 @@ LookMenu::LookMenu(QMenu &menu, Document &document, LookDocks &docks, Projection
             scene.tone.low.reset();
             scene.tone.high.reset();
         });
-        projection.retakeTone();
+        projection.retakeExposure();
     });
     m_couch = add(menu, tr("Remove the c&ouch"), "removeCouchAction", {}, [this] {
-        const bool isRemoved = classify::isWithoutCouch(m_document.scene().look);
-        editScene(m_document, isRemoved ? tr("Show the couch") : tr("Remove the couch"), noDrag,
-                  [&](scene::Scene &scene) {
-                      (isRemoved ? classify::restoreCouch
-                                 : classify::removeCouch)(scene.look, m_document.fieldWindow());
-                  });
+        setWithoutCouch(m_document, !classify::isWithoutCouch(m_document.scene().look));
     });
     m_couch->setCheckable(true);
     m_windowMenu = menu.addMenu(tr("&Window presets"));

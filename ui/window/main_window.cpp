@@ -34,6 +34,7 @@
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
+#include "ui/window/angle_dialog.h"
 #include "ui/window/application.h"
 #include "ui/window/file_menu.h"
 #include "ui/window/help_menu.h"
@@ -53,7 +54,7 @@ namespace pellucid::ui {
 MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &preferences,
                        QWidget *parent)
     : QMainWindow(parent), m_bench(bench), m_theme(theme), m_preferences(preferences) {
-    const auto brightness = bench.study.document.brightness(); // of the study that is open already
+    const auto exposure = bench.study.document.exposure(); // of the study that is open already
     setObjectName("mainWindow");
     setAcceptDrops(true);
     resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
@@ -88,8 +89,8 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
             &MainWindow::compareLooks);
     showVolumeState();
     bench.study.document.announce();
-    if (brightness)
-        m_projection->adoptTone(*brightness);
+    if (exposure)
+        m_projection->adoptExposure(*exposure);
     bench.study.preparer.announce();
 }
 
@@ -240,6 +241,8 @@ void MainWindow::createViewMenu() {
     m_view->addPane(*m_docks->spectrum().toggleViewAction(), tr("Spectr&um"), "spectrumAction",
                     QKeySequence("Shift+S"));
     connect(m_view, &ViewMenu::comparisonRequested, this, &MainWindow::compareLooks);
+    connect(m_view, &ViewMenu::anglesRequested, this, &MainWindow::showAngles);
+    connect(m_projection, &ProjectionView::anglesRequested, this, &MainWindow::showAngles);
     connect(m_view, &ViewMenu::linkRequested, m_pair, &StudyPair::toggleLink);
     connect(m_view, &ViewMenu::closeBesideRequested, m_pair, &StudyPair::closeBeside);
     connect(m_pair, &StudyPair::besideChanged, m_view, &ViewMenu::setBeside);
@@ -342,6 +345,15 @@ void MainWindow::dropEvent(QDropEvent *event) {
     event->acceptProposedAction();
     if (!paths.isEmpty())
         openPaths(paths);
+}
+
+void MainWindow::showAngles() {
+    auto *dialog = findChild<AngleDialog *>();
+    if (dialog == nullptr)
+        dialog = new AngleDialog(m_bench.study.document, *m_projection, this);
+    dialog->show();
+    dialog->raise();
+    dialog->activateWindow();
 }
 
 void MainWindow::compareLooks(bool isComparing) {

@@ -74,6 +74,7 @@ private:
     void createStatusBar();
     void showVolumeState();
     void compareLooks(bool isComparing);
+    void showAngles();
     void showTitle();
     void report(const task::Reason &what, const QString &path);
     /// Reports the failure of a job in the projection's pane, too.

@@ -4,6 +4,7 @@
 #include <QActionGroup>
 #include <QMainWindow>
 #include <QMenu>
+#include <QSettings>
 
 #include "ui/document/add_command.h"
 #include "ui/document/document.h"
@@ -14,6 +15,12 @@
 
 namespace pellucid::ui {
 
+namespace {
+
+constexpr auto freeRotationKey = "view/freeRotation";
+
+} // namespace
+
 ViewMenu::ViewMenu(QMenu &menu, QMainWindow &window, const Viewer &viewer, GraphicsCard &card)
     : QObject(&menu), m_menu(menu), m_viewer(viewer), m_layouts(new QActionGroup(this)) {
     addStandardViews();
@@ -22,6 +29,14 @@ ViewMenu::ViewMenu(QMenu &menu, QMainWindow &window, const Viewer &viewer, Graph
         add(tr("&Orbit about the crosshair"), "orbitCrosshairAction", QKeySequence("O"),
             [projection] { projection->setOrbitsCrosshair(!projection->orbitsCrosshair()); });
     about->setCheckable(true);
+    QAction *free =
+        add(tr("&Free rotation, as a trackball"), "freeRotationAction", {}, [projection] {
+            projection->setTurnsFreely(!projection->turnsFreely());
+            QSettings().setValue(freeRotationKey, projection->turnsFreely());
+        });
+    free->setCheckable(true);
+    projection->setTurnsFreely(QSettings().value(freeRotationKey).toBool());
+    free->setChecked(projection->turnsFreely());
     QAction *tints = add(
         tr("&Tint segments in the planes"), "tintSegmentsAction", {},
         [&document = viewer.document] { document.setTintsSegments(!document.tintsSegments()); });
@@ -72,6 +87,8 @@ void ViewMenu::addStandardViews() {
     for (const auto &v : views)
         add(v.text + "\t" + tr(v.hint), v.name, {},
             [this, view = v.view] { m_viewer.projection->showStandardView(view); });
+    add(tr("C-arm an&gles..."), "anglesAction", QKeySequence("J"),
+        [this] { emit anglesRequested(); });
     add(tr("R&eset views") + "\t" + tr("Keypad 0"), "resetViewsAction", {}, [this] {
         m_viewer.projection->resetView();
         for (MprView *view : m_viewer.planes)

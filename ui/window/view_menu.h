@@ -36,6 +36,7 @@ signals:
     void linkRequested();
     void closeBesideRequested();
     void preparationRequested();
+    void anglesRequested();
 
 private:
     QAction *add(const QString &text, const char *name, const QKeySequence &key,

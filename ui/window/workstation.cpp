@@ -53,9 +53,8 @@ Workstation::Workstation(std::optional<EngineChoice> engine)
     connect(&m_keeping, &QTimer::timeout, this, [this] { keepWhatIsOpen(false); });
     for (const auto changed :
          {&Document::volumeChanged, &Document::sceneChanged, &Document::poseChanged,
-          &Document::projectionResized, &Document::displayWindowChanged,
-          &Document::brightnessChanged, &Document::crosshairChanged, &Document::cutChanged,
-          &Document::segmentsChanged})
+          &Document::projectionResized, &Document::displayWindowChanged, &Document::exposureChanged,
+          &Document::crosshairChanged, &Document::cutChanged, &Document::segmentsChanged})
         connect(&m_bench.study.document, changed, this, [this] {
             if (!m_keeping.isActive()) // a long drag does not postpone it
                 m_keeping.start();

@@ -9,7 +9,13 @@ namespace pellucid::picture {
 
 namespace {
 
-const ToneRange bright{0.0, 300.0}, dark{0.0, 200.0};
+scene::Exposure exposed(double high) {
+    scene::Exposure exposure;
+    for (scene::Exposure::Axis &axis : exposure.axes)
+        axis.high = axis.bright = high;
+    return exposure;
+}
+const scene::Exposure bright = exposed(300.0), dark = exposed(200.0);
 
 scene::Scene litScene() {
     scene::Scene scene;
@@ -19,9 +25,9 @@ scene::Scene litScene() {
     return scene;
 }
 
-AutomaticTone taken(const ToneRange &range) {
+AutomaticTone taken(const scene::Exposure &exposure) {
     AutomaticTone tone;
-    tone.take(range);
+    tone.take(exposure);
     return tone;
 }
 
@@ -38,11 +44,11 @@ TEST(AutomaticTone, IsTakenFromTheFirstFrameAndKeptUntilOtherFieldsCome) {
     EXPECT_TRUE(tone.isWanted());
     tone.take(bright);
     EXPECT_FALSE(tone.isWanted());
-    EXPECT_EQ(tone.completed({}).high, 300.0);
+    EXPECT_EQ(tone.completed({}).exposure, bright);
     EXPECT_EQ(tone.completed({.high = 80.0}).high, 80.0); // the user's own end
     tone.beginFields({});
     EXPECT_TRUE(tone.isWanted());
-    EXPECT_EQ(tone.range(), bright); // until a new range is taken
+    EXPECT_EQ(tone.exposure(), bright); // until a new one is taken
 }
 
 TEST(AutomaticTone, IsRetakenForNewLightsAndCuesAndKeptDuringDrags) {
@@ -59,13 +65,30 @@ TEST(AutomaticTone, IsRetakenForNewLightsAndCuesAndKeptDuringDrags) {
         shading::Shading shading = litScene().shading;
         shading.cue.kind = shading::CueKind::linear;
         AutomaticTone tone = taken(bright);
-        tone.follow(shading);
+        tone.follow(shading, {});
         tone.take(bright);
-        tone.follow(shading);
+        tone.follow(shading, {});
         EXPECT_FALSE(tone.isWanted());
         change(shading);
-        tone.follow(shading);
+        tone.follow(shading, {});
         EXPECT_EQ(tone.isWanted(), isAnother);
+    }
+}
+
+TEST(AutomaticTone, OtherContrastIsMeasuredAgain) {
+    AutomaticTone tone = taken(bright);
+    tone.follow({}, {});
+    EXPECT_FALSE(tone.isWanted());
+    scene::Scene scene;
+    for (const auto &change : {std::function<void()>([&] { scene.tone.detail = 0.2; }),
+                               {[&] { scene.tone.latitude = 0.7; }},
+                               {[&] { scene.image.detail = 1.0; }}}) {
+        change();
+        tone.follow({}, scene);
+        EXPECT_TRUE(tone.isWanted());
+        tone.take(dark);
+        tone.follow({}, scene);
+        EXPECT_FALSE(tone.isWanted());
     }
 }
 
@@ -73,11 +96,11 @@ TEST(AutomaticTone, ASceneSeenAgainKeepsItsTone) {
     const scene::Scene scene = litScene();
     AutomaticTone tone = adopted(scene);
     tone.beginFields(scene); // fields of the coarse picture
-    tone.follow(scene.shading);
+    tone.follow(scene.shading, scene);
     tone.beginFields(scene);
-    tone.follow(scene.shading);
+    tone.follow(scene.shading, scene);
     EXPECT_FALSE(tone.isWanted());
-    EXPECT_EQ(tone.range(), bright);
+    EXPECT_EQ(tone.exposure(), bright);
     tone.retake();
     tone.take(dark);
     tone.beginFields(scene); // the kept tone is gone
@@ -104,10 +127,10 @@ TEST(AutomaticTone, IsDroppedWithItsVolumeUnlessAPhaseFollows) {
     tone.hold();
     EXPECT_TRUE(tone.outlivesVolume(false)); // the former phase is closed
     EXPECT_TRUE(tone.outlivesVolume(true));
-    EXPECT_EQ(tone.range(), bright);
+    EXPECT_EQ(tone.exposure(), bright);
     EXPECT_FALSE(tone.outlivesVolume(true)); // another study
     EXPECT_TRUE(tone.isWanted());
-    EXPECT_EQ(tone.range(), ToneRange());
+    EXPECT_EQ(tone.exposure(), scene::Exposure());
 }
 
 } // namespace pellucid::picture

@@ -181,6 +181,88 @@ TEST(Body, IsThePatientWithoutTheCouchAndWithTheAirInside) {
     EXPECT_LT(missed, tissue / 50);
 }
 
+namespace {
+
+// A trunk of two bodies' width in a finer lattice than the body is found in, with arms beside it,
+// on the hollow shell of a couch with a board below.
+struct TrunkOnCouch {
+    TrunkOnCouch() {
+        const auto arm = [](glm::dvec3 p) {
+            return glm::length(glm::dvec2(std::abs(p.x) - 215.0, p.y - 20.0)) < 35.0;
+        };
+        const auto trunk = [](glm::dvec3 p) {
+            return glm::length(glm::dvec2(p.x / 165.0, p.y / 110.0)) < 1.0;
+        };
+        const auto lung = [](glm::dvec3 p) {
+            return glm::length(glm::dvec2((std::abs(p.x) - 75.0) / 50.0, p.y / 70.0)) < 1.0;
+        };
+        const auto couch = [](glm::dvec3 p) {
+            const double y = p.y - 0.0004 * p.x * p.x;
+            return std::abs(p.x) < 240.0 && ((y > 115.0 && y < 118.0) || (y > 150.0 && y < 153.0));
+        };
+        const auto board = [](glm::dvec3 p) {
+            return std::abs(p.x) < 200.0 && p.y > 200.0 && p.y < 215.0;
+        };
+        for (int k = 0; k < lattice.size().k; ++k)
+            for (int j = 0; j < lattice.size().j; ++j)
+                for (int i = 0; i < lattice.size().i; ++i) {
+                    const glm::dvec3 p = lattice.patient(volume::VoxelIndex{i, j, k}).mm;
+                    isPatient.push_back(trunk(p) || arm(p));
+                    isCouch.push_back(isPatient.back() == 0 && (couch(p) || board(p)));
+                    samples.push_back(isPatient.back() != 0 ? (lung(p) && trunk(p) ? -850 : 40)
+                                      : isCouch.back() != 0 ? 100
+                                                            : -1000);
+                }
+    }
+    volume::Volume volume() const { return {lattice, samples, volume::ValueUnit::hounsfield}; }
+    volume::Volume withoutCouch() const {
+        std::vector<std::int16_t> alone = samples;
+        for (std::size_t n = 0; n < alone.size(); ++n)
+            if (isCouch[n] != 0)
+                alone[n] = -1000;
+        return {lattice, alone, volume::ValueUnit::hounsfield};
+    }
+
+    volume::Lattice lattice = volume::Lattice::centred({500, 440, 12}, {1.0, 1.0, 5.0});
+    std::vector<std::uint8_t> isPatient, isCouch;
+    std::vector<std::int16_t> samples;
+};
+
+} // namespace
+
+TEST(Body, KeepsArmsAndLeavesACouch) {
+    const TrunkOnCouch scan;
+    const Mask body = preprocess::body(scan.volume(), 2.0);
+    std::size_t lost = 0, left = 0;
+    for (std::size_t n = 0; n < body.size(); ++n) {
+        lost += scan.isPatient[n] != 0 && body[n] == 0 ? 1 : 0;
+        left += scan.isCouch[n] != 0 && body[n] != 0 ? 1 : 0;
+    }
+    EXPECT_EQ(lost, 0U);
+    EXPECT_EQ(left, 0U);
+    EXPECT_TRUE(preprocess::hasCouch(scan.volume()));
+    EXPECT_FALSE(preprocess::hasCouch(scan.withoutCouch()));
+}
+
+// Not a voxel of a patient is lost, lungs and airways included.
+TEST(Body, LosesNothingOfThePhantoms) {
+    for (const phantom::Kind kind : {phantom::Kind::head, phantom::Kind::chest}) {
+        const volume::Volume volume = phantom::makePhantom(
+            kind, phantom::phantomLattice(kind, {.size = volume::GridSize{160, 160, 64}}));
+        const Mask body = preprocess::body(volume, 2.0);
+        std::size_t tissue = 0, lost = 0;
+        volume.visit([&](auto samples) {
+            for (std::size_t n = 0; n < body.size(); ++n) {
+                tissue += double(samples[n]) > -400.0 ? 1 : 0;
+                lost += double(samples[n]) > -400.0 && body[n] == 0 ? 1 : 0;
+            }
+        });
+        EXPECT_GT(tissue, body.size() / 10);
+        EXPECT_EQ(lost, 0U);
+        EXPECT_FALSE(preprocess::hasCouch(volume));
+    }
+}
+
 // Two lungs that no airway joins, and a bubble.
 TEST(LargestPart, KeepsThoseThatAreNotMuchSmaller) {
     const auto lattice = volume::Lattice::centred({40, 20, 20}, {1, 1, 1});

@@ -202,5 +202,60 @@ TEST(CpuEngine, AnImageWiderThanThePeriodStaysEmptyOutside) {
     EXPECT_LT(std::abs(image.samples[5 * std::size_t(camera.width) + 340]), 2e-3F * inside);
 }
 
+// Amplified detail is one more factor of the slice: within the stated error of the direct sum,
+// which is within the tolerance, for small and large filters, pixels and parts of a picture.
+TEST(CpuEngine, AmplifiedDetailKeepsTheTolerance) {
+    const auto noise = test::noiseField(test::tiltedLattice({24, 22, 20}, {1.0, 1.0, 2.0}, 10.0));
+    const auto ellipsoids = classify::densityField(
+        phantom::makePhantom(phantom::Kind::ellipsoids,
+                             volume::Lattice::centred({30, 30, 30}, {1, 1, 1})),
+        {-900, 2000});
+    for (const classify::DensityField *field : {&noise, &ellipsoids})
+        for (const auto &[detail, detailMm] :
+             {std::pair(0.5, 2.0), {2.0, 0.5}, {4.0, 3.0}, {4.0, 12.0}})
+            for (const double tolerance : {1e-2, 1.1e-3, 2e-4}) {
+                scene::Scene scene;
+                scene.tolerance = tolerance;
+                scene.image.detail = detail;
+                scene.image.detailMm = detailMm;
+                scene.camera = cameraFor(field->values.lattice(), StandardView::front, {31, 17, 8});
+                scene.camera.width = scene.camera.height = 26;
+                scene.camera.panMm = {3.0, -2.0};
+                const auto plan = plan::planRender(scene, plan::summarise(*field));
+                render::CpuEngine engine(
+                    std::make_shared<const fourier::Spectrum>(
+                        fourier::Spectrum::prepare(field->values, plan.spectrum)),
+                    plan.fieldOfView);
+                const auto truth =
+                    reference::directSumImage(field->values, scene.camera, scene.image);
+                const double error =
+                    test::relativeL2(engine.render(scene.camera, scene.image).samples, truth);
+                EXPECT_LE(error, plan.predictedError) << detail << " " << detailMm;
+                EXPECT_LE(plan.predictedError, tolerance) << detail << " " << detailMm;
+            }
+}
+
+// The definition by itself: the filtered picture of a sharp point is the plain one plus A times its
+// difference from the smoothed one, whose sum is the same.
+TEST(CpuEngine, AmplifiedDetailKeepsTheMean) {
+    const auto field = classify::densityField(
+        phantom::makePhantom(phantom::Kind::ellipsoids,
+                             volume::Lattice::centred({30, 30, 30}, {1, 1, 1})),
+        {-900, 2000});
+    auto engine = engineFor(field);
+    scene::Camera camera = cameraFor(field.values.lattice(), StandardView::front);
+    camera.width = camera.height = 128; // with room around
+    const scene::ImageDefinition plain, sharp{.detail = 2.0, .detailMm = 2.0};
+    const auto before = engine.render(camera, plain).samples,
+               after = engine.render(camera, sharp).samples;
+    double sumBefore = 0.0, sumAfter = 0.0;
+    for (std::size_t n = 0; n < before.size(); ++n) {
+        sumBefore += double(before[n]);
+        sumAfter += double(after[n]);
+    }
+    EXPECT_NEAR(sumAfter / sumBefore, 1.0, 2e-3);
+    EXPECT_GT(test::relativeL2(after, std::vector<double>(before.begin(), before.end())), 0.02);
+}
+
 } // namespace
 } // namespace pellucid

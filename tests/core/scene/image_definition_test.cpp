@@ -76,5 +76,22 @@ TEST(ImageDefinition, CubicAndLinearInterpolate) {
         }
 }
 
+// The image plus A times its difference from a smoothed one.
+TEST(ImageDefinition, DetailRisesFromLargeToFineStructures) {
+    const ImageDefinition plain;
+    EXPECT_EQ(scene::detailFactor(plain, 0.3), 1.0);
+    EXPECT_EQ(scene::detailGain(plain), 1.0);
+    const ImageDefinition sharp{.detail = 1.5, .detailMm = 3.0};
+    EXPECT_EQ(scene::detailFactor(sharp, 0.0), 1.0);
+    EXPECT_NEAR(scene::detailFactor(sharp, 1.0 / (2.0 * 3.14159265358979323846 * 3.0)), 1.75,
+                1e-12);
+    EXPECT_NEAR(scene::detailFactor(sharp, 1e4), 2.5, 1e-6);
+    EXPECT_EQ(scene::detailGain(sharp), 2.5);
+    for (double perMm = 0.0; perMm < 2.0; perMm += 0.01) {
+        EXPECT_LE(scene::detailFactor(sharp, perMm), scene::detailFactor(sharp, perMm + 0.01));
+        EXPECT_GE(scene::detailFactor(sharp, perMm), 1.0);
+    }
+}
+
 } // namespace
 } // namespace pellucid

@@ -6,7 +6,7 @@
 
 namespace pellucid::ui {
 
-/// Turns the projection.
+/// Turns the projection; with Alt, rolls it.
 class OrbitTool : public PaneTool {
 public:
     explicit OrbitTool(ProjectionPane &pane) : m_pane(pane) {}

@@ -13,9 +13,8 @@ bool ToneTool::press(const QPointF & /*at*/) {
 }
 
 bool ToneTool::move(const MouseMove &mouse) {
-    const picture::ToneRange &automatic = m_pane.automaticTone();
-    const scene::Tone shown = m_pane.shownTone();
-    const double low = *shown.low, high = *shown.high;
+    const picture::ToneRange automatic = m_pane.automaticRange();
+    const auto [low, high] = m_pane.shownRange();
     const double perPixel = (automatic.high - automatic.low) / 300.0;
     const double center = 0.5 * (low + high) - mouse.delta.y() * perPixel;
     const double width = std::max(high - low + mouse.delta.x() * perPixel, 2.0 * perPixel);

@@ -4,7 +4,7 @@
 #include <QPoint>
 #include <QSize>
 
-#include "core/picture/compose.h"
+#include "core/picture/display.h"
 #include "core/scene/scene.h"
 #include "ui/views/pane_mapping.h"
 
@@ -37,10 +37,12 @@ public:
     virtual bool canMove() const = 0;
     /// Rotates the view so that the near side follows the mouse. *Units*: logical pixels.
     virtual void orbitBy(const QPoint &delta) = 0;
-    /// The tone range computed from the picture.
-    virtual const picture::ToneRange &automaticTone() const = 0;
-    /// The current tone, with both ends set.
-    virtual scene::Tone shownTone() const = 0;
+    /// Rolls the picture clockwise.
+    virtual void rollBy(double radians) = 0;
+    /// The range that the exposure gives.
+    virtual picture::ToneRange automaticRange() const = 0;
+    /// The current one.
+    virtual picture::ToneRange shownRange() const = 0;
 
 protected:
     ~ProjectionPane() = default;

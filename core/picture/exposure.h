@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/picture/projector.h"
+#include "core/scene/tone.h"
+#include "core/volume/volume.h"
+
+namespace pellucid::picture {
+
+/// What is beside the body in a picture: nothing, as in the projection of HU; or a level that has
+/// to be measured, as that of values without a unit.
+enum class Background { zero, measured };
+
+/// Measures the brightness of a study from three small projections of the whole volume, along the
+/// patient's x, y and z, in which only the body counts. The same study, look and shading always
+/// have the same exposure, whatever the view. `tone`: its detail and latitude; automatic ones are
+/// chosen from the projections. `radiusMm`: of the volume. *Throws* as `Projector::render`.
+scene::Exposure measureExposure(Projector &projector, double radiusMm,
+                                const scene::ImageDefinition &image,
+                                const shading::Shading &shading, const scene::Tone &tone,
+                                Background background);
+/// The background of projections of a volume.
+Background backgroundOf(const volume::Volume &volume);
+
+/// From one picture, for every line of sight: for a picture that will not turn. Its box is empty.
+scene::Exposure exposureOf(const ProjectionImage &picture, const scene::Tone &tone,
+                           Background background = Background::zero);
+
+} // namespace pellucid::picture
