@@ -15,6 +15,7 @@
 #include "app/cli/segment_options.h"
 #include "core/classify/couch.h"
 #include "core/files/read_text.h"
+#include "core/picture/tone_subject.h"
 #include "core/scene/positioner_angles.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
@@ -164,7 +165,7 @@ void addDisplayOptions(CLI::App &command, SceneOptions &options) {
                     "DETAIL,LATITUDE: multi-scale contrast of .png and .dcm, each 0 to 1, or "
                     "'none'; default: chosen from the study")
         ->check(notEmpty());
-    command.add_flag("--film", options.isFilm, "Inverted, as a film: bone is dark");
+    command.add_flag("--inverted", options.isInverted, "Invert the grey values: bone is dark");
 }
 
 void addShadingOptions(CLI::App &command, SceneOptions &options) {
@@ -339,9 +340,8 @@ void setDisplay(scene::Scene &scene, const SceneOptions &o, const CLI::App &comm
         scene.image.detail = n[0];
         if (hasSize)
             scene.image.detailMm = n[1];
-        scene.tone.exposure.reset();
     }
-    if (o.isFilm)
+    if (o.isInverted)
         scene.tone.inverted = true;
     if (!isGiven(command, "--contrast"))
         return;
@@ -352,7 +352,6 @@ void setDisplay(scene::Scene &scene, const SceneOptions &o, const CLI::App &comm
         scene.tone.detail = n[0];
         scene.tone.latitude = n[1];
     }
-    scene.tone.exposure.reset(); // of another contrast
 }
 
 void setQuality(scene::Scene &scene, const SceneOptions &o, const CLI::App &command) {
@@ -400,6 +399,7 @@ scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
     scene::Scene scene = startingScene(o, command, lattice);
     if (scene.isOfDifference && !volume.notes().isDifference)
         throw Error(ErrorCode::usage, because::sceneShowsADifference);
+    const scene::Scene saved = scene;
     setOrientation(scene.camera, o, command);
     setPixel(scene.camera, o, command, lattice);
     setSize(scene.camera, o, command);
@@ -411,6 +411,9 @@ scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
     }
     setQuality(scene, o, command);
     setDisplay(scene, o, command);
+    // A saved exposure is that of the saved look.
+    if (picture::ToneSubject(scene) != picture::ToneSubject(saved))
+        scene.tone.exposure.reset();
     scene::validate(scene);
     return scene;
 }

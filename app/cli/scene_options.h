@@ -17,7 +17,7 @@ namespace pellucid::cli {
 
 /// The options for what a projection shows, as typed.
 struct SceneOptions {
-    bool isFilm = false, isWithoutCouch = false;
+    bool isInverted = false, isWithoutCouch = false;
     std::string carm, contrast, detail, scene, preset, view, orientation, size, window, bezier,
         reconstruction, quality, kernel, storage, depthCue, lightFrame, crop;
     bool isUniform = false, weightsAreOptional = false; ///< the latter: of --class

@@ -70,23 +70,31 @@ public:
           m_edge(context.slice.edge[std::size_t(channel)]) {
         weightBlocks(weights);
         projectBlocks();
+        // Errors are those of the image without amplified detail. A whole one has no more energy
+        // than the shown one; a part may, for example beside a bright edge that it cuts off, but no
+        // more than all of the slice.
+        m_plainEnergy = context.image.detail > 0.0 && !isWhole() ? wholeEnergy() : m_imageEnergy;
     }
 
     ChannelEnergies energies(double bound) const {
         ChannelEnergies energies{m_imageEnergy, 0.0, isWhole()};
         if (!(m_imageEnergy > 0.0) || !(m_blocks.all > 0.0))
             return energies;
-        const double whole =
-            isWhole() ? m_imageEnergy : std::max(m_imageEnergy, sliceMargin * m_sliceEnergy);
+        const double whole = wholeEnergy();
         const Rounding rounding = roundingErrors(whole);
         energies.error = coherentAliases() + detailMargin * detailAliases() + rounding.few +
                          rounding.others + centralMargin * m_centralError + foldedTails(whole) +
                          momentError(whole) + narrowing() +
-                         std::pow(unseenShare * bound, 2) * m_imageEnergy;
+                         std::pow(unseenShare * bound, 2) * m_plainEnergy;
         return energies;
     }
 
 private:
+    // Of the projection that the picture is a part of.
+    double wholeEnergy() const {
+        return isWhole() ? m_imageEnergy : std::max(m_imageEnergy, sliceMargin * m_sliceEnergy);
+    }
+
     // The projected energies of blocks and aliases.
     struct BlockSums {
         // Summed block by block.
@@ -218,8 +226,8 @@ private:
                      lengthMm =
                          cellMm3 / std::max(std::pow(cellMm3, 2.0 / 3.0), m_pixelMm * m_pixelMm),
                      outside = std::max(m_blocks.beyond, m_blocks.all - m_blocks.inPicture),
-                     unseen = std::max(0.05 * m_imageEnergy,
-                                       m_imageEnergy - m_blocks.projectionInPicture);
+                     unseen = std::max(0.05 * m_plainEnergy,
+                                       m_plainEnergy - m_blocks.projectionInPicture);
         return m_blocks.aliases * (unseen + outside * lengthMm) / m_blocks.all;
     }
 
@@ -317,10 +325,10 @@ private:
                      white = std::min(1.0, 0.2 * std::pow(std::max(1.0, m_pixelMm / stepMm), 2.0)),
                      margin = std::lerp(outsideMargin, outsidePointMargin, sparsity()),
                      outside = margin * std::min(projectedRoughness * roughness, white) *
-                               (whole - m_imageEnergy);
+                               (m_context.image.detail > 0.0 ? whole : whole - m_imageEnergy);
         const double pattern =
-            ((patternMargin * m_sums.across * m_imageEnergy + outside) * m_blocks.tailsAcross +
-             (patternMargin * m_sums.down * m_imageEnergy + outside) * m_blocks.tailsDown) /
+            ((patternMargin * m_sums.across * m_plainEnergy + outside) * m_blocks.tailsAcross +
+             (patternMargin * m_sums.down * m_plainEnergy + outside) * m_blocks.tailsDown) /
             m_blocks.all;
         const double edge = edgeTails(m_places, {m_windowMm, m_periodMm, m_pixelMm},
                                       m_context.image.rollOff, m_edge);
@@ -369,7 +377,8 @@ private:
     double m_coarseMm;                 ///< pixel size of coarse planes
     PictureSums m_sums;
     double m_imageEnergy, m_centralImage, m_centralError, m_centralSlice, m_narrowing;
-    double m_sliceEnergy;                                        ///< over the whole period
+    double m_plainEnergy = 0.0; ///< at most, of the image without amplified detail
+    double m_sliceEnergy;       ///< over the whole period
     const std::array<double, SliceEnergies::directions> &m_edge; ///< see SliceEnergies
     ProjectedPlaces m_places;
     std::vector<double> m_mass, m_energy; ///< of blocks, without the cue

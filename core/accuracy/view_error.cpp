@@ -62,8 +62,7 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
                                      const scene::ImageDefinition &image,
                                      const render::EngineParts &engine,
                                      const shading::Shading &shading) const {
-    // What follows is predicted for the image without amplified detail. The shown picture has at
-    // least the energy of that.
+    // What follows is predicted for the image without amplified detail.
     const double gain = scene::detailGain(image);
     if (picture.samples.empty())
         return {gain * m_bound, true};

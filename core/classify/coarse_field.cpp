@@ -87,6 +87,13 @@ volume::Volume coarseVolume(const volume::Volume &volume, int side) {
     return blockMeans(volume, blocksOf(volume.lattice().size(), side), Beyond::mean, volume.unit());
 }
 
+std::array<int, 3> blocksWithin(const volume::Lattice &lattice, double largestMm) {
+    std::array<int, 3> block{};
+    for (int d = 0; d < 3; ++d)
+        block[std::size_t(d)] = std::max(1, int(largestMm / lattice.spacingMm(d)));
+    return block;
+}
+
 volume::Volume coarseVolume(const volume::Volume &volume, const std::array<int, 3> &block) {
     return blockMeans(volume, block, Beyond::mean, volume.unit());
 }

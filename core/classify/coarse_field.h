@@ -13,8 +13,10 @@ DensityField coarseField(const DensityField &field, int side);
 
 /// The values of a volume as means of blocks, which look the same from a distance.
 volume::Volume coarseVolume(const volume::Volume &volume, int side);
-/// The same with blocks of that many samples along each axis. The blocks together are symmetric
-/// about the middle of the volume.
+/// The same with blocks of that many samples along each axis. The grid of blocks is centered on the
+/// volume.
 volume::Volume coarseVolume(const volume::Volume &volume, const std::array<int, 3> &block);
+/// The largest blocks whose sides are at most `largestMm`.
+std::array<int, 3> blocksWithin(const volume::Lattice &lattice, double largestMm);
 
 } // namespace pellucid::classify

@@ -40,9 +40,9 @@ CaptureLabels captureLabels(const Selection &selection);
 std::string newSeriesUid();
 
 /// Writes a picture as a Secondary Capture Image (PS3.3 A.8.1) in explicit little endian: 8-bit
-/// grey if all its pixels are grey, else RGB; marked as derived, and
-/// "Not for diagnostic use". *Shape*: height x width x 4, RGBA, rows from the top; alpha is
-/// ignored. The file appears only when complete. *Throws* Error{output}.
+/// grey if all its pixels are grey, else RGB; marked as derived and "Not for diagnostic use".
+/// *Shape*: height x width x 4, RGBA, rows from the top; alpha is ignored. The file appears only
+/// when complete. *Throws* Error{output}.
 void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,
                   int width, const CaptureLabels &labels);
 

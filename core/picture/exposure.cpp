@@ -77,7 +77,7 @@ struct Measured {
                     last = std::max(last, c);
                 }
         // The outermost columns also contain the edge of the volume.
-        constexpr int inward = 3;
+        const int inward = std::max(3, (last - first) / 20);
         if (last - first <= 4 * inward)
             return 0.0;
         std::vector<float> beside;
@@ -87,7 +87,9 @@ struct Measured {
                     beside.push_back(at(r, c));
         if (beside.empty())
             return 0.0;
-        const double air = quantile(beside, quarter);
+        // Where the volume is cut off, its interpolation overshoots.
+        constexpr double overshoot = 1.1;
+        const double air = overshoot * quantile(beside, quarter);
         return air < mostOfBright * bright ? air : 0.0;
     }
     float at(int row, int column) const {
@@ -276,10 +278,6 @@ Display displayWith(const scene::Tone &tone, const ToneRange &automatic) {
     return display;
 }
 
-} // namespace
-
-namespace {
-
 // Widens a box by the body's part of a picture.
 void include(const Measured &measured, const glm::dquat &orientation, glm::dvec3 &low,
              glm::dvec3 &high) {
@@ -355,14 +353,27 @@ Display displayOf(const scene::Tone &tone, const glm::dquat &orientation) {
     display.exponent = seen.exponent;
     display.contrast = contrastOf(seen, exposure.detail, exposure.latitude, exposure.fineMm);
     display.air = seen.air;
-    display.airBelow =
-        airShare * std::min(seen.bright - seen.air, display.range.high - display.range.low);
+    // A window that the user narrows also shows what is faint.
+    const double width = display.range.high - display.range.low;
+    display.airBelow = airShare * (tone.low || tone.high ? std::min(seen.bright - seen.air, width)
+                                                         : seen.bright - seen.air);
     return display;
 }
 
 Display plainDisplayOf(const scene::Tone &tone, const glm::dquat &orientation) {
-    const scene::Exposure::Axis seen = seenAlong(tone.exposure.value(), orientation);
-    return displayWith(tone, {seen.air, seen.bright});
+    const scene::Exposure &exposure = tone.exposure.value();
+    const scene::Exposure::Axis seen = seenAlong(exposure, orientation);
+    const Contrast contrast = contrastOf(seen, exposure.detail, exposure.latitude, exposure.fineMm);
+    // The user's ends are values after the compression of large differences.
+    const auto before = [&](double value) {
+        return contrast.middle + (value - contrast.middle) / largestScaleFactor(contrast);
+    };
+    scene::Tone plain = tone;
+    if (tone.low)
+        plain.low = before(*tone.low);
+    if (tone.high)
+        plain.high = before(*tone.high);
+    return displayWith(plain, {seen.air, seen.bright});
 }
 
 } // namespace pellucid::picture

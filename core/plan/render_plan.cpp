@@ -347,14 +347,12 @@ RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, cons
 namespace {
 
 // Errors are predicted for the image without amplified detail, whose factor raises them at most by
-// its gain: where it raises the errors least, at 1, it does not lower the image. A pixel's error
-// becomes at most 1 + 2 A times as large, which is the sum of the filter's absolute weights, and
-// the largest pixel no smaller.
+// its gain, because it is nowhere below 1. The largest pixel becomes no smaller.
 RenderPlan withDetail(RenderPlan plan, const scene::ImageDefinition &image) {
     const double gain = scene::detailGain(image);
     plan.predictedError *= gain;
     plan.filterError *= gain;
-    plan.predictedMaximum *= 1.0 + 2.0 * image.detail;
+    plan.predictedMaximum *= scene::detailPeakGain(image);
     plan.image = image;
     return plan;
 }
@@ -384,7 +382,6 @@ RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> f
     scene::validate(scene);
     scene::Scene plain = scene;
     plain.tolerance /= scene::detailGain(scene.image);
-    plain.image.detail = 0.0;
     return withDetail(planWithoutDetail(plain, fields, composition, budget), scene.image);
 }
 
@@ -411,7 +408,7 @@ void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
     plan.adaptiveError = gain * remaining;
     plan.adaptiveTolerance = remaining * std::sqrt(imageShare(scene.camera, fields));
     plan.predictedError = gain * std::hypot(error, remaining);
-    plan.predictedMaximum += (1.0 + 2.0 * scene.image.detail) * atEdges * remaining;
+    plan.predictedMaximum += scene::detailPeakGain(scene.image) * atEdges * remaining;
 }
 
 } // namespace pellucid::plan

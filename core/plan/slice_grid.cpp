@@ -23,8 +23,10 @@ double reachPixels(const scene::Camera &camera, const FieldOfView &fieldOfView,
     double radiusMm = 0.0;
     for (const auto &spread : fieldOfView.spreads)
         radiusMm = std::max(radiusMm, spread->radiusMm);
-    // The filter that amplifies detail falls by e every `detailMm`.
-    constexpr double folds = 6.0;
+    // The filter that amplifies detail falls by e every `detailMm`: to less than may fold into the
+    // picture.
+    const double folds =
+        std::max(6.0, std::log((1.0 + image.detail) / std::max(1e-12, fieldOfView.aliasingLimit)));
     const double filterMm = image.detail > 0.0 ? folds * image.detailMm : 0.0;
     return (radiusMm + scene::reconstructionReach(image) * lattice.longestStepMm() + filterMm) /
            camera.pixelMm;

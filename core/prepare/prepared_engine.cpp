@@ -97,7 +97,7 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                                scene::detailGain(scene.image) * composition.errorFactor() * lost);
                 plan.predictedMaximum =
                     std::max(plan.predictedMaximum,
-                             (1.0 + 2.0 * scene.image.detail) * composition.together * lost);
+                             scene::detailPeakGain(scene.image) * composition.together * lost);
                 plan.bytes += held;
                 const volume::GridSize size =
                     fitting.reduced->fields.front().values.lattice().size();
@@ -205,7 +205,8 @@ std::optional<double> errorOf(const PreparedEngine &prepared,
     const double fieldError =
         prepared.viewError
             ? prepared.viewError->errorOf(picture, camera, image, parts, shading).relative
-            : prepared.plan.predictedError;
+            : prepared.plan.predictedError * scene::detailGain(image) /
+                  scene::detailGain(prepared.plan.image);
     if (!prepared.isCoarse)
         return fieldError;
     return std::hypot(

@@ -233,14 +233,6 @@ Mask tissueOf(const volume::Volume &volume) {
     return tissue;
 }
 
-// Means of at most `largestMm`, which the body is found in.
-std::array<int, 3> blocksWithin(const volume::Lattice &lattice, double largestMm) {
-    std::array<int, 3> block{};
-    for (int d = 0; d < 3; ++d)
-        block[std::size_t(d)] = std::max(1, int(largestMm / lattice.spacingMm(d)));
-    return block;
-}
-
 // A mask of means, on the samples.
 Mask onSamples(const Mask &coarse, const volume::GridSize &blocks, const std::array<int, 3> &block,
                const volume::GridSize &size) {
@@ -297,17 +289,22 @@ Patient patientOf(const volume::Volume &volume, const task::Progress &progress) 
 } // namespace
 
 Mask body(const volume::Volume &volume, double marginMm, const task::Progress &progress) {
-    // The margin hides the means' rounding.
     constexpr double largestMeanMm = 2.0;
-    const auto block = blocksWithin(volume.lattice(), largestMeanMm);
+    const auto block = classify::blocksWithin(volume.lattice(), largestMeanMm);
     if (block == std::array{1, 1, 1}) {
         const Patient patient = patientOf(volume, progress.part(0.0, 0.9));
         return patient.withMargin(volume.lattice(), marginMm, progress.part(0.9, 1.0));
     }
     const volume::Volume coarse = classify::coarseVolume(volume, block);
     const Patient patient = patientOf(coarse, progress.part(0.0, 0.8));
-    return onSamples(patient.withMargin(coarse.lattice(), marginMm, progress.part(0.8, 0.9)),
-                     coarse.lattice().size(), block, volume.lattice().size());
+    // Half a mean, so that its rounding cuts off nothing.
+    double halfMm = 0.0;
+    for (int d = 0; d < 3; ++d)
+        if (block[std::size_t(d)] > 1)
+            halfMm = std::max(halfMm, 0.5 * coarse.lattice().spacingMm(d));
+    return onSamples(
+        patient.withMargin(coarse.lattice(), std::max(marginMm, halfMm), progress.part(0.8, 0.9)),
+        coarse.lattice().size(), block, volume.lattice().size());
 }
 
 bool hasCouch(const volume::Volume &volume, const task::Progress &progress) {
@@ -315,7 +312,7 @@ bool hasCouch(const volume::Volume &volume, const task::Progress &progress) {
     if (volume.unit() != volume::ValueUnit::hounsfield || volume.notes().isDifference)
         return false;
     const volume::Volume coarse =
-        classify::coarseVolume(volume, blocksWithin(volume.lattice(), largestMeanMm));
+        classify::coarseVolume(volume, classify::blocksWithin(volume.lattice(), largestMeanMm));
     const Patient patient = patientOf(coarse, progress.part(0.0, 0.9));
     const Mask around = patient.withMargin(coarse.lattice(), aroundMm, progress.part(0.9, 1.0));
     const Mask tissue = tissueOf(coarse);

@@ -2,7 +2,6 @@
 #include "core/preprocess/study_content.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -19,13 +18,6 @@ namespace {
 using presets::BodyRegion;
 
 constexpr double meanMm = 3.0;
-
-volume::Volume meansOf(const volume::Volume &volume) {
-    std::array<int, 3> block{};
-    for (int d = 0; d < 3; ++d)
-        block[std::size_t(d)] = std::max(1, int(meanMm / volume.lattice().spacingMm(d)));
-    return classify::coarseVolume(volume, block);
-}
 
 Mask between(const volume::Volume &volume, double low, double high, const Mask &body) {
     Mask mask(body.size());
@@ -61,7 +53,7 @@ std::vector<SliceAreas> areasOf(const volume::Volume &volume, const Mask &body) 
     return areas;
 }
 
-// Only the lattice's slices across the patient are told apart.
+// Regions are recognized only in axial slices.
 std::set<BodyRegion> regionsSeen(const volume::Volume &volume, const Mask &body) {
     constexpr double leastAxial = 0.8;
     std::set<BodyRegion> regions;
@@ -120,10 +112,11 @@ bool hasContrastMedium(const volume::Volume &volume, const Mask &body,
 presets::StudyTraits traitsOf(const volume::Volume &volume, const task::Progress &progress) {
     presets::StudyTraits traits;
     const volume::VolumeNotes &notes = volume.notes();
-    traits.regions = presets::regionsNamed(notes.bodyPart + " " + notes.title);
+    traits.regions = presets::regionsNamed(notes.bodyPart, notes.title);
     if (volume.unit() != volume::ValueUnit::hounsfield || !notes.placed || notes.isDifference)
         return traits;
-    const volume::Volume means = meansOf(volume);
+    const volume::Volume means =
+        classify::coarseVolume(volume, classify::blocksWithin(volume.lattice(), meanMm));
     const Mask inside = body(means, 0.0, progress.part(0.0, 0.5));
     if (traits.regions.empty())
         traits.regions = regionsSeen(means, inside);

@@ -83,25 +83,39 @@ const std::vector<Word> &words() {
 
 } // namespace
 
-std::set<BodyRegion> regionsNamed(const std::string &text) {
-    std::string upper;
-    for (const char c : text)
-        upper += char(std::toupper(static_cast<unsigned char>(c)));
+std::set<BodyRegion> regionsNamed(const std::string &bodyPart, const std::string &description) {
+    const auto upper = [](const std::string &text) {
+        std::string letters;
+        for (const char c : text)
+            letters += char(std::toupper(static_cast<unsigned char>(c)));
+        return letters;
+    };
     std::set<BodyRegion> regions;
-    for (const Word &word : words()) {
-        const std::string part = word.text;
-        for (std::size_t at = upper.find(part); at != std::string::npos;
-             at = upper.find(part, at + 1)) {
-            // A short word stands alone: TAP is no tape, and HIP no ship.
-            constexpr std::size_t shortWord = 3;
-            const auto isLetter = [&](std::size_t n) {
-                return n < upper.size() && std::isalpha(static_cast<unsigned char>(upper[n])) != 0;
-            };
-            const bool isJoined = (at > 0 && isLetter(at - 1)) || isLetter(at + part.size());
-            if (part.size() > shortWord || part == "ABD" || !isJoined)
-                regions.insert(word.regions.begin(), word.regions.end());
+    // `isCode`: words may be joined.
+    const auto find = [&](const std::string &text, bool isCode) {
+        const auto isLetter = [&](std::size_t n) {
+            return n < text.size() && std::isalpha(static_cast<unsigned char>(text[n])) != 0;
+        };
+        for (const Word &word : words()) {
+            const std::string part = word.text;
+            for (std::size_t at = text.find(part); at != std::string::npos;
+                 at = text.find(part, at + 1)) {
+                const std::size_t end = at + part.size();
+                const bool startsWord = at == 0 || !isLetter(at - 1);
+                // A short word stands alone: TAP is no tape, and HIP no ship.
+                constexpr std::size_t shortWord = 3;
+                const bool isAlone = startsWord && !isLetter(end);
+                // How the patient lies: "HEAD FIRST SUPINE".
+                const bool isPosition = text.compare(end, 6, " FIRST") == 0;
+                const bool isNamed =
+                    part.size() <= shortWord && part != "ABD" ? isAlone : isCode || startsWord;
+                if (isNamed && !isPosition)
+                    regions.insert(word.regions.begin(), word.regions.end());
+            }
         }
-    }
+    };
+    find(upper(bodyPart), true);
+    find(upper(description), false);
     return regions;
 }
 

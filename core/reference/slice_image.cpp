@@ -33,7 +33,7 @@ Period periodOf(const volume::Lattice &lattice, const scene::Camera &camera,
         margin *= std::max(1.0, 0.5 * lattice.longestStepMm() / camera.pixelMm);
     // The filter that amplifies detail falls by e every `detailMm`.
     if (image.detail > 0.0)
-        margin += 24.0 * image.detailMm / camera.pixelMm;
+        margin += 30.0 * image.detailMm / camera.pixelMm;
     const auto pixels = [&](int size, double panMm) {
         const double needed =
             std::max(extent, 0.5 * (extent + size) + std::abs(panMm) / camera.pixelMm);

@@ -19,7 +19,7 @@ struct PositionerAngles {
 };
 
 /// The angles of a view, whatever its roll. Straight from above or below, where the primary angle
-/// has no meaning, it is that of the picture's lower edge.
+/// has no meaning, it is that of the picture's lower edge, or of its upper edge from below.
 PositionerAngles positionerAngles(const glm::dquat &orientation);
 /// The upright view of these angles, see `viewOrientation`.
 glm::dquat orientationOf(const PositionerAngles &angles);

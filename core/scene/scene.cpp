@@ -23,9 +23,13 @@ void validate(const Exposure &exposure) {
     require(isShare(exposure.detail) && isShare(exposure.latitude), because::contrastOutOfRange);
     require(std::isfinite(exposure.fineMm) && exposure.fineMm > 0.0,
             because::exposureIsNotPlausible);
+    for (const glm::dvec3 &corner : {exposure.lowMm, exposure.highMm})
+        for (int n = 0; n < 3; ++n)
+            require(std::abs(corner[n]) <= 1e6, because::exposureIsNotPlausible);
     for (const Exposure::Axis &axis : exposure.axes)
-        require(std::isfinite(axis.air) && axis.bright > axis.dark && axis.high > axis.low &&
-                    axis.exponent >= 0.1 && axis.exponent <= 10.0,
+        require(std::isfinite(axis.air) && axis.bright > axis.dark && axis.bright > 0.0 &&
+                    axis.air < axis.bright && axis.high > axis.low && axis.exponent >= 0.1 &&
+                    axis.exponent <= 10.0,
                 because::exposureIsNotPlausible);
 }
 

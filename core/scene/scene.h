@@ -74,9 +74,9 @@ inline constexpr std::array<NamedTolerance, 5> namedTolerances{{{"draft", 3e-2},
 void validate(const Scene &scene);
 void validate(const Exposure &exposure);
 
-/// The scene as JSON, `"schema": "pellucid-scene/2"`.
+/// The scene as JSON, `"schema": "pellucid-scene/3"`.
 std::string toJson(const Scene &scene);
-/// Reads versions 1 and 2. *Throws* Error{usage}; the reason contains the JSON pointer of the
+/// Reads versions 1 to 3. *Throws* Error{usage}; the reason contains the JSON pointer of the
 /// value.
 Scene sceneFromJson(const std::string &text);
 

@@ -19,7 +19,8 @@ using files::wordFor;
 using nlohmann::json;
 
 // In version 1, "cubic" was the name of "spline", and the default: such scenes keep their pictures.
-constexpr const char *schema = "pellucid-scene/2", *firstSchema = "pellucid-scene/1";
+constexpr const char *schema = "pellucid-scene/3", *secondSchema = "pellucid-scene/2",
+                     *firstSchema = "pellucid-scene/1";
 
 constexpr JsonWords<Reconstruction, 4> reconstructions{
     {{"cubic", Reconstruction::cubic},
@@ -149,7 +150,8 @@ Tone toneFrom(const JsonValue &in) {
 Scene parsed(const JsonValue &in, const std::string &text) {
     const JsonValue version = in.at("schema");
     const bool isFirstVersion = version.text() == firstSchema;
-    if (!isFirstVersion && version.text() != schema)
+    const bool hasContrast = version.text() == schema;
+    if (!isFirstVersion && !hasContrast && version.text() != secondSchema)
         version.refuse(because::isNot(schema));
     Scene scene;
     scene.camera = cameraFrom(in.at("camera"));
@@ -171,6 +173,9 @@ Scene parsed(const JsonValue &in, const std::string &text) {
     scene.interpolation = interpolationFrom(in);
     if (const JsonValue tone = in["tone"])
         scene.tone = toneFrom(tone);
+    // The ends that earlier versions saved are those of pictures without contrast processing.
+    if (!hasContrast && scene.tone.low && scene.tone.high)
+        scene.tone.detail = scene.tone.latitude = 0.0;
     return scene;
 }
 

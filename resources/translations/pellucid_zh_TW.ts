@@ -2677,10 +2677,6 @@
         <translation>類別「%1」的步驟需要類別「%2」，但外觀中有數個同名類別</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is not an angulation such as &apos;LAO 30 CRA 20&apos;: LAO or RAO to 180 degrees, CRA or CAU to 90</source>
-        <translation>「%1」不是如「LAO 30 CRA 20」的角度：LAO 或 RAO 至 180 度，CRA 或 CAU 至 90 度</translation>
-    </message>
-    <message>
         <source>the amplification of detail must be between 0 and 4, its size between 0.01 and 20 mm</source>
         <translation>細節的放大倍數必須在 0 與 4 之間，大小在 0.01 與 20 mm 之間</translation>
     </message>
@@ -2689,8 +2685,12 @@
         <translation>細節與寬容度必須在 0 與 1 之間</translation>
     </message>
     <message>
-        <source>the exposure is not plausible: each range needs a lower end below the upper one</source>
-        <translation>曝光不合理：每個範圍的下限必須低於上限</translation>
+        <source>&apos;%1&apos; is not an angulation. Write, for example, &apos;LAO 30 CRA 20&apos;: LAO or RAO up to 180 degrees, CRA or CAU up to 90</source>
+        <translation>「%1」不是角度。請寫如「LAO 30 CRA 20」：LAO 或 RAO 至 180 度，CRA 或 CAU 至 90 度</translation>
+    </message>
+    <message>
+        <source>invalid exposure: the lower end of each range must be below the upper end</source>
+        <translation>無效的曝光：每個範圍的下限必須低於上限</translation>
     </message>
 </context>
 <context>
@@ -3206,14 +3206,6 @@
         <translation>C 臂角度</translation>
     </message>
     <message>
-        <source>The detector&apos;s turn to the patient&apos;s left (LAO) or right (RAO)</source>
-        <translation>偵測器轉向病患左側（LAO）或右側（RAO）的角度</translation>
-    </message>
-    <message>
-        <source>The detector&apos;s tilt to the head (CRA) or the feet (CAU)</source>
-        <translation>偵測器傾向頭部（CRA）或足部（CAU）的角度</translation>
-    </message>
-    <message>
         <source>Common angulations</source>
         <translation>常用角度</translation>
     </message>
@@ -3228,6 +3220,14 @@
     <message>
         <source>Cranial / caudal</source>
         <translation>頭側／足側</translation>
+    </message>
+    <message>
+        <source>Rotation of the detector toward the patient&apos;s left (LAO) or right (RAO)</source>
+        <translation>偵測器轉向病患左側（LAO）或右側（RAO）的角度</translation>
+    </message>
+    <message>
+        <source>Tilt of the detector toward the head (CRA) or the feet (CAU)</source>
+        <translation>偵測器傾向頭部（CRA）或足部（CAU）的角度</translation>
     </message>
 </context>
 <context>
@@ -3617,16 +3617,16 @@
         <translation>不含任何病患身分資料</translation>
     </message>
     <message>
-        <source>How the annotations name the patient: choose, or type a pseudonym</source>
-        <translation>註記如何標示病患：選擇，或輸入代號</translation>
-    </message>
-    <message>
-        <source>not named</source>
-        <translation>不標示</translation>
-    </message>
-    <message>
         <source>Patient</source>
         <translation>病患</translation>
+    </message>
+    <message>
+        <source>The patient&apos;s name in annotations: choose one or type a pseudonym</source>
+        <translation>註記中的病患姓名：選擇，或輸入代號</translation>
+    </message>
+    <message>
+        <source>no name</source>
+        <translation>無姓名</translation>
     </message>
 </context>
 <context>
@@ -4315,8 +4315,8 @@
         <translation>全部</translation>
     </message>
     <message>
-        <source>List all presets, not only those for the region of the body that is open</source>
-        <translation>列出所有預設集，而不只是適合目前部位者</translation>
+        <source>List all presets, not only those for the body region of the open study</source>
+        <translation>列出所有預設集，而不只是適合目前檢查部位者</translation>
     </message>
 </context>
 <context>
@@ -4651,16 +4651,8 @@
         <translation>細節</translation>
     </message>
     <message>
-        <source>How much fine structures stand out, such as trabeculae and vessels; 0 shows them as they are. Double-click: automatic</source>
-        <translation>骨小樑與血管等細微構造的突顯程度；0 為原樣。按兩下：自動</translation>
-    </message>
-    <message>
         <source>Latitude</source>
         <translation>寬容度</translation>
-    </message>
-    <message>
-        <source>How much thick and thin parts are brought together, so that both are seen; 0 shows them as they are. Double-click: automatic</source>
-        <translation>拉近厚薄部位的程度，使兩者皆可見；0 為原樣。按兩下：自動</translation>
     </message>
     <message>
         <source>Sharpness</source>
@@ -4681,6 +4673,14 @@
     <message>
         <source>auto</source>
         <translation>自動</translation>
+    </message>
+    <message>
+        <source>How strongly fine structures, such as trabeculae and vessels, are amplified; 0: unchanged. Double-click: automatic</source>
+        <translation>放大骨小樑與血管等細微構造的程度；0：不變。按兩下：自動</translation>
+    </message>
+    <message>
+        <source>How strongly differences between thick and thin parts are compressed; 0: unchanged. Double-click: automatic</source>
+        <translation>壓縮厚薄部位差異的程度；0：不變。按兩下：自動</translation>
     </message>
 </context>
 <context>
@@ -5739,12 +5739,12 @@
         <translation>切面對分割區著色(&amp;T)</translation>
     </message>
     <message>
-        <source>&amp;Free rotation, as a trackball</source>
-        <translation>自由旋轉，如軌跡球(&amp;F)</translation>
-    </message>
-    <message>
         <source>C-arm an&amp;gles...</source>
         <translation>C 臂角度(&amp;G)…</translation>
+    </message>
+    <message>
+        <source>&amp;Free rotation (trackball)</source>
+        <translation>自由旋轉（軌跡球）(&amp;F)</translation>
     </message>
 </context>
 </TS>

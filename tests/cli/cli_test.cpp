@@ -195,6 +195,16 @@ TEST_F(Cli, SecondaryCapturesBelongToTheStudy) {
     EXPECT_NE(value(dump.out, "(0020,000e)"),
               value(slice.out, "(0020,000e)"));        // a series of its own
     EXPECT_EQ(value(dump.out, "(0020,0020)"), "P\\F"); // from the left: posterior at the right
+    EXPECT_NEAR(std::stod(value(dump.out, "(0018,1510)")), 90.0, 1e-3);
+    EXPECT_NEAR(std::stod(value(dump.out, "(0018,1511)")), 0.0, 1e-3);
+    // As typed for a C-arm.
+    ASSERT_EQ(
+        cli("render " + quoted(series) + " -o " + quoted(out) + " --carm LAO30,CRA20").exitCode, 0);
+    const auto angled = run("dcmdump " + quoted(out));
+    EXPECT_NEAR(std::stod(value(angled.out, "(0018,1510)")), 30.0, 1e-3);
+    EXPECT_NEAR(std::stod(value(angled.out, "(0018,1511)")), 20.0, 1e-3);
+    EXPECT_EQ(cli("render " + quoted(series) + " -o " + quoted(out) + " --carm LAO300").exitCode,
+              2);
     // Frames of a turn are one series.
     ASSERT_EQ(
         cli("render " + quoted(series) + " -o " + quoted(out) + " --frames 2 --turntable").exitCode,

@@ -308,14 +308,20 @@ private slots:
                 patienceMs);
             return rests ? count : -1;
         };
-        const int before = closeAndCount();
-        QVERIFY(before > 0);
-        for (int n = 0; n < 3; ++n) {
+        // The first studies on the card leave what the next ones use again: pictures and tables, of
+        // which a few are kept.
+        int before = closeAndCount();
+        constexpr int first = 4, next = 3;
+        for (int n = 0; n < first + next; ++n) {
             open(headPath());
             QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !jobs().isRunning(), patienceMs);
             settle();
             QVERIFY(sharedGlObjects() > before);
-            QCOMPARE(closeAndCount(), before);
+            const int after = closeAndCount();
+            QVERIFY(after > 0);
+            if (n >= first)
+                QVERIFY2(after <= before, qPrintable(QString("%1 %2").arg(after).arg(before)));
+            before = std::max(before, after);
         }
         find<QAction>("automaticEngineAction")->trigger();
     }

@@ -92,6 +92,7 @@ private slots:
         QVERIFY(text.contains("[" + study.uid + "]"));
         QVERIFY(text.contains("[Secret^Name]"));
         QVERIFY(text.contains("[L\\F]"));
+        QVERIFY(text.contains("(0028,0301) CS [YES]")); // the annotations name the patient
         // The capture of a grey projection is grey, despite colored letters: every program reads
         // it, this one too.
         QVERIFY(text.contains("MONOCHROME2"));
@@ -110,6 +111,22 @@ private slots:
         dump.start("dcmdump", {"-q", "+P", "0028,0004", file});
         QVERIFY(dump.waitForFinished() && dump.exitCode() == 0);
         QVERIFY(dump.readAll().contains("MONOCHROME2"));
+        // Neither a picture without annotations nor one without a name identifies the patient.
+        dump.start("dcmdump", {"-q", "+P", "0028,0301", file});
+        QVERIFY(dump.waitForFinished() && dump.readAll().contains("[NO]"));
+    }
+
+    // Another study has another patient.
+    void aPictureNamesThePatientThatItShows() {
+        dialogFor("Projection", 0, 1, true);
+        auto *const patient = find<QComboBox>("exportPatientBox");
+        QVERIFY(patient->currentText().startsWith("Secret Name"));
+        patient->setEditText("Case 12");
+        find<QAction>("chestPhantomAction")->trigger();
+        QTRY_VERIFY(mainWindow().document().currentSource() == 1);
+        settle();
+        QVERIFY2(patient->currentText().isEmpty(), qPrintable(patient->currentText()));
+        find<QDialog>("exportDialog")->close();
     }
 
     void aDeidentifiedCaptureHasNoPatientData() {

@@ -115,7 +115,7 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
         // Edits belong to their study.
         m_undo.clear();
         m_exposure.reset();
-        m_traits = {presets::regionsNamed(volume.notes().bodyPart + " " + volume.notes().title)};
+        m_traits = {presets::regionsNamed(volume.notes().bodyPart, volume.notes().title)};
         m_crosshair = middleSample(volume.lattice());
         // Other planes would cut only a strip out of a few slices.
         m_cut.axes = volume.lattice().size().k < fewSlices && volume.notes().placed
@@ -154,6 +154,7 @@ void Document::setTraits(const presets::StudyTraits &traits) {
 void Document::closeVolume() {
     m_volume.reset();
     m_exposure.reset();
+    m_traits = {};
     m_measured.clear();
     m_selectedMeasurement = -1;
     m_preview = false;

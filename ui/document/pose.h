@@ -18,7 +18,7 @@ struct Pose {
     glm::dvec2 panMm{0.0};
     /// 1: the volume fits the pane; above 1: the picture is larger.
     double zoom = 1.0;
-    /// The view follows the shadow of the body: nobody has zoomed or panned by hand.
+    /// Resizing and standard views fit the body again; false after panning or zooming by hand.
     bool isFitted = true;
 
     bool operator==(const Pose &) const = default;

@@ -126,10 +126,12 @@ void RenderWorker::makeFrame(const Request &request) {
         if (!request.onCard || !renderOnCard(frame, request))
             renderInto(*frame, request);
         frame->orientation = request.camera.orientation;
-        if (const auto &exposed = request.exposed)
+        if (const auto &exposed = request.exposed) {
+            frame->exposedTone = exposed->tone;
             frame->exposure =
                 picture::measureExposure(*request.prepared.engine, exposed->radiusMm, request.image,
                                          request.shading, exposed->tone, exposed->background);
+        }
         if (const auto &other = request.compared)
             frame->compared = other->engine->render(request.camera, other->image, other->shading);
         emit frameReady(std::move(frame));

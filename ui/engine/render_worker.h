@@ -30,7 +30,8 @@ struct RenderedFrame {
     std::optional<task::Reason> refusal;
     /// The exposure of the study, if requested.
     std::optional<scene::Exposure> exposure;
-    glm::dquat orientation; ///< of the camera
+    scene::Tone exposedTone; ///< for which it was measured
+    glm::dquat orientation;  ///< of the camera
     /// The same view of the compared look, if requested.
     std::optional<picture::ProjectionImage> compared;
     picture::FrameTimes times;

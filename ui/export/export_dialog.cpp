@@ -63,19 +63,11 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     m_deidentified->setToolTip(tr("No name, number, dates or study of the patient, and a new study "
                                   "UID (DICOM PS3.15, basic profile)"));
     m_patient->setObjectName("exportPatientBox");
-    m_patient->setToolTip(tr("How the annotations name the patient: choose, or type a pseudonym"));
+    m_patient->setToolTip(tr("The patient's name in annotations: choose one or type a pseudonym"));
     m_patient->setEditable(true);
-    const dicom::CaptureLabels study = studyLabels(document);
-    const QString named =
-        QStringList{QString::fromStdString(study.patientName).replace('^', ' ').simplified(),
-                    QString::fromStdString(study.patientId)}
-            .join("  ")
-            .trimmed();
-    if (!named.isEmpty())
-        m_patient->addItem(named);
-    m_patient->addItem(QString());
-    m_patient->lineEdit()->setPlaceholderText(tr("not named"));
+    m_patient->lineEdit()->setPlaceholderText(tr("no name"));
     m_patient->lineEdit()->setMaxLength(80);
+    offerPatient();
     m_frames->setObjectName("exportFramesBox");
     m_frames->setRange(2, 720);
     m_frames->setValue(PictureExport().frameCount);
@@ -111,7 +103,10 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     for (QCheckBox *choice : {m_annotated, m_deidentified})
         connect(choice, &QCheckBox::toggled, this, &ExportDialog::showChosen);
     connect(m_panes.projection, &ProjectionView::finalImageShown, this, &ExportDialog::showChosen);
-    connect(&document, &Document::volumeChanged, this, &ExportDialog::showChosen);
+    connect(&document, &Document::volumeChanged, this, [this] {
+        offerPatient();
+        showChosen();
+    });
     connect(other, &QPushButton::clicked, this, &ExportDialog::browse);
     connect(buttons, &QDialogButtonBox::accepted, this, &ExportDialog::write);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
@@ -130,6 +125,26 @@ PictureExport ExportDialog::chosen() const {
             m_frames->value(),
             m_deidentified->isEnabled() && m_deidentified->isChecked(),
             m_patient->currentText().trimmed()};
+}
+
+// A name belongs to one study, and so does a pseudonym.
+void ExportDialog::offerPatient() {
+    if (m_document.currentSource() == m_patientOf)
+        return;
+    m_patientOf = m_document.currentSource();
+    m_patient->clear();
+    if (m_patientOf >= 0) {
+        const dicom::CaptureLabels study = studyLabels(m_document);
+        const QString named =
+            QStringList{QString::fromStdString(study.patientName).replace('^', ' ').simplified(),
+                        QString::fromStdString(study.patientId)}
+                .join("  ")
+                .trimmed();
+        if (!named.isEmpty())
+            m_patient->addItem(named);
+    }
+    m_patient->addItem(QString());
+    m_patient->setCurrentIndex(0);
 }
 
 void ExportDialog::showChosen() {

@@ -39,6 +39,7 @@ private:
     PictureExport chosen() const;
     /// Asks before a file is replaced.
     bool mayReplace(const QString &path);
+    void offerPatient();
     void showChosen();
     void browse();
     void write();
@@ -50,6 +51,7 @@ private:
     QComboBox *m_pane, *m_format, *m_scale;
     QCheckBox *m_annotated;
     QComboBox *m_patient;
+    int m_patientOf = -2; ///< the source that the names are of
     QCheckBox *m_deidentified;
     QLineEdit *m_path;
     QSpinBox *m_frames;

@@ -36,9 +36,13 @@ namespace fs = std::filesystem;
 constexpr int framesPerSecond = 25;
 
 // Linear from the lower to the upper end of the window, as the grey values are measured.
-QImage sixteenBits(const picture::ProjectionImage &image, const picture::Display &display) {
+QImage sixteenBits(const picture::ProjectionImage &image, const picture::Display &display,
+                   bool isAutomatic) {
     QImage out(image.width, image.height, QImage::Format_Grayscale16);
-    const picture::ToneRange &range = display.range;
+    picture::ToneRange range = display.range;
+    if (isAutomatic) // no value is cut off
+        range.high = std::max(
+            range.high, double(*std::max_element(image.samples.begin(), image.samples.end())));
     const double scale = 65535.0 / (range.high - range.low);
     for (int r = 0; r < image.height; ++r) {
         auto *const row = reinterpret_cast<quint16 *>(out.scanLine(r));
@@ -200,9 +204,10 @@ void ProjectionJob::run(const task::Progress &progress) const {
         write(picture(0), what.format, path, labels, isGrey);
         break;
     case PictureFormat::png16:
-        writePictureFile(
-            path, sixteenBits(render(scene.camera),
-                              picture::plainDisplayOf(scene.tone, scene.camera.orientation)));
+        writePictureFile(path,
+                         sixteenBits(render(scene.camera),
+                                     picture::plainDisplayOf(scene.tone, scene.camera.orientation),
+                                     !scene.tone.high));
         break;
     case PictureFormat::npy: {
         const picture::ProjectionImage image = render(scene.camera);

@@ -41,8 +41,9 @@ std::optional<Session> currentSession(const Document &document) {
     session.phantom = source.phantom;
     session.difference = source.difference;
     session.key = source.digest();
-    session.shown = {document.scene(), document.displayWindow(), document.crosshair(),
-                     document.cut(), document.exposure()};
+    session.shown = {document.scene(),        document.displayWindow(), document.crosshair(),
+                     document.cut(),          document.exposure(),      nullptr,
+                     document.pose().isFitted};
     if (document.segments())
         for (const segment::Segmentation &segmentation : document.segments()->segmentations())
             session.segmentations << QString::fromStdString(segmentation.path.string());

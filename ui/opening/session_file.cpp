@@ -119,6 +119,7 @@ QJsonObject objectOf(const Session &s) {
             {"window", QJsonObject{{"center", s.shown.displayWindow.center},
                                    {"width", s.shown.displayWindow.width},
                                    {"name", QString::fromStdString(s.shown.displayWindow.name)}}},
+            {"fitted", s.shown.isFitted},
             {"crosshair", toJson(s.shown.crosshair.mm)},
             {"planes", toJson(s.shown.cut.axes)},
             {"slab", QJsonObject{{"mm", cut.slab.thicknessMm}, {"mode", int(cut.slab.mode)}}},
@@ -151,6 +152,7 @@ Session fromJson(const QJsonObject &in) {
                              std::max(1e-6, window["width"].toDouble(1.0)),
                              window["name"].toString().toStdString()};
     s.shown.exposure = std::exchange(s.shown.scene.tone.exposure, std::nullopt);
+    s.shown.isFitted = in["fitted"].toBool();
     s.shown.crosshair = {vectorFrom(in["crosshair"])};
     s.shown.cut.axes = planesFrom(in["planes"].toArray());
     const QJsonObject slab = in["slab"].toObject();

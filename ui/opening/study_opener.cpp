@@ -8,7 +8,9 @@
 #include "core/dicom/scan.h"
 #include "core/preprocess/body.h"
 #include "core/preprocess/study_content.h"
+#include "core/system/log.h"
 #include "core/system/memory.h"
+#include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/engine/look_preparer.h"
 #include "ui/jobs/job_runner.h"
@@ -30,6 +32,23 @@ QStringList segmentationsIn(const dicom::Catalogue &catalogue) {
                                      std::filesystem::is_regular_file(file.path, unknown))
             paths << QString::fromStdString(file.path.string());
     return paths;
+}
+
+struct Content {
+    bool hasCouch = false;
+    presets::StudyTraits traits;
+};
+
+// A study opens even if this fails, for lack of memory for example.
+Content contentOf(const volume::Volume &volume, const task::Progress &progress) {
+    Content content;
+    try {
+        content.traits = preprocess::traitsOf(volume, progress);
+        content.hasCouch = volume.notes().placed && preprocess::hasCouch(volume, progress);
+    } catch (const task::Error &error) {
+        system::log(std::string("no couch and region were found: ") + error.what());
+    }
+    return content;
 }
 
 } // namespace
@@ -86,7 +105,9 @@ void StudyOpener::resume(const Continuity &continuity) {
     m_preparer.setHeld(true);
     m_document.setScene(scene);
     m_preparer.setHeld(false);
-    m_document.setPose(m_document.poseOf(continuity.scene.camera));
+    Pose pose = m_document.poseOf(continuity.scene.camera);
+    pose.isFitted = continuity.isFitted;
+    m_document.setPose(pose);
     m_document.setDisplayWindow(continuity.displayWindow);
     m_document.setCrosshair(continuity.crosshair);
     m_document.setCut(continuity.cut);
@@ -284,8 +305,9 @@ void StudyOpener::closeSource(int index) {
 }
 
 Continuity StudyOpener::leavePhase(int next) {
-    Continuity stays{m_document.scene(), m_document.displayWindow(), m_document.crosshair(),
-                     m_document.cut(),   m_document.exposure(),      m_document.segments()};
+    Continuity stays{m_document.scene(),        m_document.displayWindow(), m_document.crosshair(),
+                     m_document.cut(),          m_document.exposure(),      m_document.segments(),
+                     m_document.pose().isFitted};
     // A volume's own window would differ from phase to phase.
     if (m_document.volume()->unit() == volume::ValueUnit::none)
         stays.scene.fieldWindow = m_document.fieldWindow();
@@ -409,10 +431,7 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
         const classify::FieldWindow field = classify::defaultFieldWindow(volume);
         const LoadedSegments segments =
             loadSegments(segmentations, volume, nullptr, job.progress().part(0.6, 0.6));
-        const bool hasCouch =
-            volume.notes().placed && preprocess::hasCouch(volume, job.progress().part(0.6, 0.6));
-        const presets::StudyTraits traits =
-            preprocess::traitsOf(volume, job.progress().part(0.6, 0.6));
+        const auto [hasCouch, traits] = contentOf(volume, job.progress().part(0.6, 0.6));
         job.deliver([this, loaded, window, field, segments, bare, hasCouch, traits] {
             m_document.addProblems(loaded.skipped);
             m_document.addProblems(segments.problems);

@@ -25,6 +25,7 @@ struct Continuity {
     std::optional<scene::Exposure> exposure; ///< see Document
     /// Kept if the other volume has the same lattice; may be null.
     std::shared_ptr<const segment::SegmentSet> segments = nullptr;
+    bool isFitted = false; ///< see Pose
 };
 
 /// Opens studies, as jobs: scans paths, chooses a volume, loads it with previews, and has its

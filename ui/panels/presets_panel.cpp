@@ -73,7 +73,7 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     m_listsAll->setObjectName("allPresetsButton");
     m_listsAll->setCheckable(true);
     m_listsAll->setToolTip(
-        tr("List all presets, not only those for the region of the body that is open"));
+        tr("List all presets, not only those for the body region of the open study"));
     m_listsAll->setProperty("role", "link");
     auto *corner = new QHBoxLayout(m_corner);
     corner->setContentsMargins(0, 0, 0, 0);
@@ -156,16 +156,19 @@ bool PresetsPanel::isOffered(const presets::PresetEntry &entry) const {
 void PresetsPanel::list() {
     std::vector<presets::Preset> listed;
     m_gallery->clear();
-    // The user's own first, then those for the region, then those for any.
+    // The user's own first, then those for the region, for any, and for others.
     std::vector<const presets::PresetEntry *> offered;
     for (const auto &entry : m_library.entries())
         if (isOffered(entry))
             offered.push_back(&entry);
-    const auto rank = [](const presets::PresetEntry *entry) {
-        return !entry->isBuiltIn()                 ? 0
-               : entry->preset.name == plainPreset ? 1
-               : !entry->preset.regions.empty()    ? 2
-                                                   : 3;
+    const auto rank = [this](const presets::PresetEntry *entry) {
+        if (!entry->isBuiltIn())
+            return 0;
+        if (entry->preset.name == plainPreset)
+            return 1;
+        if (!presets::isFor(entry->preset, m_document.traits()))
+            return 4;
+        return entry->preset.regions.empty() ? 3 : 2;
     };
     std::stable_sort(offered.begin(), offered.end(),
                      [&](const auto *a, const auto *b) { return rank(a) < rank(b); });

@@ -31,13 +31,13 @@ RadiographPanel::RadiographPanel(Document &document, QWidget *parent)
     column->setContentsMargins(14, 2, 14, 8);
     column->setSpacing(3);
     addRow(tr("Detail"),
-           tr("How much fine structures stand out, such as trabeculae and vessels; 0 shows them as "
-              "they are. Double-click: automatic"),
+           tr("How strongly fine structures, such as trabeculae and vessels, are amplified; 0: "
+              "unchanged. Double-click: automatic"),
            m_detail, m_detailMark);
     connectShare(m_detail, tr("Detail"), &scene::Tone::detail);
     addRow(tr("Latitude"),
-           tr("How much thick and thin parts are brought together, so that both are seen; 0 shows "
-              "them as they are. Double-click: automatic"),
+           tr("How strongly differences between thick and thin parts are compressed; 0: unchanged. "
+              "Double-click: automatic"),
            m_latitude, m_latitudeMark);
     connectShare(m_latitude, tr("Latitude"), &scene::Tone::latitude);
     addRow(tr("Sharpness"),

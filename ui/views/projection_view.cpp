@@ -282,8 +282,14 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     // It was requested before the exposure was: the next frame has one.
     if (m_tone.isWanted() && !frame->exposure)
         return;
-    if (m_tone.isWanted())
+    if (frame->exposure) {
+        const scene::Tone &tone = m_document.scene().tone;
         m_tone.take(*frame->exposure);
+        // The contrast was changed meanwhile: the next frame, which is under way, measures again.
+        if (frame->exposedTone.detail != tone.detail ||
+            frame->exposedTone.latitude != tone.latitude)
+            m_tone.retake();
+    }
     if (std::exchange(m_fitsNext, false)) {
         m_body = m_tone.exposure();
         const Pose now = m_document.pose(), pose = fittedToBody(now);

@@ -63,7 +63,7 @@ public:
     void resetView();
     /// The left button measures distances with that tool; with every other one it orbits.
     void setTool(Tool tool);
-    /// Turns about the crosshair, or about the middle of the volume.
+    /// Turns about the crosshair, or about the middle of the body.
     void setOrbitsCrosshair(bool isAboutCrosshair);
     bool orbitsCrosshair() const { return m_orbitsCrosshair; }
     /// Dragging turns the view as a trackball instead of a turntable, which keeps the patient

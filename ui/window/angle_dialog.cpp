@@ -46,7 +46,7 @@ protected:
         return isNegative ? -number(text) : number(text);
     }
     QValidator::State validate(QString &text, int & /*at*/) const override {
-        static const QRegularExpression form("^\\s*[A-Za-z]*\\s*-?\\s*\\d*\\s*°?\\s*$");
+        static const QRegularExpression form("^\\s*[A-Za-z]*\\s*-?\\s*\\d{0,3}\\s*°?\\s*$");
         if (!form.match(text).hasMatch() || number(text) > maximum())
             return QValidator::Invalid;
         return text.contains(QRegularExpression("\\d")) ? QValidator::Acceptable
@@ -69,9 +69,10 @@ AngleDialog::AngleDialog(const Document &document, ProjectionView &projection, Q
     setWindowTitle(tr("C-arm angles"));
     setAttribute(Qt::WA_DeleteOnClose);
     m_primary->setObjectName("primaryAngleBox");
-    m_primary->setToolTip(tr("The detector's turn to the patient's left (LAO) or right (RAO)"));
+    m_primary->setToolTip(
+        tr("Rotation of the detector toward the patient's left (LAO) or right (RAO)"));
     m_secondary->setObjectName("secondaryAngleBox");
-    m_secondary->setToolTip(tr("The detector's tilt to the head (CRA) or the feet (CAU)"));
+    m_secondary->setToolTip(tr("Tilt of the detector toward the head (CRA) or the feet (CAU)"));
     m_common->setObjectName("commonAnglesList");
     m_common->setAccessibleName(tr("Common angulations"));
     for (const scene::NamedAngles &named : scene::commonAngles) {
@@ -94,8 +95,13 @@ AngleDialog::AngleDialog(const Document &document, ProjectionView &projection, Q
     column->addWidget(buttons);
     resize(280, 420);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
-    connect(m_primary, &QSpinBox::valueChanged, this, &AngleDialog::turn);
-    connect(m_secondary, &QSpinBox::valueChanged, this, &AngleDialog::turn);
+    // The other angle stays as it is, between whole degrees, too.
+    connect(m_primary, &QSpinBox::valueChanged, this, [this](int degrees) {
+        m_projection.showOrientation(scene::orientationOf({double(degrees), now().secondaryDeg}));
+    });
+    connect(m_secondary, &QSpinBox::valueChanged, this, [this](int degrees) {
+        m_projection.showOrientation(scene::orientationOf({now().primaryDeg, double(degrees)}));
+    });
     const auto choose = [this](const QListWidgetItem *item) {
         m_projection.showOrientation(scene::orientationOf(
             {item->data(Qt::UserRole).toDouble(), item->data(Qt::UserRole + 1).toDouble()}));
@@ -114,14 +120,12 @@ AngleDialog::~AngleDialog() {
         box->disconnect(this);
 }
 
-void AngleDialog::turn() {
-    m_projection.showOrientation(
-        scene::orientationOf({double(m_primary->value()), double(m_secondary->value())}));
+scene::PositionerAngles AngleDialog::now() const {
+    return scene::positionerAngles(m_document.scene().camera.orientation);
 }
 
 void AngleDialog::showView() {
-    const scene::PositionerAngles angles =
-        scene::positionerAngles(m_document.scene().camera.orientation);
+    const scene::PositionerAngles angles = now();
     const QSignalBlocker noPrimary(m_primary), noSecondary(m_secondary);
     m_primary->setValue(int(std::lround(angles.primaryDeg)));
     m_secondary->setValue(int(std::lround(angles.secondaryDeg)));

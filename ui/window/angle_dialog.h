@@ -3,6 +3,8 @@
 
 #include <QDialog>
 
+#include "core/scene/positioner_angles.h"
+
 class QListWidget;
 
 namespace pellucid::ui {
@@ -21,7 +23,7 @@ public:
     ~AngleDialog() override;
 
 private:
-    void turn();
+    scene::PositionerAngles now() const;
     void showView();
 
     const Document &m_document;

@@ -236,12 +236,10 @@ void FileMenu::openScene() {
             throw task::Error(task::ErrorCode::usage, task::because::sceneShowsADifference,
                               path.toStdString());
         scene.isOfDifference = false;
-        scene.plannedFor = {}; // the window always plans for the whole volume
-        const auto exposure = std::exchange(scene.tone.exposure, std::nullopt);
+        scene.plannedFor = {};       // the window always plans for the whole volume
+        scene.tone.exposure.reset(); // the open study may be another one: it has its own
         editScene(m_bench.study.document, tr("Open scene"), noDrag,
                   [&](scene::Scene &shown) { shown = scene; });
-        if (exposure)
-            m_panes.projection->adoptExposure(*exposure);
         m_panes.projection->adoptCamera(scene.camera);
     });
 }

@@ -29,11 +29,10 @@ ViewMenu::ViewMenu(QMenu &menu, QMainWindow &window, const Viewer &viewer, Graph
         add(tr("&Orbit about the crosshair"), "orbitCrosshairAction", QKeySequence("O"),
             [projection] { projection->setOrbitsCrosshair(!projection->orbitsCrosshair()); });
     about->setCheckable(true);
-    QAction *free =
-        add(tr("&Free rotation, as a trackball"), "freeRotationAction", {}, [projection] {
-            projection->setTurnsFreely(!projection->turnsFreely());
-            QSettings().setValue(freeRotationKey, projection->turnsFreely());
-        });
+    QAction *free = add(tr("&Free rotation (trackball)"), "freeRotationAction", {}, [projection] {
+        projection->setTurnsFreely(!projection->turnsFreely());
+        QSettings().setValue(freeRotationKey, projection->turnsFreely());
+    });
     free->setCheckable(true);
     projection->setTurnsFreely(QSettings().value(freeRotationKey).toBool());
     free->setChecked(projection->turnsFreely());

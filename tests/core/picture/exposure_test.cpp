@@ -175,7 +175,7 @@ TEST(Exposure, AirOfValuesWithoutAUnitIsBlack) {
     scene::Tone tone;
     tone.exposure = study.exposure();
     const auto front = scene::viewOrientation(scene::StandardView::front);
-    EXPECT_NEAR(tone.exposure->axes[1].air, 0.25 * 60 * 3, 3.0);
+    EXPECT_NEAR(tone.exposure->axes[1].air, 1.1 * 0.25 * 60 * 3, 3.0);
     const ProjectionImage image = study.seen(front);
     const Pixels pixels = compose(image, displayOf(tone, front));
     const auto greyAt = [&](double x) {

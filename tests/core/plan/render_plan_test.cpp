@@ -183,6 +183,48 @@ Errors errorsOf(const classify::DensityField &field, scene::Scene scene,
     return errors;
 }
 
+// A slab with a sharp, bright edge beside faint noise: a crop beside the edge is darkened by the
+// filter, but its errors are not.
+classify::DensityField edgeField(const volume::Lattice &lattice) {
+    const classify::DensityField noise = test::noiseField(lattice);
+    const volume::GridSize size = lattice.size();
+    std::vector<float> samples;
+    std::vector<float> row(std::size_t(size.i));
+    for (int k = 0; k < size.k; ++k)
+        for (int j = 0; j < size.j; ++j) {
+            const float *const values = noise.values.row({0, j, k}, size.i, row.data());
+            for (int i = 0; i < size.i; ++i)
+                samples.push_back(i < size.i / 2 ? 1.0F : 0.02F * values[i]);
+        }
+    return classify::fieldOf(volume::Volume(lattice, std::move(samples), volume::ValueUnit::none));
+}
+
+// Amplified detail: the error stays below the one that is stated, for whole pictures and parts.
+TEST(RenderPlan, PredictsTheErrorOfAmplifiedDetail) {
+    std::vector<glm::dquat> views;
+    for (const double azimuth : {0.0, 40.0, 90.0})
+        views.push_back(
+            scene::viewOrientation(scene::StandardView::front, {azimuth, 0.5 * azimuth, 0}));
+    const auto lattice = test::tiltedLattice({28, 20, 10}, {1, 1, 2}, 10);
+    for (const auto &field : {test::noiseField(lattice), edgeField(lattice)})
+        for (const auto &[detail, detailMm] : {std::pair(4.0, 1.0), {2.0, 3.0}})
+            for (const double tolerance : {1.1e-3})
+                for (const Framing &framing : {Framing{1, 0, 0}, {1, 12, 9}, {1, 10, -9}}) {
+                    scene::Scene scene = sceneFor(lattice, framing);
+                    scene.image.detail = detail;
+                    scene.image.detailMm = detailMm;
+                    scene.tolerance = tolerance;
+                    const Errors errors = errorsOf(field, scene, views);
+                    for (std::size_t n = 0; n < views.size(); ++n) {
+                        EXPECT_LE(errors.measured[n], errors.ofView[n])
+                            << detail << " " << detailMm << " mm, " << tolerance << ", side "
+                            << framing.side << ", pan " << framing.pan << ", view " << n;
+                        if (framing.side == 0)
+                            EXPECT_LE(errors.measured[n], errors.planned);
+                    }
+                }
+}
+
 // The plan's prediction bounds uncropped pictures from any direction; the two views here are not
 // the worst ones. Each picture also has a prediction of its own, crops included, whose aliased
 // tails come from the whole projection. It is at most four and a half times too high.

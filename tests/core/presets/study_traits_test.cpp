@@ -14,19 +14,22 @@ TEST(StudyTraits, RegionsAreReadFromHeaders) {
     using enum BodyRegion;
     const std::pair<const char *, Regions> cases[] = {
         {"CHEST", {chest}},
-        {"CHESTABDPELVIS", {chest, abdomen, pelvis}},
         {"Thorax  5.0  B30f", {chest}},
         {"SKULL Head 2.0", {head}},
-        {"LSPINE", {spine}},
+        {"L-SPINE", {spine}},
         {"CT TAP with contrast", {chest, abdomen, pelvis}},
         {"CORONARY", {chest}},
         {"Hip left", {pelvis}},
         {"tape, ship and chip", {}},
         {"", {}},
         {"Abd. portal venous", {abdomen}},
-        {"AX T1", {}}};
+        {"AX T1", {}},
+        {"surface ahead", {}},
+        {"Head first supine", {}}};
     for (const auto &[text, regions] : cases)
-        EXPECT_EQ(regionsNamed(text), regions) << text;
+        EXPECT_EQ(regionsNamed("", text), regions) << text;
+    EXPECT_EQ(regionsNamed("CHESTABDPELVIS", ""), (Regions{chest, abdomen, pelvis}));
+    EXPECT_EQ(regionsNamed("LSPINE", "Lung"), (Regions{spine, chest}));
 }
 
 TEST(StudyTraits, PresetsAreOfferedForTheirRegion) {

@@ -69,7 +69,7 @@ TEST(Scene, PlanningForTheVolumeForgetsTheView) {
 TEST(Scene, ScenesOfTheFirstVersionKeepTheirReconstruction) {
     const auto first = [](const std::string &reconstruction) {
         std::string text = scene::toJson({});
-        text.replace(text.find("pellucid-scene/2"), 16, "pellucid-scene/1");
+        text.replace(text.find("pellucid-scene/3"), 16, "pellucid-scene/1");
         const std::string line = "\"reconstruction\": \"cubic\",";
         text.replace(text.find(line), line.size(), reconstruction);
         return scene::sceneFromJson(text).image.reconstruction;
@@ -79,6 +79,20 @@ TEST(Scene, ScenesOfTheFirstVersionKeepTheirReconstruction) {
     EXPECT_EQ(first("\"reconstruction\": \"linear\","), scene::Reconstruction::linear);
     EXPECT_EQ(scene::sceneFromJson(scene::toJson({})).image.reconstruction,
               scene::Reconstruction::cubic);
+}
+
+// The window of a picture without contrast processing keeps its meaning.
+TEST(Scene, ScenesOfTheSecondVersionHaveNoContrastInTheirWindow) {
+    scene::Scene scene;
+    scene.tone.low = 1.0;
+    scene.tone.high = 7.0;
+    std::string text = scene::toJson(scene);
+    EXPECT_EQ(scene::sceneFromJson(text).tone, scene.tone);
+    text.replace(text.find("pellucid-scene/3"), 16, "pellucid-scene/2");
+    const scene::Tone read = scene::sceneFromJson(text).tone;
+    EXPECT_EQ(read.high, 7.0);
+    EXPECT_EQ(read.detail, 0.0);
+    EXPECT_EQ(read.latitude, 0.0);
 }
 
 TEST(Scene, RefusesBadJsonWithTheReason) {
@@ -91,7 +105,7 @@ TEST(Scene, RefusesBadJsonWithTheReason) {
         return text;
     };
     EXPECT_THROW(scene::sceneFromJson(replaced("\"cubic\"", "\"quintic\"")), task::Error);
-    EXPECT_THROW(scene::sceneFromJson(replaced("pellucid-scene/2", "other")), task::Error);
+    EXPECT_THROW(scene::sceneFromJson(replaced("pellucid-scene/3", "other")), task::Error);
     for (const char *look :
          {R"("transfer_function": [1.0])", R"("transfer_function": [1.0, 9.0])",
           R"("transfer_function": "x")", R"("classes": [{"name": "a"}])",
@@ -117,7 +131,7 @@ TEST(Scene, RefusalsNameThePlaceAndTheFault) {
     };
     const std::string good = scene::toJson({});
     for (const Case &c : std::vector<Case>{
-             {"pellucid-scene/2", "other", at("/schema", because::isNot("pellucid-scene/2"))},
+             {"pellucid-scene/3", "other", at("/schema", because::isNot("pellucid-scene/3"))},
              {"\"camera\"", "\"camera_\"", because::hasNo("camera")},
              {"\"pixel_mm\": 1.0", "\"pixel_mm\": \"x\"",
               at("/camera/pixel_mm", because::mustBeANumber)},

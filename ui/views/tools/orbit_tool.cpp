@@ -9,7 +9,8 @@
 namespace pellucid::ui {
 
 bool OrbitTool::move(const MouseMove &mouse) {
-    if ((QGuiApplication::keyboardModifiers() & Qt::AltModifier) == 0) {
+    // Some window managers move the window by Alt and the mouse.
+    if ((QGuiApplication::keyboardModifiers() & (Qt::AltModifier | Qt::ShiftModifier)) == 0) {
         m_pane.orbitBy(mouse.delta);
         return true;
     }

@@ -6,7 +6,7 @@
 
 namespace pellucid::ui {
 
-/// Turns the projection; with Alt, rolls it.
+/// Turns the projection; with Alt or Shift, rolls it.
 class OrbitTool : public PaneTool {
 public:
     explicit OrbitTool(ProjectionPane &pane) : m_pane(pane) {}
