@@ -142,7 +142,7 @@ const GridTexture &ContrastPasses::correction(const PictureTexture &picture,
         }
         if (!m_levels.empty()) {
             use(m_coarsest);
-            glUniform1f(m_coarsest.uniform("fewShares"), float(picture::fewShares));
+            glUniform1f(m_coarsest.uniform("middleWeight"), float(picture::middleWeight));
             setCompression(m_coarsest, contrast);
             read(m_coarsest, "level", 0, m_levels.back().sums);
             drawing.cover(m_levels.back().processed);

@@ -37,7 +37,7 @@ void TonePass::draw(const PictureTexture &picture, const picture::Display &displ
     const auto at = [&](const char *name) { return m_program.uniform(name); };
     glUniform2f(at("range"), float(display.range.low), float(display.range.high));
     glUniform1f(at("exponent"), float(display.exponent));
-    glUniform2f(at("air"), float(display.air), float(display.airBelow));
+    glUniform2f(at("air"), float(display.air), float(display.airFade));
     glUniform1i(at("inverted"), display.inverted ? 1 : 0);
     glUniform1i(at("layers"), picture.layers);
     glUniform3fv(at("colors"), int(picture.colors.size()), picture.colors.front().data());

@@ -8,7 +8,8 @@
 
 namespace pellucid::bench {
 
-std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t seed) {
+std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t seed,
+                                                    PictureKind pictures) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     std::vector<PictureFactor> factors;
@@ -17,7 +18,7 @@ std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t see
         for (std::size_t n = 0; n < Candidate::geneCount; ++n)
             candidate.genes.push_back(uniform(random));
         candidate.genes[1] = 0.3; // the default tolerance, 1.1e-3
-        const Trial trial = trialOf(candidate, PictureKind::any);
+        const Trial trial = trialOf(candidate, pictures);
         const Verdict verdict = judge(trial);
         if (verdict.measured > 0.0)
             factors.push_back({trial.name, verdict.ofView / verdict.measured});

@@ -17,7 +17,8 @@ struct PictureFactor {
 };
 /// The factors of random pictures of any kind at the default tolerance, in ascending order.
 /// *Shape*: `count` entries.
-std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t seed);
+std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t seed,
+                                                    PictureKind pictures);
 
 struct SearchOptions {
     std::uint64_t seed = 1;

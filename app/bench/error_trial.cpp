@@ -130,7 +130,7 @@ Trial trialOf(const Candidate &candidate, PictureKind pictures) {
     camera.pixelMm *= zoom;
     camera.width = camera.height = 2 * int(std::ceil(0.5 * camera.width / zoom));
     std::string more;
-    if (pictures == PictureKind::any) {
+    if (pictures != PictureKind::whole) {
         if (genes.next() < 0.3) {
             cropPicture(genes, camera);
             more += ", cropped";
@@ -139,6 +139,12 @@ Trial trialOf(const Candidate &candidate, PictureKind pictures) {
             trial.scene.shading = shadingOf(genes);
             more += trial.scene.shading.isLit() ? ", lit" : ", with a cue";
         }
+    }
+    if (pictures == PictureKind::amplified) {
+        scene::ImageDefinition &image = trial.scene.image;
+        image.detail = genes.between(0.2, scene::maxDetail);
+        image.detailMm = lattice.shortestStepMm() * std::pow(10.0, genes.between(-0.5, 0.9));
+        more += fmt::format(", detail {:.2g} at {:.2g} mm", image.detail, image.detailMm);
     }
     trial.fieldName = fmt::format("{}, {}x{}x{}", fieldKindName(kind), size.i, size.j, size.k);
     trial.name = fmt::format("{}, {}{}, pixel {:.2f} mm, tolerance {:.2g}", trial.fieldName, view,

@@ -24,8 +24,9 @@ struct Trial {
     scene::Scene scene;
 };
 /// The pictures to search. `whole`: uncropped, without cue and light; the plan's error bounds each
-/// of them. `any`: any cue, light and crop; each picture has its own predicted error.
-enum class PictureKind { whole, any };
+/// of them. `any`: any cue, light and crop; each picture has its own predicted error. `amplified`:
+/// the same with amplified detail.
+enum class PictureKind { whole, any, amplified };
 /// The field and the scene that the genes encode.
 Trial trialOf(const Candidate &candidate, PictureKind pictures);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int width = 1800, height = 2000, frames = 40;
 
-// What the processing of a picture costs beside the frame, in turns.
+// Measures how much contrast processing adds to a frame, alternating with plain display.
 void measureCase(const Report &report, const std::string &name, const volume::Volume &volume,
                  const classify::Look &look, double pixelMm) {
     scene::Scene scene;

@@ -33,7 +33,8 @@ void runShadingSuite(const Report &report);
 /// Cuts of 512^2 pixels through 512 x 512 x 256 samples, thin and as slabs, against the exact mean
 /// and maximum of the interpolated volume.
 void runPlanesSuite(const Report &report);
-/// What the contrast of a picture of 1800 x 2000 pixels adds to its frame, in turns.
+/// How much contrast processing adds to frames of 1800 x 2000 pixels, alternating with plain
+/// display.
 void runRadiographSuite(const Report &report);
 /// The engine on the graphics card at 128^3 to 512^3 compared with the processor's and with a ray
 /// sum on the same card. *Throws* Error{noSuchDevice}.

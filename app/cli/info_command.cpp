@@ -13,6 +13,7 @@
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
 #include "app/cli/terminal.h"
+#include "core/decoder/decoder.h"
 #include "core/dicom/scan.h"
 #include "core/segment/segmentation.h"
 #include "core/task/error.h"
@@ -41,7 +42,7 @@ json volumeJson(const dicom::VolumeEntry &v) {
                 {"frames", v.frames.size()},
                 {"gaps_filled", v.fillsHoles},
                 {"resampled", !v.geometry.frameOffsetsMm.empty()},
-                {"unit", v.unit == volume::ValueUnit::hounsfield ? "HU" : ""},
+                {"unit", volume::unitName(v.unit)},
                 {"lossy", v.notes.lossy},
                 {"windows", windows},
                 {"warnings", englishTexts(v.notes.warnings)}};
@@ -148,7 +149,9 @@ void printCatalogue(const dicom::Catalogue &catalogue, const Context &context) {
                                v.label.empty() ? "" : printable(dicom::labelText(v.label)) + ": ",
                                l.size().i, l.size().j, l.size().k, l.spacingMm(0), l.spacingMm(1),
                                l.sliceDistanceMm(),
-                               v.unit == volume::ValueUnit::hounsfield ? ", HU" : "",
+                               v.unit == volume::ValueUnit::none
+                                   ? ""
+                                   : fmt::format(", {}", volume::unitName(v.unit)),
                                v.notes.lossy ? ", lossy" : "");
                     for (const auto &w : v.notes.warnings)
                         fmt::print("        {}\n", printable(w.english()));
@@ -164,12 +167,44 @@ void printCatalogue(const dicom::Catalogue &catalogue, const Context &context) {
         fmt::print("  {}: {}\n", printable(s.path.string()), printable(s.reason.english()));
 }
 
+void printHeaders(const std::vector<std::filesystem::path> &paths, bool asJson,
+                  const Context &context) {
+    json all = json::array();
+    for (const std::filesystem::path &path : paths) {
+        const decoder::AttributeList list =
+            decoder::Decoder::shared().attributes(path, task::Progress(context.stop));
+        json attributes = json::array();
+        for (const decoder::Attribute &a : list.attributes) {
+            const std::string indent(2 * std::size_t(a.depth), ' ');
+            if (asJson)
+                attributes.push_back({{"depth", a.depth},
+                                      {"tag", tagText(a)},
+                                      {"vr", a.vr},
+                                      {"name", a.name},
+                                      {"value", a.value}});
+            else if (a.tag == 0)
+                fmt::print("{}item {}\n", indent, printable(a.name));
+            else
+                fmt::print("{}{} {} {}: {}\n", indent, tagText(a), printable(a.vr),
+                           printable(a.name), printable(a.value));
+        }
+        if (asJson)
+            all.push_back({{"path", path.string()},
+                           {"complete", list.isComplete},
+                           {"attributes", attributes}});
+        else if (!list.isComplete)
+            fmt::print("The list is not complete.\n");
+    }
+    if (asJson)
+        std::puts(jsonText(all).c_str());
+}
+
 } // namespace
 
 void addInfoCommand(CLI::App &app, const Context &context) {
     struct Options {
         std::vector<std::string> paths;
-        bool json = false, large = false;
+        bool json = false, large = false, header = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand(
@@ -180,10 +215,15 @@ void addInfoCommand(CLI::App &app, const Context &context) {
                      "MetaImage")
         ->required();
     command->add_flag("--json", options->json, "Print one JSON object");
+    command->add_flag("--header", options->header, "Print all attributes of DICOM files");
     addLargeOption(*command, options->large);
     command->callback([options, context] {
         const std::vector<std::filesystem::path> paths(options->paths.begin(),
                                                        options->paths.end());
+        if (options->header) {
+            printHeaders(paths, options->json, context);
+            return;
+        }
         naming(paths.front(), [&] {
             const dicom::Catalogue catalogue =
                 dicom::scan(paths, task::Progress(context.stop), {options->large});

@@ -16,6 +16,7 @@
 #include "app/cli/scene_options.h"
 #include "app/cli/segment_options.h"
 #include "app/cli/terminal.h"
+#include "core/measure/measurement.h"
 #include "core/preprocess/class_region.h"
 #include "core/preprocess/region_growing.h"
 #include "core/preprocess/segment_class.h"
@@ -141,8 +142,17 @@ private:
 
     void print() const {
         json segments = json::array();
-        for (const segment::Segment &segment : m_segments)
-            segments.push_back({{"name", segment.name}, {"volume_ml", segment.volumeMm3 / 1000.0}});
+        for (const segment::Segment &segment : m_segments) {
+            json one = {{"name", segment.name}, {"volume_ml", segment.volumeMm3 / 1000.0}};
+            if (const auto values = measure::valuesOf(volume(), *segment.coverage)) {
+                one["samples"] = values->count;
+                one["mean"] = values->mean;
+                one["standard_deviation"] = values->standardDeviation;
+                one["minimum"] = values->minimum;
+                one["maximum"] = values->maximum;
+            }
+            segments.push_back(std::move(one));
+        }
         std::puts(jsonText({{"segments", segments},
                             {"series", m_input.seriesUid},
                             {"times_ms",

@@ -90,7 +90,7 @@ public:
     }
 
 private:
-    // Of the projection that the picture is a part of.
+    // The energy of the whole projection, of which the picture may show a part.
     double wholeEnergy() const {
         return isWhole() ? m_imageEnergy : std::max(m_imageEnergy, sliceMargin * m_sliceEnergy);
     }

@@ -62,7 +62,7 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
                                      const scene::ImageDefinition &image,
                                      const render::EngineParts &engine,
                                      const shading::Shading &shading) const {
-    // What follows is predicted for the image without amplified detail.
+    // The terms below are predicted for the image without amplified detail.
     const double gain = scene::detailGain(image);
     if (picture.samples.empty())
         return {gain * m_bound, true};

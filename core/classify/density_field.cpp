@@ -58,6 +58,8 @@ VoxelBox supportOf(const volume::Field &field, const task::Progress &progress) {
 FieldWindow defaultFieldWindow(const volume::Volume &volume) {
     if (volume.unit() == volume::ValueUnit::hounsfield)
         return ctFieldWindow;
+    if (volume.unit() == volume::ValueUnit::uptake)
+        return uptakeFieldWindow;
     if (volume.notes().isDifference) {
         const auto ends = volume::quantiles(volume, {0.0025, 0.9975});
         return {0.0, std::max({std::abs(ends[0]), std::abs(ends[1]), 1e-6})};

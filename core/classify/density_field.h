@@ -15,7 +15,9 @@ struct FieldWindow {
 
 /// Of CT, in HU: hides air and its noise.
 inline constexpr FieldWindow ctFieldWindow{-900.0, 2000.0};
-/// `ctFieldWindow` for CT; for differences from 0 to the largest
+/// SUV. Beyond, organs that excrete a tracer would outshine all others.
+inline constexpr FieldWindow uptakeFieldWindow{0.0, 10.0};
+/// `ctFieldWindow` for HU and `uptakeFieldWindow` for SUV; for differences from 0 to the largest
 /// 0.5 % of their magnitudes; for other volumes the 0.5 and 99.5 % quantiles of the finite samples.
 FieldWindow defaultFieldWindow(const volume::Volume &volume);
 

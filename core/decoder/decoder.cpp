@@ -269,6 +269,21 @@ DecodedStructureSet Decoder::structureSet(const fs::path &path, const task::Prog
     });
 }
 
+AttributeList Decoder::attributes(const fs::path &path, const task::Progress &progress) {
+    const OpenFile file = open(path);
+    checkStart(file, path);
+    return naming(path, [&] {
+        auto child =
+            ask({Message::Kind::attributes, 0, file.bytes, 0}, file.descriptor.get(), progress);
+        AttributeList list = answerOf(child, progress, [](const Child::Answer &answer) {
+            return unpackAttributes(answer.body);
+        });
+        release(std::move(child));
+        file.requireUnchanged();
+        return list;
+    });
+}
+
 DirectoryFile Decoder::directory(const fs::path &path, const task::Progress &progress) {
     const OpenFile file = open(path);
     return naming(path, [&] {

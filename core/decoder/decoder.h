@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/decoder/attribute.h"
 #include "core/decoder/instance.h"
 #include "core/decoder/segmentation_file.h"
 #include "core/decoder/volume_layout.h"
@@ -89,6 +90,8 @@ public:
                                      const task::Progress &progress = {});
     DecodedStructureSet structureSet(const std::filesystem::path &path,
                                      const task::Progress &progress = {});
+    AttributeList attributes(const std::filesystem::path &path,
+                             const task::Progress &progress = {});
     DirectoryFile directory(const std::filesystem::path &path, const task::Progress &progress = {});
     /// Calls `announce` with the names and sizes of all files first, then passes on their data.
     /// Callbacks may throw.

@@ -32,6 +32,19 @@ struct Rescale {
     bool operator==(const Rescale &) const = default;
 };
 
+/// The attributes of a PET image that standardised uptake values are computed from. Texts are empty
+/// and numbers are 0 where the file has none.
+struct PetHeader {
+    std::string units;           ///< Units: BQML, GML, CNTS ...
+    std::string uptakeType;      ///< SUVType: BW, LBM ...
+    std::string decayCorrection; ///< NONE, START or ADMIN
+    std::string seriesDate, seriesTime, acquisitionDate, acquisitionTime;
+    std::string injectionTime, injectionDateTime; ///< RadiopharmaceuticalStart(Date)Time
+    double weightKg = 0.0, injectedBq = 0.0, halfLifeS = 0.0;
+    double uptakePerCount = 0.0; ///< Philips' private factor (7053,1000)
+    bool operator==(const PetHeader &) const = default;
+};
+
 /// The attributes of one frame.
 struct FrameHeader {
     std::optional<glm::dvec3> positionMm;          ///< ImagePositionPatient
@@ -78,6 +91,7 @@ struct InstanceHeader {
     int mosaicSide = 0;
     std::string photometric, rescaleType;
     std::optional<int> paddingValue, paddingLimit;
+    std::optional<PetHeader> pet; ///< of a PET image
     std::vector<volume::ValueWindow> windows;
     std::vector<std::uint16_t> modalityTable; ///< values, empty if there is none
     int modalityTableFirst = 0;

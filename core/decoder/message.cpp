@@ -123,6 +123,16 @@ template <class A> void pass(A &archive, volume::ValueWindow &window) {
     pass(archive, window.name);
 }
 
+template <class A> void pass(A &archive, PetHeader &pet) {
+    for (std::string *const text :
+         {&pet.units, &pet.uptakeType, &pet.decayCorrection, &pet.seriesDate, &pet.seriesTime,
+          &pet.acquisitionDate, &pet.acquisitionTime, &pet.injectionTime, &pet.injectionDateTime})
+        pass(archive, *text);
+    for (double *const number :
+         {&pet.weightKg, &pet.injectedBq, &pet.halfLifeS, &pet.uptakePerCount})
+        pass(archive, *number);
+}
+
 template <class A> void pass(A &archive, FrameHeader &frame) {
     pass(archive, frame.positionMm);
     pass(archive, frame.rowAxis);
@@ -157,6 +167,7 @@ template <class A> void pass(A &archive, InstanceHeader &h) {
         pass(archive, *flag);
     pass(archive, h.paddingValue);
     pass(archive, h.paddingLimit);
+    pass(archive, h.pet);
     pass(archive, h.windows);
     pass(archive, h.modalityTable);
     pass(archive, h.frames);
@@ -165,6 +176,19 @@ template <class A> void pass(A &archive, InstanceHeader &h) {
 template <class A> void pass(A &archive, DirectoryFile &directory) {
     pass(archive, directory.isDirectory);
     pass(archive, directory.files);
+}
+
+template <class A> void pass(A &archive, Attribute &attribute) {
+    pass(archive, attribute.depth);
+    pass(archive, attribute.tag);
+    pass(archive, attribute.vr);
+    pass(archive, attribute.name);
+    pass(archive, attribute.value);
+}
+
+template <class A> void pass(A &archive, AttributeList &list) {
+    pass(archive, list.attributes);
+    pass(archive, list.isComplete);
 }
 
 template <class A> void pass(A &archive, ArchiveFile &file) {
@@ -380,6 +404,27 @@ StructureSetHeader unpackStructureSet(std::span<const std::byte> body) {
     if (pointCount(header) > maxContourPoints)
         fail();
     return header;
+}
+
+std::string pack(const AttributeList &list) {
+    return packed(list);
+}
+
+AttributeList unpackAttributes(std::span<const std::byte> body) {
+    auto list = unpacked<AttributeList>(body);
+    if (list.attributes.size() > maxAttributes)
+        fail();
+    int above = -1; // the depth of the attribute before
+    for (Attribute &attribute : list.attributes) {
+        if (attribute.depth < 0 || attribute.depth > above + 1 ||
+            attribute.depth > maxAttributeDepth)
+            fail();
+        above = attribute.depth;
+        for (std::string *const text : {&attribute.vr, &attribute.name, &attribute.value})
+            std::replace_if(
+                text->begin(), text->end(), [](char c) { return (unsigned char)(c) < 0x20; }, ' ');
+    }
+    return list;
 }
 
 std::string pack(const DirectoryFile &directory) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/decoder/attribute.h"
 #include "core/decoder/instance.h"
 #include "core/decoder/segmentation_file.h"
 #include "core/decoder/volume_layout.h"
@@ -30,6 +31,7 @@ struct Message {
         next,         ///< part of an archive or of samples
         segmentation, ///< a DICOM segmentation
         structureSet, ///< an RT structure set
+        attributes,   ///< all attributes of a DICOM file
         // sent by the decoder
         ready = 100, ///< it is confined, see `Confinement`, in `code`
         need,        ///< `size`: of the arena
@@ -83,6 +85,9 @@ std::string pack(const SegmentationHeader &header);
 SegmentationHeader unpackSegmentation(std::span<const std::byte> body);
 std::string pack(const StructureSetHeader &header);
 StructureSetHeader unpackStructureSet(std::span<const std::byte> body);
+std::string pack(const AttributeList &list);
+/// Texts are made one printable line.
+AttributeList unpackAttributes(std::span<const std::byte> body);
 /// Reads the format of `task::Reason::encoded`, with a limit on its length. Texts are made one
 /// printable line.
 task::Reason unpackReason(std::span<const std::byte> body);

@@ -49,6 +49,7 @@ struct VolumeEntry {
     bool fillsHoles = false;
     std::optional<task::Reason> notPlacedReason; ///< set if it is not placed
     volume::ValueUnit unit = volume::ValueUnit::none;
+    double valueFactor = 1.0; ///< of the files' values, into the unit
     volume::VolumeNotes notes;
     std::filesystem::path volumeFile; ///< set instead of `frames` for a file of volumes
     int fileVolume = 0;               ///< the index of the volume in that file

@@ -32,16 +32,11 @@ bool sameSpacing(const glm::dvec2 &a, const glm::dvec2 &b) {
     return std::max(off.x, off.y) <= largestJitter;
 }
 
-bool isLocalizer(const std::string &imageType) {
-    return imageType.find("LOCALIZER") != std::string::npos;
-}
-
 bool sameBlock(const PlacedFrame &a, const PlacedFrame &b) {
     const FrameHeader &x = a.header, &y = b.header;
     return a.rows == b.rows && a.columns == b.columns && a.modality == b.modality &&
-           isLocalizer(x.imageType) == isLocalizer(y.imageType) &&
-           sameSpacing(*x.spacingMm, *y.spacingMm) && sameAxis(*x.rowAxis, *y.rowAxis) &&
-           sameAxis(*x.columnAxis, *y.columnAxis);
+           isLocalizer(x) == isLocalizer(y) && sameSpacing(*x.spacingMm, *y.spacingMm) &&
+           sameAxis(*x.rowAxis, *y.rowAxis) && sameAxis(*x.columnAxis, *y.columnAxis);
 }
 
 std::size_t digestOf(const PlacedFrame &frame) {
@@ -318,6 +313,10 @@ void addImages(const Frames &frames, const task::Progress &progress, Stacks &sta
 }
 
 } // namespace
+
+bool isLocalizer(const FrameHeader &frame) {
+    return frame.imageType.find("LOCALIZER") != std::string::npos;
+}
 
 std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frameOfReferenceUid,
                      const std::string &modality, const FrameHeader &frame) {

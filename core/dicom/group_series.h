@@ -24,6 +24,9 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                                      std::vector<Skipped> &skipped,
                                      const task::Progress &progress = {});
 
+/// Whether a frame is a picture for planning a scan (scout, topogram), by its ImageType.
+bool isLocalizer(const FrameHeader &frame);
+
 /// A digest of the frame's instance, place and modality, kept in memory only: frames with different
 /// digests are different images, whatever the names of their files. It prevents mix-ups, not
 /// forgery. The standard library's hash is sufficient: it reads some 200 bytes, where the scan has

@@ -199,12 +199,14 @@ private:
         return m_plane * m_entry.frames.size();
     }
 
+    ValueScale scale() const { return {m_entry.unit, m_entry.valueFactor}; }
+
     // False if a value does not fit T.
     bool readFile(std::size_t n) {
         const EntryFile &file = m_decoder.files()[n];
         try {
             const decoder::DecodedFile image = m_decoder.decode(n);
-            if (std::is_same_v<T, std::int16_t> && !fitsInt16(image.header, m_entry.unit))
+            if (std::is_same_v<T, std::int16_t> && !fitsInt16(image.header, scale()))
                 return false;
             m_notes.add(image.header, file.path);
             volume::Narrowing ofFile(m_samples.size(), file.frames.front() * m_plane);
@@ -212,8 +214,8 @@ private:
                 const FrameReference &frame = m_entry.frames[slice];
                 if (!stillContains(frame, image.header))
                     throw Error(ErrorCode::unusable, because::changedWhileRead);
-                if (!writeValues(image, frame.frame, m_entry.unit,
-                                 m_samples.data() + slice * m_plane, ofFile))
+                if (!writeValues(image, frame.frame, scale(), m_samples.data() + slice * m_plane,
+                                 ofFile))
                     return false;
                 m_arrived[slice].store(true, std::memory_order_release);
             }
@@ -282,7 +284,7 @@ public:
     // The first readable file decides the type; a value that does not fit switches to float.
     LoadedVolume load() {
         const InstanceHeader *const first = m_decoder.firstReadable();
-        if (first == nullptr || fitsInt16(*first, m_entry.unit))
+        if (first == nullptr || fitsInt16(*first, {m_entry.unit, m_entry.valueFactor}))
             if (auto loaded = loadAs<std::int16_t>())
                 return std::move(*loaded);
         return std::move(*loadAs<float>());

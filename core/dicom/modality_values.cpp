@@ -59,7 +59,9 @@ std::optional<Padding> paddingOf(const InstanceHeader &h, volume::ValueUnit unit
 
 } // namespace
 
-bool fitsInt16(const InstanceHeader &h, volume::ValueUnit unit) {
+bool fitsInt16(const InstanceHeader &h, const ValueScale &scale) {
+    if (scale.factor != 1.0)
+        return false;
     if (!h.modalityTable.empty())
         return *std::max_element(h.modalityTable.begin(), h.modalityTable.end()) <= 32767;
     const double top = h.isSigned() ? std::exp2(h.bitsStored - 1) - 1 : std::exp2(h.bitsStored) - 1;
@@ -69,20 +71,20 @@ bool fitsInt16(const InstanceHeader &h, volume::ValueUnit unit) {
         if (r.slope != std::round(r.slope) || r.intercept != std::round(r.intercept))
             return false;
         const double a = r.slope * bottom + r.intercept, b = r.slope * top + r.intercept;
-        return unit == volume::ValueUnit::hounsfield
+        return scale.unit == volume::ValueUnit::hounsfield
                    ? std::abs(r.slope) == 1.0
                    : std::max(a, b) <= 32767 && std::min(a, b) >= -32767;
     });
 }
 
 template <class T>
-bool writeValues(const decoder::DecodedFile &image, int frame, volume::ValueUnit unit, T *out,
+bool writeValues(const decoder::DecodedFile &image, int frame, const ValueScale &scale, T *out,
                  volume::Narrowing &narrowing) {
     const InstanceHeader &h = image.header;
     const std::size_t plane = std::size_t(h.rows) * h.columns;
     // Read each sample once: the decoder may still change it.
     const volatile std::uint16_t *in = image.samples.data() + plane * std::size_t(frame);
-    const auto padding = paddingOf(h, unit);
+    const auto padding = paddingOf(h, scale.unit);
     for (std::size_t n = 0; n < plane; ++n) {
         const std::uint16_t code = in[n];
         const int stored = h.isSigned() ? int(std::int16_t(code)) : int(code);
@@ -90,7 +92,7 @@ bool writeValues(const decoder::DecodedFile &image, int frame, volume::ValueUnit
             out[n] = missingValue<T>();
             continue;
         }
-        const double value = rescaled(h, frame, stored);
+        const double value = scale.factor * rescaled(h, frame, stored);
         if constexpr (std::is_same_v<T, float>)
             out[n] = narrowing.narrow(value);
         else if (std::abs(value) <= 32767.0) // the lowest code marks missing samples
@@ -115,9 +117,9 @@ template <class T> void fillMissing(std::vector<T> &samples) {
         std::replace_if(samples.begin(), samples.end(), isMissing<T>, all ? T(0) : lowest);
 }
 
-template bool writeValues(const decoder::DecodedFile &, int, volume::ValueUnit, std::int16_t *,
+template bool writeValues(const decoder::DecodedFile &, int, const ValueScale &, std::int16_t *,
                           volume::Narrowing &);
-template bool writeValues(const decoder::DecodedFile &, int, volume::ValueUnit, float *,
+template bool writeValues(const decoder::DecodedFile &, int, const ValueScale &, float *,
                           volume::Narrowing &);
 template void fillMissing(std::vector<std::int16_t> &);
 template void fillMissing(std::vector<float> &);

@@ -20,6 +20,7 @@
 #include "core/decoder/unpack_archive.h"
 #include "core/dicom/file_list.h"
 #include "core/dicom/group_series.h"
+#include "core/dicom/uptake_scale.h"
 #include "core/dicom/value_warnings.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
@@ -54,19 +55,52 @@ task::Reason hugeReason(const InstanceHeader &h, std::uint64_t fileBytes) {
 
 using HeadersByPath = std::map<fs::path, const InstanceHeader *>;
 
+// Whether images of one series state clearly different windows. Scanners set a window for each
+// image of an MR or PET series by its own values: none of them fits the series.
+bool doWindowsDiffer(const std::vector<const InstanceHeader *> &files) {
+    constexpr double tolerance = 0.1; // of the width
+    const auto first = std::find_if(files.begin(), files.end(),
+                                    [](const InstanceHeader *h) { return !h->windows.empty(); });
+    if (first == files.end())
+        return false;
+    const volume::ValueWindow &one = (*first)->windows.front();
+    return std::any_of(first, files.end(), [&](const InstanceHeader *h) {
+        if (h->windows.empty())
+            return false;
+        const volume::ValueWindow &other = h->windows.front();
+        const double limit = tolerance * std::max(one.width, other.width);
+        return std::abs(other.width - one.width) > limit ||
+               std::abs(other.center - one.center) > limit;
+    });
+}
+
+// The windows that the files of an entry agree on, in its unit. HU mean the same in each image:
+// there, the middle image's windows are used, because the first image is often noise.
+std::vector<volume::ValueWindow> windowsOf(const VolumeEntry &entry, const HeadersByPath &headers,
+                                           const std::vector<const InstanceHeader *> &files) {
+    if (entry.placed && entry.unit != volume::ValueUnit::hounsfield && doWindowsDiffer(files))
+        return {};
+    std::vector<volume::ValueWindow> windows =
+        headers.at(entry.frames[entry.frames.size() / 2].path)->windows;
+    if (windows.empty())
+        windows = headers.at(entry.frames.front().path)->windows;
+    for (volume::ValueWindow &window : windows) {
+        window.center *= entry.valueFactor;
+        window.width *= entry.valueFactor;
+    }
+    return windows;
+}
+
 // Sets the type of the values and the notes, from the first file of an entry.
 void describe(VolumeEntry &entry, const HeadersByPath &headers) {
     const InstanceHeader &h = *headers.at(entry.frames.front().path);
     entry.notes.title = h.seriesDescription.empty() ? h.modality : h.seriesDescription;
     entry.notes.modality = h.modality;
     entry.notes.bodyPart = h.bodyPart;
-    // If images have their own windows, the middle image's are used: the first image is often
-    // noise.
-    entry.notes.windows = headers.at(entry.frames[entry.frames.size() / 2].path)->windows;
-    if (entry.notes.windows.empty())
-        entry.notes.windows = h.windows;
-    entry.notes.darkIsHigh = h.photometric == "MONOCHROME1";
+    entry.notes.darkIsHigh = h.photometric == "MONOCHROME1" || h.modality == "PT";
     entry.notes.placed = entry.placed;
+    const FrameReference &front = entry.frames.front();
+    entry.notes.isLocalizer = isLocalizer(h.frames.at(std::size_t(front.frame)));
     std::map<fs::path, const InstanceHeader *> files;
     for (const FrameReference &frame : entry.frames)
         files.emplace(frame.path, headers.at(frame.path));
@@ -89,8 +123,17 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
     const bool hounsfield =
         h.rescaleType == "HU" ||
         (h.modality == "CT" && (h.rescaleType.empty() || h.rescaleType == "US"));
-    entry.unit = hounsfield && entry.placed && h.modality == "CT" ? volume::ValueUnit::hounsfield
-                                                                  : volume::ValueUnit::none;
+    if (hounsfield && entry.placed && h.modality == "CT") {
+        entry.unit = volume::ValueUnit::hounsfield;
+    } else if (h.pet) {
+        const UptakeScale scale = uptakeScale(each);
+        entry.unit = scale.unit;
+        entry.valueFactor = scale.factor;
+        if (scale.notUptake)
+            entry.notes.warnings.insert(entry.notes.warnings.begin(),
+                                        because::noUptakeValues(*scale.notUptake));
+    }
+    entry.notes.windows = windowsOf(entry, headers, each);
     // The tilt of the gantry, which explains the sheared stack.
     const double tilt = entry.geometry.lattice.shearRad() * 180.0 / 3.14159265358979323846;
     if (entry.placed && tilt > 0.1 && entry.geometry.lattice.size().k > 1)

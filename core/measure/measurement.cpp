@@ -138,6 +138,11 @@ std::optional<RegionValues> valuesIn(const Region &region, const volume::Volume 
     return accumulator.result(false);
 }
 
+// This form stays precise near 0 and 180 degrees.
+double degreesBetween(const glm::dvec3 &a, const glm::dvec3 &b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180.0 / std::numbers::pi;
+}
+
 std::string figure(const std::optional<double> &value) {
     return value ? fmt::format("{:.6g}", *value) : std::string();
 }
@@ -154,8 +159,27 @@ std::string csvField(const std::string &text) {
 
 } // namespace
 
-std::size_t pointCount(Kind kind) {
-    return kind == Kind::angle ? 3 : 2;
+PointCount pointCount(Kind kind) {
+    switch (kind) {
+    case Kind::text:
+        return {1, 1};
+    case Kind::angle:
+        return {3, 3};
+    case Kind::cobbAngle:
+        return {4, 4};
+    case Kind::polyline:
+        return {2, maxPolylinePoints};
+    case Kind::distance:
+    case Kind::ellipse:
+    case Kind::rectangle:
+    case Kind::arrow:
+        break;
+    }
+    return {2, 2};
+}
+
+bool isAnnotation(Kind kind) {
+    return kind == Kind::arrow || kind == Kind::text;
 }
 
 bool isRegion(Kind kind) {
@@ -166,16 +190,24 @@ Result measure(const Measurement &m, const volume::Volume &volume) {
     Result result;
     switch (m.kind) {
     case Kind::distance:
-    case Kind::projectedDistance:
-        result.lengthMm = glm::distance(m.pointsMm[0], m.pointsMm[1]);
+    case Kind::polyline:
+        result.lengthMm = 0.0;
+        for (std::size_t n = 1; n < m.pointsMm.size(); ++n)
+            *result.lengthMm += glm::distance(m.pointsMm[n - 1], m.pointsMm[n]);
         break;
-    case Kind::angle: {
-        const glm::dvec3 a = m.pointsMm[0] - m.pointsMm[1], b = m.pointsMm[2] - m.pointsMm[1];
-        // This form stays precise near 0 and 180 degrees.
+    case Kind::angle:
         result.angleDegrees =
-            std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180.0 / std::numbers::pi;
+            degreesBetween(m.pointsMm[0] - m.pointsMm[1], m.pointsMm[2] - m.pointsMm[1]);
+        break;
+    case Kind::cobbAngle: {
+        const double between =
+            degreesBetween(m.pointsMm[1] - m.pointsMm[0], m.pointsMm[3] - m.pointsMm[2]);
+        result.angleDegrees = std::min(between, 180.0 - between);
         break;
     }
+    case Kind::arrow:
+    case Kind::text:
+        break;
     case Kind::ellipse:
     case Kind::rectangle: {
         const Region region(m);
@@ -185,6 +217,20 @@ Result measure(const Measurement &m, const volume::Volume &volume) {
     }
     }
     return result;
+}
+
+std::optional<RegionValues> valuesOf(const volume::Volume &volume,
+                                     const volume::Coverage &coverage) {
+    constexpr int half = (volume::Coverage::whole + 1) / 2;
+    Accumulator accumulator;
+    std::size_t at = 0;
+    const volume::VoxelBox &box = coverage.box;
+    for (int k = box.lo.k; k < box.hi.k; ++k)
+        for (int j = box.lo.j; j < box.hi.j; ++j)
+            for (int i = box.lo.i; i < box.hi.i; ++i, ++at)
+                if (at < coverage.shares.size() && coverage.shares[at] >= half)
+                    accumulator.add(volume.value({i, j, k}));
+    return accumulator.result(true);
 }
 
 std::string toCsv(const std::vector<Measurement> &measurements, const volume::Volume &volume) {
@@ -202,13 +248,12 @@ std::string toCsv(const std::vector<Measurement> &measurements, const volume::Vo
         for (const glm::dvec3 &p : m.pointsMm)
             points +=
                 fmt::format("{}{:.3f} {:.3f} {:.3f}", points.empty() ? "" : "; ", p.x, p.y, p.z);
-        const bool hounsfield = volume.unit() == volume::ValueUnit::hounsfield;
         out += fmt::format(
-            "{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csvField(m.name), kindName(m.kind),
+            "{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csvField(m.name), kindName(m),
             figure(r.lengthMm), figure(r.angleDegrees), figure(r.areaMm2),
             figure(value(&RegionValues::mean)), figure(value(&RegionValues::standardDeviation)),
             figure(value(&RegionValues::minimum)), figure(value(&RegionValues::maximum)),
-            r.values && hounsfield ? "HU" : "",
+            r.values ? volume::unitName(volume.unit()) : "",
             r.values ? fmt::format("{}{}", r.values->count,
                                    r.values->areSamples ? " samples" : " interpolated")
                      : std::string(),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <string_view>
 
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
@@ -17,11 +18,16 @@ using nlohmann::json;
 
 constexpr const char *schema = "pellucid-measurements/1";
 
-constexpr files::JsonWords<Kind, 5> kinds{{{"distance", Kind::distance},
+constexpr files::JsonWords<Kind, 8> kinds{{{"distance", Kind::distance},
+                                           {"polyline", Kind::polyline},
                                            {"angle", Kind::angle},
+                                           {"Cobb angle", Kind::cobbAngle},
                                            {"ellipse", Kind::ellipse},
                                            {"rectangle", Kind::rectangle},
-                                           {"projected distance", Kind::projectedDistance}}};
+                                           {"arrow", Kind::arrow},
+                                           {"text", Kind::text}}};
+// Written until version 1.3 for a distance that was drawn in a projection.
+constexpr std::string_view oldProjectedDistance = "projected distance";
 
 json toArray(const glm::dvec3 &v) {
     return {v.x, v.y, v.z};
@@ -35,12 +41,23 @@ glm::dvec3 vectorFrom(const JsonValue &in) {
 
 Measurement measurementFrom(const JsonValue &in) {
     Measurement m;
-    m.kind = in.at("kind").meaning(kinds);
+    const JsonValue kind = in.at("kind");
+    if (kind.text() == oldProjectedDistance) {
+        m.isProjected = true;
+    } else {
+        m.kind = kind.meaning(kinds);
+        if (const JsonValue projected = in["projected"])
+            m.isProjected = projected.boolean();
+    }
+    if (m.isProjected && isRegion(m.kind))
+        in.refuse(because::regionsAreNotProjected);
     if (const JsonValue name = in["name"])
         m.name = name.text();
     const JsonValue points = in.at("points_mm");
-    if (points.size() != pointCount(m.kind))
-        in.refuse(because::mustHavePoints(pointCount(m.kind)));
+    if (const PointCount count = pointCount(m.kind);
+        points.size() < count.min || points.size() > count.max)
+        in.refuse(count.min == count.max ? because::mustHavePoints(count.min)
+                                         : because::mustHaveFromToPoints(count.min, count.max));
     for (const JsonValue &p : points.elements())
         m.pointsMm.push_back(vectorFrom(p));
     m.axes = {vectorFrom(in.at("right")), vectorFrom(in.at("up"))};
@@ -54,8 +71,8 @@ Measurement measurementFrom(const JsonValue &in) {
 
 } // namespace
 
-std::string kindName(Kind kind) {
-    return files::wordFor(kind, kinds);
+std::string kindName(const Measurement &m) {
+    return (m.isProjected ? "projected " : "") + std::string(files::wordFor(m.kind, kinds));
 }
 
 std::vector<Measurement> measurementsFromJson(const std::string &text) {
@@ -80,11 +97,14 @@ std::string toJson(const std::vector<Measurement> &measurements) {
         json points = json::array();
         for (const glm::dvec3 &p : m.pointsMm)
             points.push_back(toArray(p));
-        list.push_back({{"kind", kindName(m.kind)},
-                        {"name", m.name},
-                        {"points_mm", points},
-                        {"right", toArray(m.axes.right)},
-                        {"up", toArray(m.axes.up)}});
+        json one = {{"kind", files::wordFor(m.kind, kinds)},
+                    {"name", m.name},
+                    {"points_mm", points},
+                    {"right", toArray(m.axes.right)},
+                    {"up", toArray(m.axes.up)}};
+        if (m.isProjected)
+            one["projected"] = true;
+        list.push_back(std::move(one));
     }
     return json{{"schema", schema}, {"measurements", list}}.dump(2, ' ', false,
                                                                  json::error_handler_t::replace);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/decoder/attribute.h"
 #include "core/decoder/instance.h"
 #include "core/decoder/segmentation_file.h"
 #include "core/decoder/volume_layout.h"
@@ -13,6 +14,7 @@
 namespace pellucid::parse {
 
 using decoder::ArchiveFile;
+using decoder::AttributeList;
 using decoder::DecodedImage;
 using decoder::DirectoryFile;
 using decoder::FrameHeader;
@@ -50,6 +52,10 @@ struct DecodedStructureSet {
 };
 /// *Throws* Error{unusable, outOfMemory} with the reason.
 DecodedStructureSet decodeStructureSet(std::span<const std::byte> file);
+
+/// All attributes of a DICOM file in words; pixels and other bulk data only by their size. *Throws*
+/// Error{unusable} with the reason.
+AttributeList listAttributes(std::span<const std::byte> file);
 
 /// Whether it is a DICOMDIR, and the files that it lists. *Throws* Error{unusable} for a damaged
 /// DICOMDIR.

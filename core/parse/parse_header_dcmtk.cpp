@@ -99,6 +99,38 @@ void readPixelDescription(DcmDataset &dataset, InstanceHeader &h) {
         h.paddingLimit = int(std::clamp(*value, -65536.0, 65536.0));
 }
 
+// Philips' factor from counts to uptake values is a private element.
+double philipsUptakePerCount(DcmDataset &dataset) {
+    constexpr Uint16 group = 0x7053;
+    const bool isPhilips =
+        readText(&dataset, DcmTagKey(group, 0x0010)) == "Philips PET Private Group";
+    return isPhilips ? readNumber(&dataset, DcmTagKey(group, 0x1000)).value_or(0.0) : 0.0;
+}
+
+void readPet(DcmDataset &dataset, InstanceHeader &h) {
+    if (h.modality != "PT")
+        return;
+    DcmItem *const dose = sequenceItem(&dataset, DCM_RadiopharmaceuticalInformationSequence);
+    const auto number = [](DcmItem *item, const DcmTagKey &tag) {
+        return readNumber(item, tag).value_or(0.0);
+    };
+    decoder::PetHeader pet;
+    pet.units = readText(&dataset, DCM_Units);
+    pet.uptakeType = readText(&dataset, DCM_SUVType);
+    pet.decayCorrection = readText(&dataset, DCM_DecayCorrection);
+    pet.seriesDate = readText(&dataset, DCM_SeriesDate);
+    pet.seriesTime = readText(&dataset, DCM_SeriesTime);
+    pet.acquisitionDate = readText(&dataset, DCM_AcquisitionDate);
+    pet.acquisitionTime = readText(&dataset, DCM_AcquisitionTime);
+    pet.weightKg = number(&dataset, DCM_PatientWeight);
+    pet.injectionTime = readText(dose, DCM_RadiopharmaceuticalStartTime);
+    pet.injectionDateTime = readText(dose, DCM_RadiopharmaceuticalStartDateTime);
+    pet.injectedBq = number(dose, DCM_RadionuclideTotalDose);
+    pet.halfLifeS = number(dose, DCM_RadionuclideHalfLife);
+    pet.uptakePerCount = philipsUptakePerCount(dataset);
+    h.pet = pet;
+}
+
 } // namespace
 
 void dropUnreadable(DcmItem &dataset) {
@@ -129,6 +161,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     InstanceHeader header;
     readIdentity(dataset, sets, header);
     readPixelDescription(dataset, header);
+    readPet(dataset, header);
     header.windows = readWindows(dataset, sets);
     readModalityTable(dataset, header);
     readFrames(dataset, sets, fileBytes, header);

@@ -75,6 +75,10 @@ private:
             finish(0, decoder::pack(decoded.header), std::as_bytes(std::span(decoded.points)));
             break;
         }
+        case Message::Kind::attributes:
+            ::madvise(file.data(), file.size(), MADV_RANDOM);
+            finish(0, decoder::pack(listAttributes(file.bytes())), {});
+            break;
         case Message::Kind::directory:
             finish(0, decoder::pack(parseDirectory(file.bytes())), {});
             break;

@@ -31,7 +31,7 @@ Pixels compose(const ProjectionImage &image, const Display &display, PixelOrder 
                           .scale = float(1.0 / (range.high - range.low)),
                           .exponent = float(display.exponent),
                           .air = float(display.air),
-                          .airBelow = float(std::max(0.0, display.airBelow)),
+                          .airFade = float(std::max(0.0, display.airFade)),
                           .inverted = display.inverted,
                           .blueFirst = order == PixelOrder::bgra};
     std::optional<ContrastCorrection> correction;

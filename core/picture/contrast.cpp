@@ -17,8 +17,8 @@ namespace pellucid::picture {
 namespace {
 
 // Fine structures are amplified by up to 4, the largest differences weakened to a third.
-constexpr double mostAmplified = 2.0, mostCompressed = 1.5; // exponents of 2
-constexpr double mostBend = 0.3;
+constexpr double maxAmplification = 2.0, maxCompression = 1.5; // exponents of 2
+constexpr double maxBend = 0.3;
 // From fine to large structures, in octaves.
 constexpr double octaves = 4.0;
 constexpr double pixelsPerFineDetail = 2.5;
@@ -60,9 +60,9 @@ FourRows aroundTwice(const Plane &plane, int row) {
 BandCurve bandCurve(const Contrast &contrast, double sizeMm) {
     const double t = std::clamp(std::log2(sizeMm / contrast.fineMm) / octaves, 0.0, 1.0);
     const double large = t * t * (3.0 - 2.0 * t);
-    return {std::exp2((1.0 - large) * mostAmplified * contrast.detail -
-                      large * mostCompressed * contrast.latitude),
-            (1.0 - large) * mostBend * contrast.detail};
+    return {std::exp2((1.0 - large) * maxAmplification * contrast.detail -
+                      large * maxCompression * contrast.latitude),
+            (1.0 - large) * maxBend * contrast.detail};
 }
 
 AirRamp airRampOf(const Display &display) {
@@ -70,11 +70,11 @@ AirRamp airRampOf(const Display &display) {
     constexpr double tiny = 1e-9;
     return {
         float(display.air),
-        float(1.0 / std::max({display.airBelow, tiny * std::abs(display.contrast.bright), 1e-30}))};
+        float(1.0 / std::max({display.airFade, tiny * std::abs(display.contrast.bright), 1e-30}))};
 }
 
 double largestScaleFactor(const Contrast &contrast) {
-    return std::exp2(-mostCompressed * contrast.latitude);
+    return std::exp2(-maxCompression * contrast.latitude);
 }
 
 ContrastGrids::ContrastGrids(int imageWidth, int imageHeight, double pixelMm,
@@ -220,7 +220,7 @@ private:
         const int width = grid(n + 1).width, height = grid(n + 1).height;
         if (n + 1 == m_levels.size()) {
             // Where there is no body, the middle is as good a mean as any.
-            const float few = float(fewShares), middle = few * float(m_contrast.middle);
+            const float few = float(middleWeight), middle = few * float(m_contrast.middle);
             forRows(height, [&](int row) {
                 float *const values = level.values.row(row), *const to = level.processed.row(row);
                 const float *const shares = level.shares.row(row);

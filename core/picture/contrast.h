@@ -9,8 +9,8 @@
 
 namespace pellucid::picture {
 
-/// What multi-scale contrast does to structures of one size: the band's amplitudes x, over the
-/// brightness of the thickest part, become amplification x (1 + (x/knee)^2)^-bend.
+/// The response of multi-scale contrast to structures of one size. An amplitude x, relative to the
+/// brightness of the thickest part, becomes amplification x (1 + (x/knee)^2)^-bend.
 struct BandCurve {
     double amplification = 1.0, bend = 0.0;
     static constexpr double knee = 0.01;
@@ -18,7 +18,7 @@ struct BandCurve {
 /// `sizeMm`: of the band's pixels.
 BandCurve bandCurve(const Contrast &contrast, double sizeMm);
 /// The weight of Contrast::middle in the means of the coarsest grid.
-inline constexpr double fewShares = 0.001;
+inline constexpr double middleWeight = 0.001;
 /// The factor of differences between the largest structures.
 double largestScaleFactor(const Contrast &contrast);
 
@@ -41,9 +41,9 @@ struct AirRamp {
 };
 AirRamp airRampOf(const Display &display);
 
-/// What multi-scale contrast adds to a picture's brightness. The pyramid counts only the body,
-/// whose share of a pixel rises from 0 to 1 at `airBelow`: edges against air have no halo. Where a
-/// pixel is air, the result is arbitrary.
+/// The correction that multi-scale contrast adds to a picture's brightness. The pyramid averages
+/// only the body, so edges against air have no halo: the body's share of a pixel rises from 0 to 1
+/// over `airFade`. In air, the correction is arbitrary.
 class ContrastCorrection {
 public:
     /// The image must outlive it. *Requires*: the display's contrast is not off.

@@ -35,9 +35,9 @@ struct Display {
     bool inverted = false;
     double exponent = 1.0;
     Contrast contrast;
-    /// The image value of air, which is black. Up to `airBelow` above it, pixels fade to black;
+    /// The image value of air, which is black. Up to `airFade` above it, pixels fade to black;
     /// 0: they do not.
-    double air = 0.0, airBelow = 0.0;
+    double air = 0.0, airFade = 0.0;
     bool operator==(const Display &) const = default;
 };
 

@@ -23,7 +23,7 @@ constexpr double airShare = 0.05;
 constexpr double darkQuantile = 0.01, brightQuantile = 0.99;
 // The greys that the quantiles of the displayed body become.
 constexpr double darkGrey = 0.06, brightGrey = 0.96, medianGrey = 0.55;
-constexpr double leastExponent = 0.8, mostExponent = 1.4;
+constexpr double minExponent = 0.8, maxExponent = 1.4;
 // Structures of 2 mm are fine in a human; a smaller body has finer ones.
 constexpr double humanFineMm = 2.0, humanRadiusMm = 100.0;
 
@@ -33,7 +33,7 @@ double quantile(std::vector<float> &values, double share) {
     return *at;
 }
 
-// A picture that exposure is measured from, and which of its pixels are body.
+// A picture that the exposure is measured from, and the limit above which its pixels are body.
 struct Measured {
     Measured(const ProjectionImage &image, Background background) : picture(image) {
         values = brightnessOf(image);
@@ -102,6 +102,10 @@ struct Measured {
     scene::Exposure::Axis axis;
 };
 
+double airFadeOf(const scene::Exposure::Axis &axis) {
+    return airShare * (axis.bright - axis.air);
+}
+
 Contrast contrastOf(const scene::Exposure::Axis &axis, double detail, double latitude,
                     double fineMm) {
     return {detail, latitude, axis.bright, 0.5 * (axis.dark + axis.bright), fineMm};
@@ -114,7 +118,7 @@ std::vector<float> processedBody(const Measured &measured, const Contrast &contr
     Display display;
     display.contrast = contrast;
     display.air = measured.axis.air;
-    display.airBelow = airShare * (contrast.bright - display.air);
+    display.airFade = airFadeOf(measured.axis);
     const ContrastCorrection correction(measured.picture, display);
     const auto width = std::size_t(measured.picture.width);
     std::vector<float> body, row(width + std::size_t(ContrastCorrection::slack));
@@ -146,11 +150,11 @@ scene::Exposure::Axis displayedAxis(const Measured &measured, const Contrast &co
     axis.high = range.high;
     const double grey = (median - range.low) / (range.high - range.low);
     axis.exponent = std::clamp(std::log(medianGrey) / std::log(std::clamp(grey, 0.01, 0.99)),
-                               leastExponent, mostExponent);
+                               minExponent, maxExponent);
     return axis;
 }
 
-// The middle of absolute differences between a picture's means over `sizeMm` and twice that, over
+// The median of absolute differences between a picture's means over `sizeMm` and twice that, over
 // the bright quantile: how much fine detail there is.
 double fineAmplitude(const Measured &measured, double sizeMm) {
     const int side = std::max(1, int(std::lround(sizeMm / measured.picture.pixelMm)));
@@ -159,9 +163,7 @@ double fineAmplitude(const Measured &measured, double sizeMm) {
     for (int r = 0; r < height * side; ++r)
         for (int c = 0; c < width * side; ++c)
             means[std::size_t(r / side) * std::size_t(width) + std::size_t(c / side)] +=
-                measured
-                    .values[std::size_t(r) * std::size_t(measured.picture.width) + std::size_t(c)] /
-                double(side * side);
+                double(measured.at(r, c)) / double(side * side);
     std::vector<float> differences;
     const auto at = [&](int r, int c) {
         return means[std::size_t(r) * std::size_t(width) + std::size_t(c)];
@@ -190,9 +192,7 @@ double thicknessSpread(const Measured &measured, double sizeMm) {
             int inside = 0;
             for (int dr = 0; dr < side; ++dr)
                 for (int dc = 0; dc < side; ++dc) {
-                    const double value =
-                        measured.values[std::size_t(r + dr) * std::size_t(measured.picture.width) +
-                                        std::size_t(c + dc)];
+                    const double value = measured.at(r + dr, c + dc);
                     sum += value > measured.least ? value : 0.0;
                     inside += value > measured.least ? 1 : 0;
                 }
@@ -205,10 +205,10 @@ double thicknessSpread(const Measured &measured, double sizeMm) {
 
 // Automatic detail: a picture with less fine detail is amplified more. Automatic latitude: the more
 // thickness differs, the more it is compressed.
-constexpr double usualAmplitude = 0.011, usualDetail = 0.5, detailPerOctave = 0.4;
-constexpr double leastDetail = 0.3, mostDetail = 0.8;
+constexpr double typicalAmplitude = 0.011, defaultDetail = 0.5, detailPerOctave = 0.4;
+constexpr double minAutomaticDetail = 0.3, maxAutomaticDetail = 0.8;
 constexpr double keptSpread = 0.2, latitudePerOctave = 1.0 / 1.5;
-constexpr double leastLatitude = 0.25, mostLatitude = 1.0;
+constexpr double minLatitude = 0.25, maxLatitude = 1.0;
 
 template <class F> double meanOf(const std::vector<Measured> &pictures, const F &measure) {
     double sum = 0.0;
@@ -225,16 +225,16 @@ double automaticDetail(const std::vector<Measured> &pictures, double fineMm) {
     const double amplitude =
         meanOf(pictures, [&](const Measured &p) { return fineAmplitude(p, 2.0 * fineMm); });
     if (!(amplitude > 0.0))
-        return usualDetail;
-    return std::clamp(usualDetail + detailPerOctave * std::log2(usualAmplitude / amplitude),
-                      leastDetail, mostDetail);
+        return defaultDetail;
+    return std::clamp(defaultDetail + detailPerOctave * std::log2(typicalAmplitude / amplitude),
+                      minAutomaticDetail, maxAutomaticDetail);
 }
 
 double automaticLatitude(const std::vector<Measured> &pictures, double fineMm) {
     const double spread =
         meanOf(pictures, [&](const Measured &p) { return thicknessSpread(p, 16.0 * fineMm); });
     return std::clamp(latitudePerOctave * std::log2(std::max(spread, 1e-3) / keptSpread),
-                      leastLatitude, mostLatitude);
+                      minLatitude, maxLatitude);
 }
 
 scene::Exposure exposureOf(const std::vector<Measured> &pictures, double radiusMm,
@@ -293,9 +293,7 @@ void include(const Measured &measured, const glm::dquat &orientation, glm::dvec3
     const double halfPixel = 0.5 * picture.pixelMm;
     for (int r = 0; r < picture.height; ++r)
         for (int c = 0; c < picture.width; ++c)
-            if (double(
-                    measured.values[std::size_t(r) * std::size_t(picture.width) + std::size_t(c)]) >
-                measured.least) {
+            if (double(measured.at(r, c)) > measured.least) {
                 const double u = (c - 0.5 * (picture.width - 1)) * picture.pixelMm,
                              v = (0.5 * (picture.height - 1) - r) * picture.pixelMm;
                 for (const double side : {-halfPixel, halfPixel}) {
@@ -353,10 +351,11 @@ Display displayOf(const scene::Tone &tone, const glm::dquat &orientation) {
     display.exponent = seen.exponent;
     display.contrast = contrastOf(seen, exposure.detail, exposure.latitude, exposure.fineMm);
     display.air = seen.air;
+    display.airFade = airFadeOf(seen);
     // A window that the user narrows also shows what is faint.
-    const double width = display.range.high - display.range.low;
-    display.airBelow = airShare * (tone.low || tone.high ? std::min(seen.bright - seen.air, width)
-                                                         : seen.bright - seen.air);
+    if (tone.low || tone.high)
+        display.airFade =
+            std::min(display.airFade, airShare * (display.range.high - display.range.low));
     return display;
 }
 

@@ -7,8 +7,8 @@
 
 namespace pellucid::picture {
 
-/// What is beside the body in a picture: nothing, as in the projection of HU; or a level that has
-/// to be measured, as that of values without a unit.
+/// The brightness beside the body: zero, as in projections of HU, or a level that has to be
+/// measured, as in projections of values without a unit.
 enum class Background { zero, measured };
 
 /// Measures the brightness of a study from three small projections of the whole volume, along the

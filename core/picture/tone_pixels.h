@@ -10,7 +10,7 @@ namespace pellucid::picture {
 struct ToneCurve {
     float low = 0.0F, scale = 1.0F; ///< scale: one over the width of the range
     float exponent = 1.0F;
-    float air = 0.0F, airBelow = 0.0F; ///< see `Display`
+    float air = 0.0F, airFade = 0.0F; ///< see `Display`
     bool inverted = false;
     bool blueFirst = false; ///< in the bytes of a pixel
 };

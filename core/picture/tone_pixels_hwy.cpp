@@ -26,8 +26,8 @@ public:
     explicit Curve(const ToneCurve &curve)
         : m_low(constant(curve.low)), m_scale(constant(curve.scale)),
           m_exponent(constant(curve.exponent)), m_air(constant(curve.air)),
-          m_body(constant(curve.airBelow > 0.0F ? 1.0F / curve.airBelow : 0.0F)),
-          m_isLinear(curve.exponent == 1.0F), m_hasAir(curve.airBelow > 0.0F) {}
+          m_body(constant(curve.airFade > 0.0F ? 1.0F / curve.airFade : 0.0F)),
+          m_isLinear(curve.exponent == 1.0F), m_hasAir(curve.airFade > 0.0F) {}
 
     HWY_INLINE Vector grey(Vector brightness, Vector correction) const {
         const Tag d;

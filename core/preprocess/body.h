@@ -13,9 +13,6 @@ namespace pellucid::preprocess {
 /// HU, dense shells that touch the skin are left out. It is found in means of samples finer than
 /// 2 mm. *Throws* Error{outOfMemory}, Error{internal}, Cancelled.
 Mask body(const volume::Volume &volume, double marginMm, const task::Progress &progress = {});
-/// Whether a CT volume has a couch, a head rest or the like: at least 30 ml above air that are no
-/// part of the patient. *Throws* as `body`.
-bool hasCouch(const volume::Volume &volume, const task::Progress &progress = {});
 /// The part of the body and its margin that is at most a depth below the body's surface.
 Mask skin(const volume::Volume &volume, double depthMm, double marginMm,
           const task::Progress &progress = {});

@@ -307,21 +307,6 @@ Mask body(const volume::Volume &volume, double marginMm, const task::Progress &p
         coarse.lattice().size(), block, volume.lattice().size());
 }
 
-bool hasCouch(const volume::Volume &volume, const task::Progress &progress) {
-    constexpr double largestMeanMm = 3.0, aroundMm = 4.0, leastMl = 30.0;
-    if (volume.unit() != volume::ValueUnit::hounsfield || volume.notes().isDifference)
-        return false;
-    const volume::Volume coarse =
-        classify::coarseVolume(volume, classify::blocksWithin(volume.lattice(), largestMeanMm));
-    const Patient patient = patientOf(coarse, progress.part(0.0, 0.9));
-    const Mask around = patient.withMargin(coarse.lattice(), aroundMm, progress.part(0.9, 1.0));
-    const Mask tissue = tissueOf(coarse);
-    std::size_t beside = 0;
-    for (std::size_t n = 0; n < tissue.size(); ++n)
-        beside += tissue[n] != 0 && around[n] == 0 ? 1 : 0;
-    return double(beside) * coarse.lattice().cellVolumeMm3() / 1000.0 >= leastMl;
-}
-
 Mask skin(const volume::Volume &volume, double depthMm, double marginMm,
           const task::Progress &progress) {
     const Patient patient = patientOf(volume, progress.part(0.0, 0.7));

@@ -88,7 +88,7 @@ std::set<BodyRegion> regionsSeen(const volume::Volume &volume, const Mask &body)
 bool hasContrastMedium(const volume::Volume &volume, const Mask &body,
                        const task::Progress &progress) {
     constexpr double low = 150.0, high = 600.0, dense = 450.0, ballMm = 4.0, besideMm = 6.0;
-    constexpr double leastMl = 8.0, mostBesideBone = 0.35;
+    constexpr double leastMl = 8.0, maxBesideBone = 0.35;
     const volume::Lattice &lattice = volume.lattice();
     const Mask filled =
         opening(lattice, between(volume, low, high, body), ballMm, progress.part(0.0, 0.4));
@@ -102,26 +102,38 @@ bool hasContrastMedium(const volume::Volume &volume, const Mask &body,
     }
     double ml = 0.0;
     for (std::size_t label = 1; label < counts.size(); ++label)
-        if (double(beside[label]) < mostBesideBone * double(counts[label]))
+        if (double(beside[label]) < maxBesideBone * double(counts[label]))
             ml += double(counts[label]) * lattice.cellVolumeMm3() / 1000.0;
     return ml >= leastMl;
 }
 
+bool hasCouch(const volume::Volume &volume, const Mask &body, const task::Progress &progress) {
+    constexpr double airBelowHu = -400.0, aroundMm = 4.0, leastMl = 30.0;
+    const Mask around = dilated(volume.lattice(), body, aroundMm, progress);
+    std::size_t beside = 0;
+    volume.visit([&](auto samples) {
+        for (std::size_t n = 0; n < around.size(); ++n)
+            beside += around[n] == 0 && double(samples[n]) > airBelowHu ? 1 : 0;
+    });
+    return double(beside) * volume.lattice().cellVolumeMm3() / 1000.0 >= leastMl;
+}
+
 } // namespace
 
-presets::StudyTraits traitsOf(const volume::Volume &volume, const task::Progress &progress) {
-    presets::StudyTraits traits;
+StudyContent contentOf(const volume::Volume &volume, const task::Progress &progress) {
+    StudyContent content;
     const volume::VolumeNotes &notes = volume.notes();
-    traits.regions = presets::regionsNamed(notes.bodyPart, notes.title);
+    content.traits.regions = presets::regionsNamed(notes.bodyPart, notes.title);
     if (volume.unit() != volume::ValueUnit::hounsfield || !notes.placed || notes.isDifference)
-        return traits;
+        return content;
     const volume::Volume means =
         classify::coarseVolume(volume, classify::blocksWithin(volume.lattice(), meanMm));
     const Mask inside = body(means, 0.0, progress.part(0.0, 0.5));
-    if (traits.regions.empty())
-        traits.regions = regionsSeen(means, inside);
-    traits.hasContrast = hasContrastMedium(means, inside, progress.part(0.5, 1.0));
-    return traits;
+    if (content.traits.regions.empty())
+        content.traits.regions = regionsSeen(means, inside);
+    content.traits.hasContrast = hasContrastMedium(means, inside, progress.part(0.5, 0.9));
+    content.hasCouch = hasCouch(means, inside, progress.part(0.9, 1.0));
+    return content;
 }
 
 } // namespace pellucid::preprocess

@@ -7,10 +7,17 @@
 
 namespace pellucid::preprocess {
 
-/// What a study shows: the regions that its header names; if it names none, and for contrast medium
-/// always, what CT values show. Head, chest and abdomen are told by each slice's area, bone and
-/// lung; contrast medium is 8 ml or more of even values from 150 to 600 HU that are not in bone.
-/// Found in means of 3 mm. *Throws* Error{outOfMemory}, Error{internal}, Cancelled.
-presets::StudyTraits traitsOf(const volume::Volume &volume, const task::Progress &progress = {});
+struct StudyContent {
+    presets::StudyTraits traits;
+    /// Whether a CT scan contains a couch, a head rest or the like: at least 30 ml above air that
+    /// do not belong to the patient.
+    bool hasCouch = false;
+};
+
+/// Finds out what a study shows. Regions come from the header, or, if it names none, from the
+/// values of CT: head, chest and abdomen differ in area, bone and lung of their slices. Contrast
+/// medium is found by value: at least 8 ml of 150 to 600 HU outside bone. Searches means of 3 mm.
+/// *Throws* Error{outOfMemory}, Error{internal}, Cancelled.
+StudyContent contentOf(const volume::Volume &volume, const task::Progress &progress = {});
 
 } // namespace pellucid::preprocess

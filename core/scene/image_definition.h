@@ -17,14 +17,14 @@ struct ImageDefinition {
     Reconstruction reconstruction = Reconstruction::cubic;
     /// F, the share of the band in which the roll-off falls, 0..1.
     double rollOff = 0.05;
-    /// A, 0 to `mostDetail`: amplifies structures finer than `detailMm`, see `detailFactor`.
+    /// A, 0 to `maxDetail`: amplifies structures finer than `detailMm`, see `detailFactor`.
     double detail = 0.0;
     double detailMm = 2.0;
 
     bool operator==(const ImageDefinition &) const = default;
 };
 
-inline constexpr double mostDetail = 4.0;
+inline constexpr double maxDetail = 4.0;
 
 /// H = 1 + A u/(1 + u), u = (2 pi r |s|)^2: the image plus A times its difference from a smoothed
 /// one. From 1 for large structures to 1 + A for fine ones. *Units*: r (`detailMm`): mm, |s|

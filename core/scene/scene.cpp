@@ -44,7 +44,7 @@ void validate(const Scene &scene) {
     const double norm = glm::dot(camera.orientation, camera.orientation);
     require(std::isfinite(norm) && norm > 1e-12, because::orientationIsZero);
     require(scene.image.rollOff >= 0.0 && scene.image.rollOff <= 1.0, because::rollOffOutOfRange);
-    require(scene.image.detail >= 0.0 && scene.image.detail <= mostDetail &&
+    require(scene.image.detail >= 0.0 && scene.image.detail <= maxDetail &&
                 scene.image.detailMm >= 0.01 && scene.image.detailMm <= 20.0,
             because::detailOutOfRange);
     require(std::isfinite(scene.tolerance) && scene.tolerance > 0.0,

@@ -10,16 +10,16 @@
 
 #include "core/task/reason.h"
 #include "core/volume/lattice.h"
+#include "core/volume/value_unit.h"
 
 namespace pellucid::volume {
-
-enum class ValueUnit { none, hounsfield };
 
 /// A display window in units of the values.
 struct ValueWindow {
     double center = 0.0;
     double width = 1.0;
     std::string name;
+    bool isInverted = false; ///< high values are dark
     bool operator==(const ValueWindow &) const = default;
 };
 
@@ -40,7 +40,8 @@ struct VolumeNotes {
     std::vector<task::Reason>
         warnings;                   ///< changes that the reader made to the geometry or the values
     std::vector<SliceRange> filled; ///< missing slices that were interpolated
-    bool darkIsHigh = false;        ///< MONOCHROME1: shown inverted
+    bool darkIsHigh = false;        ///< shown inverted, as MONOCHROME1 and PET are
+    bool isLocalizer = false;       ///< pictures for planning a scan, not to be projected
     bool isDifference = false;      ///< of two volumes: 0 means no change
     bool lossy = false;             ///< lossy compression at some point
     bool placed = true;             ///< false: images without positions, not a volume

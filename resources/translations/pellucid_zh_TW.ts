@@ -7,6 +7,10 @@
         <source>Window</source>
         <translation>窗</translation>
     </message>
+    <message>
+        <source>Turn the planes</source>
+        <translation>轉動切面</translation>
+    </message>
 </context>
 <context>
     <name>CropTool</name>
@@ -144,6 +148,10 @@
         <source>Move %1</source>
         <translation>移動%1</translation>
     </message>
+    <message>
+        <source>Change text</source>
+        <translation>變更文字</translation>
+    </message>
 </context>
 <context>
     <name>MeasurementTextTexts</name>
@@ -210,6 +218,34 @@
     <message>
         <source>outside the volume</source>
         <translation>在體積之外</translation>
+    </message>
+    <message>
+        <source>Projected polyline</source>
+        <translation>投影折線</translation>
+    </message>
+    <message>
+        <source>Polyline</source>
+        <translation>折線</translation>
+    </message>
+    <message>
+        <source>Projected angle</source>
+        <translation>投影角度</translation>
+    </message>
+    <message>
+        <source>Projected Cobb angle</source>
+        <translation>投影 Cobb 角</translation>
+    </message>
+    <message>
+        <source>Cobb angle</source>
+        <translation>Cobb 角</translation>
+    </message>
+    <message>
+        <source>Arrow</source>
+        <translation>箭頭</translation>
+    </message>
+    <message>
+        <source>Text</source>
+        <translation>文字</translation>
     </message>
 </context>
 <context>
@@ -514,6 +550,30 @@
         <source>RAO caudal</source>
         <translation>RAO 足側</translation>
     </message>
+    <message>
+        <source>Stroke</source>
+        <translation>中風</translation>
+    </message>
+    <message>
+        <source>Subdural</source>
+        <translation>硬膜下</translation>
+    </message>
+    <message>
+        <source>Angiography</source>
+        <translation>血管攝影</translation>
+    </message>
+    <message>
+        <source>SUV 0 to 5</source>
+        <translation>SUV 0 至 5</translation>
+    </message>
+    <message>
+        <source>SUV 0 to 10</source>
+        <translation>SUV 0 至 10</translation>
+    </message>
+    <message>
+        <source>SUV 0 to 20</source>
+        <translation>SUV 0 至 20</translation>
+    </message>
 </context>
 <context>
     <name>OverlayTexts</name>
@@ -571,6 +631,11 @@
     <message>
         <source>interpolated: no image acquired here</source>
         <translation>內插：此處沒有影像</translation>
+    </message>
+    <message>
+        <source>W %1  C %2</source>
+        <comment>window width and center</comment>
+        <translation>窗寬 %1  窗位 %2</translation>
     </message>
 </context>
 <context>
@@ -2692,6 +2757,46 @@
         <source>invalid exposure: the lower end of each range must be below the upper end</source>
         <translation>無效的曝光：每個範圍的下限必須低於上限</translation>
     </message>
+    <message>
+        <source>the values are not SUV: %1</source>
+        <translation>數值不是 SUV：%1</translation>
+    </message>
+    <message>
+        <source>the files give them in the unit &apos;%1&apos;</source>
+        <translation>檔案以單位「%1」記錄</translation>
+    </message>
+    <message>
+        <source>they are normalised by &apos;%1&apos;, not by body weight</source>
+        <translation>數值以「%1」標準化，而非體重</translation>
+    </message>
+    <message>
+        <source>the files state different units, weights or injected activities</source>
+        <translation>各檔案的單位、體重或注射活度不一致</translation>
+    </message>
+    <message>
+        <source>the patient&apos;s weight is missing or implausible</source>
+        <translation>病患體重缺少或不合理</translation>
+    </message>
+    <message>
+        <source>the injected activity is missing</source>
+        <translation>缺少注射活度</translation>
+    </message>
+    <message>
+        <source>the files are not corrected for decay</source>
+        <translation>檔案未作衰變校正</translation>
+    </message>
+    <message>
+        <source>the time from injection to scan or the half-life is missing or implausible</source>
+        <translation>注射至掃描的時間或半衰期缺少或不合理</translation>
+    </message>
+    <message>
+        <source>it must have %1 to %2 points</source>
+        <translation>必須有 %1 至 %2 個點</translation>
+    </message>
+    <message>
+        <source>regions are measured in planes, not in projections</source>
+        <translation>區域在切面中測量，不在投影中測量</translation>
+    </message>
 </context>
 <context>
     <name>RegionTexts</name>
@@ -3184,12 +3289,12 @@
         <translation>切面的窗預設值</translation>
     </message>
     <message>
-        <source>Window width / center of the planes (keys 0 to 5)</source>
-        <translation>切面的窗寬 / 窗位（按鍵 0 至 5）</translation>
-    </message>
-    <message>
         <source>More</source>
         <translation>更多</translation>
+    </message>
+    <message>
+        <source>Window width / center of the planes (keys 0 to 9)</source>
+        <translation>切面的窗寬／窗位（按鍵 0 至 9）</translation>
     </message>
 </context>
 <context>
@@ -3246,10 +3351,6 @@
     <message>
         <source>Width of the soft edge at both ends of the range</source>
         <translation>範圍兩端柔和邊緣的寬度</translation>
-    </message>
-    <message>
-        <source> HU</source>
-        <translation> HU</translation>
     </message>
     <message>
         <source>Name</source>
@@ -3394,6 +3495,61 @@
     </message>
 </context>
 <context>
+    <name>pellucid::ui::ClassVolumesDialog</name>
+    <message>
+        <source>Copy</source>
+        <translation>複製</translation>
+    </message>
+    <message>
+        <source>Save as...</source>
+        <translation>另存新檔…</translation>
+    </message>
+    <message>
+        <source>Volumes of the classes</source>
+        <translation>類別的體積</translation>
+    </message>
+    <message>
+        <source>Class</source>
+        <translation>類別</translation>
+    </message>
+    <message>
+        <source>Volume, ml</source>
+        <translation>體積，ml</translation>
+    </message>
+    <message>
+        <source>Mean</source>
+        <translation>平均</translation>
+    </message>
+    <message>
+        <source>SD</source>
+        <translation>標準差</translation>
+    </message>
+    <message>
+        <source>Minimum</source>
+        <translation>最小值</translation>
+    </message>
+    <message>
+        <source>Maximum</source>
+        <translation>最大值</translation>
+    </message>
+    <message>
+        <source>Samples that belong at least half to a class, after its steps.</source>
+        <translation>在類別的步驟之後，至少一半屬於該類別的取樣。</translation>
+    </message>
+    <message>
+        <source>Measuring the classes</source>
+        <translation>測量類別</translation>
+    </message>
+    <message>
+        <source>Save the volumes</source>
+        <translation>儲存體積</translation>
+    </message>
+    <message>
+        <source>Table (*.csv)</source>
+        <translation>表格 (*.csv)</translation>
+    </message>
+</context>
+<context>
     <name>pellucid::ui::ClassesPanel</name>
     <message>
         <source>Add class</source>
@@ -3467,6 +3623,10 @@
         <source>Finds classes by their names and the terms of their codes</source>
         <translation>依名稱與代碼的用語尋找類別</translation>
     </message>
+    <message>
+        <source>Volumes...</source>
+        <translation>體積…</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::CurveEditor</name>
@@ -3492,6 +3652,69 @@
     <message>
         <source>Weight by depth, from far (left) to near (right); drag the points</source>
         <translation>深度權重，由遠（左）至近（右）；拖曳各點</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::DisplayWindowDialog</name>
+    <message>
+        <source>Add the current window</source>
+        <translation>加入目前的窗</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Up</source>
+        <translation>上移</translation>
+    </message>
+    <message>
+        <source>Down</source>
+        <translation>下移</translation>
+    </message>
+    <message>
+        <source>Display window</source>
+        <translation>顯示窗</translation>
+    </message>
+    <message>
+        <source>Window presets</source>
+        <translation>窗預設</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名稱</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>窗寬</translation>
+    </message>
+    <message>
+        <source>Center</source>
+        <translation>窗位</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>單位</translation>
+    </message>
+    <message>
+        <source>Restore defaults</source>
+        <translation>還原預設值</translation>
+    </message>
+    <message>
+        <source>The first eight presets of a unit are on the keys 1 to 8. Key 0 sets the automatic window, key 9 the file&apos;s own.</source>
+        <translation>每個單位的前八個預設在按鍵 1 至 8。按鍵 0 設定自動窗，按鍵 9 設定檔案本身的窗。</translation>
+    </message>
+    <message>
+        <source>Presets</source>
+        <translation>預設</translation>
+    </message>
+    <message>
+        <source>Window %1</source>
+        <translation>窗 %1</translation>
+    </message>
+    <message>
+        <source>Presets are for values in HU and SUV: other values mean something else in each study</source>
+        <translation>預設用於 HU 與 SUV 數值：其他數值在每個檢查中意義不同</translation>
     </message>
 </context>
 <context>
@@ -3791,6 +4014,46 @@
         <source>Saved: %1; no sample belongs to %2</source>
         <translation>已儲存：%1；沒有取樣屬於 %2</translation>
     </message>
+    <message>
+        <source>Cop&amp;y picture</source>
+        <translation>複製影像(&amp;Y)</translation>
+    </message>
+    <message>
+        <source>Pri&amp;nt...</source>
+        <translation>列印(&amp;N)…</translation>
+    </message>
+    <message>
+        <source>&amp;DICOM header...</source>
+        <translation>DICOM 標頭(&amp;D)…</translation>
+    </message>
+    <message>
+        <source>Copying the picture</source>
+        <translation>正在複製影像</translation>
+    </message>
+    <message>
+        <source>Copied the picture</source>
+        <translation>已複製影像</translation>
+    </message>
+    <message>
+        <source>Making the picture</source>
+        <translation>正在製作影像</translation>
+    </message>
+    <message>
+        <source>Pellucid, printed %1. Not for diagnostic use.</source>
+        <translation>Pellucid，列印於 %1。不可用於診斷。</translation>
+    </message>
+    <message>
+        <source>Print the picture</source>
+        <translation>列印影像</translation>
+    </message>
+    <message>
+        <source>Sent to the printer</source>
+        <translation>已送至印表機</translation>
+    </message>
+    <message>
+        <source>The printer is not available</source>
+        <translation>印表機無法使用</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::GraphicsCard</name>
@@ -3801,6 +4064,73 @@
     <message>
         <source>Processor: %1</source>
         <translation>處理器：%1</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::HeaderDialog</name>
+    <message>
+        <source>DICOM header</source>
+        <translation>DICOM 標頭</translation>
+    </message>
+    <message>
+        <source>Search tags, names and values</source>
+        <translation>搜尋標籤、名稱與值</translation>
+    </message>
+    <message>
+        <source>Search the attributes</source>
+        <translation>搜尋屬性</translation>
+    </message>
+    <message>
+        <source> of %1</source>
+        <translation>／%1</translation>
+    </message>
+    <message>
+        <source>Number of the file</source>
+        <translation>檔案編號</translation>
+    </message>
+    <message>
+        <source>Attributes</source>
+        <translation>屬性</translation>
+    </message>
+    <message>
+        <source>Tag</source>
+        <translation>標籤</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名稱</translation>
+    </message>
+    <message>
+        <source>Type</source>
+        <translation>類型</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>值</translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation>複製</translation>
+    </message>
+    <message>
+        <source>Copy the selected attributes, or all that are listed (Ctrl+C)</source>
+        <translation>複製所選的屬性，或列出的全部屬性 (Ctrl+C)</translation>
+    </message>
+    <message>
+        <source>Reading %1</source>
+        <translation>正在讀取 %1</translation>
+    </message>
+    <message>
+        <source>The list is not complete: the file has more attributes, or its rest is damaged.</source>
+        <translation>清單不完整：檔案有更多屬性，或其餘部分已損壞。</translation>
+    </message>
+    <message>
+        <source>Item %1</source>
+        <translation>項目 %1</translation>
+    </message>
+    <message>
+        <source>Nothing found</source>
+        <translation>找不到</translation>
     </message>
 </context>
 <context>
@@ -4056,6 +4386,10 @@
         <source>Spectr&amp;um</source>
         <translation>頻譜(&amp;U)</translation>
     </message>
+    <message>
+        <source>Saved: %1</source>
+        <translation>已儲存：%1</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::MeasurementsPanel</name>
@@ -4100,6 +4434,45 @@
     <message>
         <source>Drag to resize the panes; double-click to restore the default sizes</source>
         <translation>拖曳以調整窗格大小；按兩下還原預設大小</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::PaneMenus</name>
+    <message>
+        <source>&amp;Tool</source>
+        <translation>工具(&amp;T)</translation>
+    </message>
+    <message>
+        <source>Show &amp;all panes</source>
+        <translation>顯示所有窗格(&amp;A)</translation>
+    </message>
+    <message>
+        <source>&amp;Maximize</source>
+        <translation>最大化(&amp;M)</translation>
+    </message>
+    <message>
+        <source>&amp;Delete</source>
+        <translation>刪除(&amp;D)</translation>
+    </message>
+    <message>
+        <source>&amp;Delete %1</source>
+        <translation>刪除 %1(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Delete measurement</source>
+        <translation>刪除測量</translation>
+    </message>
+    <message>
+        <source>&amp;Reset the plane&apos;s view</source>
+        <translation>重設切面的檢視(&amp;R)</translation>
+    </message>
+    <message>
+        <source>&amp;View</source>
+        <translation>檢視(&amp;V)</translation>
+    </message>
+    <message>
+        <source>&amp;Fit to the patient</source>
+        <translation>符合病患大小(&amp;F)</translation>
     </message>
 </context>
 <context>
@@ -5082,6 +5455,14 @@
         <source>Close the study beside</source>
         <translation>關閉並排的檢查</translation>
     </message>
+    <message>
+        <source>%1 (%2 y)</source>
+        <translation>%1（%2 歲）</translation>
+    </message>
+    <message>
+        <source>ID %1</source>
+        <translation>病歷號 %1</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::StudyDocks</name>
@@ -5238,6 +5619,10 @@
         <source>Remove</source>
         <translation>移除</translation>
     </message>
+    <message>
+        <source>DICOM header...</source>
+        <translation>DICOM 標頭…</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::SubtractionDialog</name>
@@ -5308,6 +5693,17 @@
     <message>
         <source>%1, from -2 to 2</source>
         <translation>%1，−2 至 2</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::TextField</name>
+    <message>
+        <source>Text</source>
+        <translation>文字</translation>
+    </message>
+    <message>
+        <source>Text of the annotation</source>
+        <translation>註記的文字</translation>
     </message>
 </context>
 <context>
@@ -5560,6 +5956,50 @@
         <source>draw around the part to cut along the line of sight</source>
         <translation>圍出沿視線剪裁的部分</translation>
     </message>
+    <message>
+        <source>Straighten the planes</source>
+        <translation>扶正切面</translation>
+    </message>
+    <message>
+        <source>Align the planes with the scan</source>
+        <translation>使切面與掃描對齊</translation>
+    </message>
+    <message>
+        <source>Polyline</source>
+        <translation>折線</translation>
+    </message>
+    <message>
+        <source>click its corners; a double-click ends it</source>
+        <translation>點按各轉折點；按兩下結束</translation>
+    </message>
+    <message>
+        <source>Cobb angle</source>
+        <translation>Cobb 角</translation>
+    </message>
+    <message>
+        <source>drag a line along each of two end plates</source>
+        <translation>沿兩個終板各拖曳一條線</translation>
+    </message>
+    <message>
+        <source>Arrow</source>
+        <translation>箭頭</translation>
+    </message>
+    <message>
+        <source>drag from what it shows to where its text is</source>
+        <translation>由所指之處拖曳至文字處</translation>
+    </message>
+    <message>
+        <source>Text</source>
+        <translation>文字</translation>
+    </message>
+    <message>
+        <source>click where it begins; a double-click changes it</source>
+        <translation>點按起始處；按兩下可變更</translation>
+    </message>
+    <message>
+        <source>Class &amp;volumes...</source>
+        <translation>類別體積(&amp;V)…</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::TransferFunctionPanel</name>
@@ -5630,10 +6070,6 @@
     <message>
         <source>Whole volume</source>
         <translation>整個體積</translation>
-    </message>
-    <message>
-        <source>HU</source>
-        <translation>HU</translation>
     </message>
 </context>
 <context>
@@ -5745,6 +6181,37 @@
     <message>
         <source>&amp;Free rotation (trackball)</source>
         <translation>自由旋轉（軌跡球）(&amp;F)</translation>
+    </message>
+    <message>
+        <source>Reset views</source>
+        <translation>重設檢視</translation>
+    </message>
+    <message>
+        <source>A&amp;nnotations</source>
+        <translation>註記(&amp;N)</translation>
+    </message>
+    <message>
+        <source>Cross&amp;hair</source>
+        <translation>十字線(&amp;H)</translation>
+    </message>
+    <message>
+        <source>Patient &amp;banner</source>
+        <translation>病患橫幅(&amp;B)</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::WindowChooser</name>
+    <message>
+        <source>&amp;Inverted grey</source>
+        <translation>反轉灰階(&amp;I)</translation>
+    </message>
+    <message>
+        <source>&amp;Width and center...</source>
+        <translation>窗寬與窗位(&amp;W)…</translation>
+    </message>
+    <message>
+        <source>Width and center...</source>
+        <translation>窗寬與窗位…</translation>
     </message>
 </context>
 </TS>

@@ -39,7 +39,7 @@ TEST(ErrorSearch, NoFreshFieldAndViewExceedTheBound) {
 
 // The error predicted for a single picture is never below the measured error, and close to it.
 TEST(ErrorSearch, TheErrorOfAPictureIsCloseToWhatIsMeasured) {
-    const auto factors = bench::picturePredictionFactors(40, 20261123);
+    const auto factors = bench::picturePredictionFactors(40, 20261123, bench::PictureKind::any);
     EXPECT_GE(factors.front().factor, 1.0) << factors.front().name;
     // With so few pictures, one may be an almost empty part; the bench takes 300.
     EXPECT_LE(factors[factors.size() * 95 / 100].factor, 5.5);
@@ -49,9 +49,19 @@ TEST(ErrorSearch, TheErrorOfAPictureIsCloseToWhatIsMeasured) {
 // Ten pictures are too few for quantiles: half of them must meet the limit for 95 %.
 TEST(ErrorSearch, TheErrorOfAFreshPictureIsCloseToWhatIsMeasured) {
     const std::uint64_t seed = test::freshSeed();
-    const auto factors = bench::picturePredictionFactors(10, seed);
+    const auto factors = bench::picturePredictionFactors(10, seed, bench::PictureKind::any);
     EXPECT_GE(factors.front().factor, 1.0) << "seed " << seed << ", " << factors.front().name;
     EXPECT_LE(factors[factors.size() / 2].factor, 5.5) << "seed " << seed;
+}
+
+// Any cue, light and crop, with any filter; the bench takes 300.
+TEST(ErrorSearch, TheErrorOfAmplifiedDetailIsNoHigherThanStated) {
+    const std::uint64_t fresh = test::freshSeed();
+    for (const std::uint64_t seed : {std::uint64_t(20261126), fresh}) {
+        const auto factors =
+            bench::picturePredictionFactors(8, seed, bench::PictureKind::amplified);
+        EXPECT_GE(factors.front().factor, 1.0) << "seed " << seed << ", " << factors.front().name;
+    }
 }
 
 // Three fields for each seed; the bench takes 200.

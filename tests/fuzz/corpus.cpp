@@ -110,6 +110,8 @@ void writeMessages(const fs::path &folder) {
     writeDicom(dicom);
     writeText(folder / "header",
               decoder::pack(parse::parseHeader(test::readBytes(dicom / "syntax1"))));
+    writeText(folder / "attributes",
+              decoder::pack(parse::listAttributes(test::readBytes(dicom / "syntax1"))));
     fs::remove_all(dicom);
     writeText(folder / "directory", decoder::pack(decoder::DirectoryFile{true, {{"A", "B"}}}));
     decoder::VolumeLayout nrrd;

@@ -84,6 +84,11 @@ void dicom(Bytes bytes) {
         }
     });
     refusing([&] {
+        const std::string packed = decoder::pack(parse::listAttributes(bytes));
+        const auto received = decoder::unpackAttributes(std::as_bytes(std::span(packed)));
+        check(decoder::pack(received) == packed);
+    });
+    refusing([&] {
         const auto image = parse::decodeImage(bytes);
         check(!decoder::whyUnusable(image.header));
         check(image.samples.size() == std::size_t(image.header.rows) *
@@ -115,6 +120,7 @@ void message(Bytes bytes) {
         check(!header.frames.empty());
     });
     refusing([&] { decoder::unpackDirectory(bytes); });
+    refusing([&] { decoder::unpackAttributes(bytes); });
     refusing([&] { decoder::unpackArchiveFiles(bytes); });
     refusing([&] { decoder::unpackLayout(bytes); });
     refusing([&] {

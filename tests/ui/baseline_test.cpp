@@ -68,7 +68,7 @@ private slots:
         openHead();
         for (const char *dock :
              {"studyDock", "measurementsDock", "historyDock", "presetsDock", "classesDock",
-              "transferFunctionDock", "shadingDock", "qualityDock"}) {
+              "transferFunctionDock", "radiographDock", "shadingDock", "qualityDock"}) {
             auto *panel = mainWindow().findChild<QDockWidget *>(dock);
             QVERIFY2(panel != nullptr, dock);
             panel->show();

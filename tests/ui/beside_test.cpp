@@ -67,6 +67,7 @@ private:
             QTRY_VERIFY(now().scene().camera.width != width);
             QTRY_VERIFY(std::abs(prior().scene().camera.pixelMm - now().scene().camera.pixelMm) <
                         1e-9);
+            requirePlanesAlike();
         }
         QVERIFY(now().pose() == pose);
         QCOMPARE(moved.size(), 0);
@@ -102,6 +103,10 @@ private:
         QVERIFY(glm::distance(apart(), before) < 1e-6);
         turnWheel(find<QWidget>("beside_axialView"), -1);
         QVERIFY(glm::distance(apart(), before) < 1e-6);
+        find<ui::MprView>("axialView")->moveView({2.5, {12.0, -7.0}});
+        requirePlanesAlike();
+        find<ui::MprView>("beside_coronalView")->moveView({0.7, {}});
+        requirePlanesAlike();
         QTest::keyClick(&mainWindow(), Qt::Key_S);
         QVERIFY(prior().cut() == now().cut());
         const auto window = now().displayWindow();
@@ -167,11 +172,25 @@ private:
     void closeThePrior() {
         QTest::mouseClick(find<QToolButton>("closeBesideButton"), Qt::LeftButton);
         QTRY_VERIFY(mainWindow().findChild<ui::StudyBeside *>("studyBeside") == nullptr);
-        QVERIFY(!find<QLabel>("studyHeading")->isVisible());
+        QVERIFY(
+            find<QLabel>("studyHeading")->text().contains(QString::fromUtf8("·"))); // the banner
         dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {60, 20});
         settle();
     }
 
+    // Head and chest have one scale, and the crosshair is at the same place in both.
+    void requirePlanesAlike() {
+        for (const char *name : {"axialView", "coronalView", "sagittalView"}) {
+            auto *here = find<ui::MprView>(name);
+            auto *there = find<ui::MprView>(qPrintable(QString("beside_%1").arg(name)));
+            QVERIFY(std::abs(here->plane().pixelMm / there->plane().pixelMm - 1.0) < 1e-9);
+            const QPointF a = here->mapping().positionOf(now().crosshair()) -
+                              QRectF(here->rect()).center(),
+                          b = there->mapping().positionOf(prior().crosshair()) -
+                              QRectF(there->rect()).center();
+            QVERIFY((a - b).manhattanLength() < 1.0);
+        }
+    }
     ui::StudyBeside *beside() { return find<ui::StudyBeside>("studyBeside"); }
     ui::ProjectionView *other() { return find<ui::ProjectionView>("beside_projectionView"); }
     ui::Document &now() { return mainWindow().document(); }

@@ -183,8 +183,8 @@ private slots:
         worker.setEngine(prepared, gpu::copyToCard(card, *prepared.engine), 1);
         const auto next = [&]() -> std::shared_ptr<const ui::RenderedFrame> {
             frames.clear();
-            worker.request(scene.camera, scene.image, {}, {}, ui::RenderWorker::Exposed{100.0, {}},
-                           true);
+            worker.request(scene.camera, scene.image, {}, {},
+                           ui::RenderWorker::Exposed{100.0, {}, {}}, true);
             return QTest::qWaitFor([&] { return !frames.empty(); }, patienceMs) ? frames.front()
                                                                                 : nullptr;
         };

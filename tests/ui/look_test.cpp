@@ -156,6 +156,61 @@ private slots:
         takeTheLookAgain(before);
     }
 
+    void theRadiographPanelSetsTheContrast() {
+        open(headPath());
+        const auto automatic = document().exposure();
+        QVERIFY(automatic.has_value());
+        auto *const detail = find<QDoubleSpinBox>("detailValue");
+        QVERIFY(std::abs(detail->value() - automatic->detail) < 0.006); // shown before it is chosen
+        const QImage before = projection()->picture();
+        detail->setValue(0.0);
+        find<QDoubleSpinBox>("latitudeValue")->setValue(0.0);
+        settle();
+        QCOMPARE(document().exposure()->detail, 0.0);
+        QCOMPARE(document().exposure()->latitude, 0.0);
+        QVERIFY(changed(before, projection()->picture()) > 0.1);
+        // Faster than frames, and with moves between them: the last value is shown.
+        for (int n = 1; n <= 30; ++n) {
+            detail->setValue(0.03 * n);
+            QTest::keyClick(projection(), n % 2 == 0 ? Qt::Key_Left : Qt::Key_Right);
+            QTest::qWait(n % 7);
+        }
+        settle();
+        QCOMPARE(document().exposure()->detail, 0.9);
+        find<QPushButton>("automaticContrastButton")->click();
+        settle();
+        QVERIFY(!document().scene().tone.detail && !document().scene().tone.latitude);
+        QVERIFY(changed(before, projection()->picture()) < 0.001);
+        // A linear filter is a part of the image itself.
+        find<QDoubleSpinBox>("sharpnessValue")->setValue(1.5);
+        settle();
+        QCOMPARE(document().scene().image.detail, 1.5);
+        QVERIFY(changed(before, projection()->picture()) > 0.02);
+        while (document().undoStack()->canUndo())
+            find<QAction>("undoAction")->trigger();
+        settle();
+        QVERIFY(document().scene().image == scene::ImageDefinition());
+        QVERIFY(changed(before, projection()->picture()) < 0.001);
+    }
+
+    void presetsAreThoseOfTheRegion() {
+        open(headPath());
+        const auto *const gallery = find<QListWidget>("presetGallery");
+        const auto isListed = [&](const char *name) {
+            return !gallery->findItems(name, Qt::MatchExactly).isEmpty();
+        };
+        QVERIFY(isListed("X-ray") && isListed("Head: bone") && isListed("Bone"));
+        QVERIFY(!isListed("Chest: bone") && !isListed("Contrast vessels"));
+        find<QPushButton>("allPresetsButton")->click();
+        QVERIFY(isListed("Chest: bone") && isListed("Contrast vessels"));
+        find<QPushButton>("allPresetsButton")->click();
+        QVERIFY(!isListed("Chest: bone"));
+        find<QAction>("chestPhantomAction")->trigger();
+        QTRY_VERIFY(document().currentSource() == 1);
+        settle();
+        QVERIFY(isListed("Chest: bone") && !isListed("Head: bone"));
+    }
+
     void oneCommandRemovesTheCouch() {
         const auto lattice =
             phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 96, 80}});

@@ -4,9 +4,13 @@
 
 #include <fstream>
 
+#include <QDoubleSpinBox>
+#include <QPushButton>
+#include <QTableWidget>
 #include <QToolButton>
 #include <QTreeWidget>
 
+#include "core/volume/statistics.h"
 #include "ui/document/measurement_store.h"
 #include "ui/views/cine.h"
 #include "ui/views/mpr_view.h"
@@ -181,7 +185,8 @@ private slots:
         const auto camera = document().scene().camera;
         dragMouse(view, Qt::LeftButton, QPoint(200, 300), QPoint(120, 0));
         QCOMPARE(measured().size(), std::size_t(1));
-        QCOMPARE(measured()[0].measurement.kind, measure::Kind::projectedDistance);
+        QCOMPARE(measured()[0].measurement.kind, measure::Kind::distance);
+        QVERIFY(measured()[0].measurement.isProjected);
         QVERIFY(std::abs(*measured()[0].result.lengthMm - 120.0 * camera.pixelMm) < 1e-6);
         QVERIFY(document().scene().camera == camera); // nothing turned
         save("projected_distance");
@@ -212,6 +217,91 @@ private slots:
         QVERIFY(std::any_of(problems.begin(), problems.end(), [](const dicom::Skipped &p) {
             return p.reason.is(task::because::measurementsCannotBeRead);
         }));
+    }
+
+    void windowsAreOnKeysAndTyped() {
+        const auto window = [&] { return document().displayWindow(); };
+        key(Qt::Key_1);
+        QCOMPARE(window().name, std::string("Brain"));
+        key(Qt::Key_6);
+        QCOMPARE(window().name, std::string("Stroke"));
+        QCOMPARE(window().width, 40.0);
+        key(Qt::Key_0);
+        QCOMPARE(window().name, std::string("Auto"));
+        const auto q = volume::quantiles(*document().volume(), {0.005, 0.995});
+        QCOMPARE(window().width, q[1] - q[0]);
+        key(Qt::Key_9); // the file's own
+        QCOMPARE(window().width, 100.0);
+        QCOMPARE(window().center, 40.0);
+        // All numbers that are typed in the dialog are one edit; Enter does not close it.
+        key(Qt::Key_W, Qt::ShiftModifier);
+        auto *width = find<QDoubleSpinBox>("windowWidthBox");
+        QCOMPARE(width->value(), 100.0);
+        QTest::keyClicks(width, "250");
+        QTest::keyClick(width, Qt::Key_Return);
+        QVERIFY(find<QDialog>("displayWindowDialog")->isVisible());
+        QCOMPARE(window().width, 250.0);
+        QCOMPARE(window().center, 40.0);
+        auto *center = find<QDoubleSpinBox>("windowCenterBox");
+        center->selectAll();
+        QTest::keyClicks(center, "-30");
+        QTest::keyClick(center, Qt::Key_Return);
+        QCOMPARE(window().center, -30.0);
+        key(Qt::Key_Z, Qt::ControlModifier);
+        QCOMPARE(window().width, 100.0);
+        QCOMPARE(window().center, 40.0);
+    }
+
+    void theListOfWindowsIsEditedAndKept() {
+        key(Qt::Key_W, Qt::ShiftModifier);
+        auto *table = find<QTableWidget>("windowPresetTable");
+        const int count = table->rowCount();
+        find<QDoubleSpinBox>("windowWidthBox")->setValue(777.0);
+        find<QPushButton>("addWindowPresetButton")->click();
+        QCOMPARE(table->rowCount(), count + 1);
+        table->item(count, 0)->setText("Stent");
+        table->item(count, 2)->setText("a lot"); // not a number: it stays as it was
+        QCOMPARE(table->item(count, 2)->text(), QString("40"));
+        for (int n = 0; n < count; ++n)
+            find<QPushButton>("windowPresetUpButton")->click();
+        QCOMPARE(table->item(0, 0)->text(), QString("Stent"));
+        save("windows");
+        find<QDialog>("displayWindowDialog")->close();
+        key(Qt::Key_2); // Brain, which was the first
+        QCOMPARE(document().displayWindow().name, std::string("Brain"));
+        restart();
+        open(headPath());
+        key(Qt::Key_1);
+        QCOMPARE(document().displayWindow().name, std::string("Stent"));
+        QCOMPARE(document().displayWindow().width, 777.0);
+        key(Qt::Key_W, Qt::ShiftModifier);
+        find<QPushButton>("defaultWindowPresetsButton")->click();
+        QCOMPARE(find<QTableWidget>("windowPresetTable")->rowCount(), count);
+        key(Qt::Key_1);
+        QCOMPARE(document().displayWindow().name, std::string("Brain"));
+    }
+
+    void thePlanesAreInvertedAndUndone() {
+        const QImage before = grab("axialView");
+        key(Qt::Key_N);
+        QVERIFY(document().displayWindow().isInverted);
+        QVERIFY(changed(before, grab("axialView")) > 0.1);
+        key(Qt::Key_1); // another window is inverted, too
+        QVERIFY(document().displayWindow().isInverted);
+        key(Qt::Key_Z, Qt::ControlModifier);
+        key(Qt::Key_Z, Qt::ControlModifier);
+        QCOMPARE(changed(before, grab("axialView")), 0.0);
+    }
+
+    void theSliceHasItsNumber() {
+        auto *axial = find<ui::MprView>("axialView");
+        const auto corner = [&] { return grab("axialView").copy(axial->width() - 80, 18, 78, 22); };
+        axial->scrollToEnd(false);
+        const QImage first = corner();
+        axial->scroll(1);
+        QVERIFY(changed(first, corner()) > 0.0);
+        axial->scroll(-1);
+        QCOMPARE(changed(first, corner()), 0.0);
     }
 
     void cinePlaysTheFocusedPane() {

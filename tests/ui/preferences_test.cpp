@@ -235,7 +235,8 @@ private:
         static const QRegularExpression word("[A-Za-z]{3,}");
         // Names, units and terms that are not translated.
         static const QRegularExpression proper(
-            "Secret|Name|DICOMDIR|DICOM|NRRD|NIfTI|MetaImage|Pellucid|MIP|MinIP|CPU|GPU|AVX\\d?|"
+            "Secret|Name|Cobb|SUV|DICOMDIR|DICOM|NRRD|NIfTI|MetaImage|Pellucid|MIP|MinIP|CPU|GPU|"
+            "AVX\\d?|"
             "SSE\\d?|EMU\\d+|"
             "NEON|"
             "OpenGL|Esc|Ctrl|Shift|Keypad|Slicer|png|json|csv|PNG|CSV|NumPy|ZIP|FFTW|UID|Del|Home|"

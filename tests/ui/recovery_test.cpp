@@ -173,6 +173,7 @@ private slots:
         resume();
         settle();
         QVERIFY(document().exposure() == exposure);
+        QVERIFY(document().pose().isFitted);
         QVERIFY(changed(projection()->picture(), picture) < 0.001);
         auto *overlay = projection()->findChild<QWidget *>("projectionOverlay");
         const QImage shown = overlay->grab().toImage();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The study library as a person uses it: import, search, order, open, details, remove.
+#include "tests/support/dicom_writer.h"
 #include "tests/ui/studies_window.h"
 
 #include <filesystem>
@@ -186,6 +187,74 @@ private slots:
                 ->grab()
                 .save(qEnvironmentVariable("PELLUCID_ARTIFACTS", "/tmp") + "/study_details.png"));
         dialog("studyDetails")->close();
+    }
+
+    void aScoutIsAPictureInOnePane() {
+        test::SeriesKnobs knobs;
+        knobs.slices = 1;
+        knobs.rows = 60;
+        knobs.columns = 40;
+        knobs.change = [](test::DicomWriter &w, int) {
+            w.put({0x0008, 0x0008}, "CS", std::string("ORIGINAL\\PRIMARY\\LOCALIZER"));
+            w.putNumbers({0x0020, 0x0037}, {1, 0, 0, 0, 0, -1}); // from the front
+        };
+        test::writeSeries(m_folder / "scout", knobs);
+        const auto panes = [&] {
+            QStringList shown;
+            for (const char *name : {"axialView", "coronalView", "sagittalView", "projectionView"})
+                if (find<QWidget>(name)->isVisible())
+                    shown << name;
+            return shown;
+        };
+        drop(mainWindow(), {QUrl::fromLocalFile(QString::fromStdString((m_folder / "scout")))});
+        QTRY_COMPARE_WITH_TIMEOUT(panes(), QStringList{"coronalView"}, patienceMs);
+        save("scout");
+        open(headPath());
+        QCOMPARE(panes().size(), 4);
+        // A pane that the user has maximized stays for the next study.
+        emit find<ui::MprView>("axialView")->maximizeRequested(find<QWidget>("axialView"));
+        QCOMPARE(panes(), QStringList{"axialView"});
+        drop(mainWindow(), {QUrl::fromLocalFile(headPath())});
+        waitForVolume();
+        QCOMPARE(panes(), QStringList{"axialView"});
+    }
+
+    void seriesOfPhasesAreOneRow() {
+        const auto write = [&](const QString &folder, int number, const std::string &description,
+                               const std::string &modality, double z) {
+            test::SeriesKnobs knobs;
+            knobs.rows = knobs.columns = 24;
+            knobs.slices = 12;
+            knobs.modality = modality;
+            knobs.change = [&](test::DicomWriter &w, int k) {
+                const std::string series = "1.2.826.0.1.3680043.8.498.77." + std::to_string(number);
+                w.put({0x0020, 0x000E}, "UI", series);
+                w.put({0x0008, 0x0018}, "UI", series + "." + std::to_string(k + 1));
+                w.put({0x0008, 0x103E}, "LO", description);
+                w.put({0x0020, 0x0011}, "IS", std::to_string(number));
+                w.putNumbers({0x0020, 0x0032}, {-5.0, 7.0, z + 2.0 * k});
+            };
+            test::writeSeries(m_folder / folder.toStdString() / std::to_string(number), knobs);
+        };
+        const auto rowsOf = [&](const QString &folder) {
+            restart();
+            open(QString::fromStdString((m_folder / folder.toStdString()).string()));
+            return list().rowCount(list().index(0, 0));
+        };
+        for (const int percent : {0, 30, 60})
+            write("gated", 10 + percent, "CTA gated, " + std::to_string(percent) + "%", "CT", 0.0);
+        QCOMPARE(rowsOf("gated"), 1);
+        QCOMPARE(bench().study.phases.count(), 3);
+        QVERIFY(bench().study.phases.label(1).contains("30%"));
+        // A dynamic scan, and one of another place.
+        for (const int n : {1, 2, 3})
+            write("dynamic", n, "t1 dynamic", "MR", 0.0);
+        write("dynamic", 4, "t1 dynamic", "MR", 100.0);
+        QCOMPARE(rowsOf("dynamic"), 2);
+        // Two kernels may have one description.
+        for (const int n : {1, 2})
+            write("kernels", n, "Chest", "CT", 0.0);
+        QCOMPARE(rowsOf("kernels"), 2);
     }
 
     void aClosedStudyLeavesTheList() {

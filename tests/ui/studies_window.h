@@ -12,6 +12,7 @@
 #include <QTreeView>
 
 #include "ui/panels/study_list.h"
+#include "ui/views/mpr_view.h"
 #include "ui/window/file_menu.h"
 
 namespace pellucid::test {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/beside/study_beside.h"
 
+#include <QDate>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
@@ -18,6 +19,29 @@ namespace pellucid::ui {
 QString headingText(const StudySource &source) {
     return patientText(source.study) + ", " + studyText(source.study) + ", " +
            seriesText(source.volume);
+}
+
+QString bannerText(const StudySource &source) {
+    const StudyFacts &study = source.study;
+    QStringList patient{patientText(study)};
+    if (study.hasPatient()) {
+        if (!study.sex.isEmpty())
+            patient << study.sex;
+        const QDate birth = QDate::fromString(study.birthDate, "yyyyMMdd"),
+                    scan = QDate::fromString(study.date, "yyyyMMdd");
+        if (birth.isValid()) {
+            int years = scan.year() - birth.year();
+            if (scan.isValid() && birth.addYears(years) > scan)
+                --years;
+            patient << (scan.isValid() && years >= 0
+                            ? StudyBeside::tr("%1 (%2 y)").arg(dateText(study.birthDate)).arg(years)
+                            : dateText(study.birthDate));
+        }
+        if (!study.patientId.isEmpty())
+            patient << StudyBeside::tr("ID %1").arg(study.patientId);
+    }
+    const QString gap = QString::fromUtf8("  ·  ");
+    return patient.join(gap) + gap + studyText(study) + gap + seriesText(source.volume);
 }
 
 StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *parent)

@@ -53,4 +53,7 @@ inline constexpr int headingHeight = 32;
 /// The heading of a study: "Doe Jane, 2007-04-04 CT Chest, 3 5 mm".
 QString headingText(const StudySource &source);
 
+/// The same with what identifies the patient: "Doe Jane  F  1950-01-31 (57 y)  ID 123 ...".
+QString bannerText(const StudySource &source);
+
 } // namespace pellucid::ui

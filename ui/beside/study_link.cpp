@@ -94,7 +94,7 @@ void StudyLink::follow() {
             scene.interpolation = shown.interpolation;
             scene.tone = shown.tone;
             // A window of values without a unit is meaningful for its own volume only.
-            if (m_leader.document.volume()->unit() == volume::ValueUnit::hounsfield) {
+            if (volume::isCalibrated(m_leader.document.volume()->unit())) {
                 scene.fieldWindow = shown.fieldWindow;
                 m_follower.document.setDisplayWindow(m_leader.document.displayWindow());
             }
@@ -103,6 +103,8 @@ void StudyLink::follow() {
         }
         m_follower.document.setCut(m_leader.document.cut());
         passCamera(m_leader, m_follower);
+        for (std::size_t n = 0; n < m_leader.planes.size(); ++n)
+            m_follower.planes[n]->adoptScale(*m_leader.planes[n]);
     });
 }
 
@@ -112,9 +114,8 @@ void StudyLink::linkViews(const Viewer &from, const Viewer &to) {
     connect(&from.document, &Document::cutChanged, this,
             [this, from, to] { pass([&] { to.document.setCut(from.document.cut()); }); });
     for (std::size_t n = 0; n < from.planes.size(); ++n)
-        connect(from.planes[n], &MprView::viewMoved, this, [this, from, to, n] {
-            pass([&] { to.planes[n]->moveView(from.planes[n]->view()); });
-        });
+        connect(from.planes[n], &MprView::viewMoved, this,
+                [this, from, to, n] { pass([&] { to.planes[n]->adoptScale(*from.planes[n]); }); });
 }
 
 void StudyLink::passCamera(const Viewer &from, const Viewer &to) {
@@ -146,7 +147,7 @@ void StudyLink::passWindowBack() {
         const auto *const last =
             dynamic_cast<const EditDisplayWindow *>(edits.command(edits.index() - 1));
         if (last == nullptr || !sharesUnit() ||
-            m_leader.document.volume()->unit() != volume::ValueUnit::hounsfield)
+            !volume::isCalibrated(m_leader.document.volume()->unit()))
             return;
         // One drag of the follower is one step to undo.
         m_leader.document.undoStack()->push(new EditDisplayWindow(

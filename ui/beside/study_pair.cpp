@@ -7,9 +7,21 @@
 
 #include "ui/beside/study_beside.h"
 #include "ui/document/document.h"
+#include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
+#include "ui/views/projection_view.h"
 
 namespace pellucid::ui {
+
+namespace {
+
+void showOverlaysOn(const Viewer &viewer, const Overlays &overlays) {
+    for (MprView *const plane : viewer.planes)
+        plane->setOverlays(overlays);
+    viewer.projection->setOverlays(overlays);
+}
+
+} // namespace
 
 StudyPair::StudyPair(const Viewer &open, GraphicsCard &card, QWidget *parent)
     : QSplitter(parent), m_open(open), m_card(card), m_heading(new QLabel) {
@@ -43,6 +55,7 @@ void StudyPair::makeBeside() {
     addWidget(m_beside);
     setSizes({1, 1});
     m_beside->setTool(m_tool);
+    showOverlaysOn(m_beside->viewer(), m_overlays);
     connect(m_beside, &StudyBeside::closeRequested, this, &StudyPair::closeBeside,
             Qt::QueuedConnection); // the button is deleted with its heading
     connect(m_beside, &StudyBeside::linkChanged, this, &StudyPair::linkChanged);
@@ -70,13 +83,27 @@ void StudyPair::setTool(Tool tool) {
         m_beside->setTool(tool);
 }
 
-// A single study needs no heading.
+void StudyPair::setOverlays(const Overlays &overlays) {
+    m_overlays = overlays;
+    showOverlaysOn(m_open, overlays);
+    if (m_beside != nullptr)
+        showOverlaysOn(m_beside->viewer(), overlays);
+}
+
+void StudyPair::setBannerShown(bool isShown) {
+    m_showsBanner = isShown;
+    showHeading();
+}
+
 void StudyPair::showHeading() {
     const Document &document = m_open.document;
     const int open = document.currentSource();
-    m_heading->setVisible(m_beside != nullptr && open >= 0);
-    if (open >= 0)
-        m_heading->setText(headingText(document.sources()[std::size_t(open)]));
+    m_heading->setVisible((m_showsBanner || m_beside != nullptr) && open >= 0);
+    if (open < 0)
+        return;
+    const StudySource &source = document.sources()[std::size_t(open)];
+    m_heading->setText(m_beside != nullptr ? headingText(source) : bannerText(source));
+    m_heading->setToolTip(bannerText(source));
 }
 
 } // namespace pellucid::ui

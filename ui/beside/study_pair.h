@@ -4,6 +4,7 @@
 #include <QSplitter>
 
 #include "core/task/reason.h"
+#include "ui/views/overlay.h"
 #include "ui/views/tools/tool.h"
 #include "ui/views/viewer.h"
 
@@ -27,6 +28,10 @@ public:
     void closeBeside();
     void toggleLink();
     void setTool(Tool tool);
+    /// Of all panes, also of those that come later.
+    void setOverlays(const Overlays &overlays);
+    /// Names the patient above the panes, also of a single study.
+    void setBannerShown(bool isShown);
 
 signals:
     void besideChanged(bool isThere);
@@ -41,6 +46,8 @@ private:
     Viewer m_open;
     GraphicsCard &m_card;
     Tool m_tool = Tool::window;
+    Overlays m_overlays;
+    bool m_showsBanner = true;
     QLabel *m_heading;
     StudyBeside *m_beside = nullptr;
 };

@@ -36,6 +36,16 @@ void EditMeasurements::apply(const std::vector<measure::Measurement> &measuremen
     m_document.setMeasurements(measurements);
 }
 
+EditPlaneAxes::EditPlaneAxes(Document &document, const mpr::PlaneAxes &after, const QString &text,
+                             DragId drag)
+    : EditValue(document, document.cut().axes, after, text, drag) {}
+
+void EditPlaneAxes::apply(const mpr::PlaneAxes &axes) {
+    Cut cut = m_document.cut();
+    cut.axes = axes;
+    m_document.setCut(cut);
+}
+
 bool editScene(Document &document, const QString &text, DragId drag,
                const std::function<void(scene::Scene &)> &edit) {
     scene::Scene scene = document.scene();

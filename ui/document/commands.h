@@ -8,6 +8,7 @@
 #include <QUndoCommand>
 
 #include "core/measure/measurement.h"
+#include "core/mpr/plane.h"
 #include "core/scene/scene.h"
 #include "core/volume/volume.h"
 
@@ -78,6 +79,17 @@ public:
 
 private:
     void apply(const std::vector<measure::Measurement> &measurements) override;
+};
+
+/// Turns the planes.
+class EditPlaneAxes : public EditValue<mpr::PlaneAxes> {
+public:
+    EditPlaneAxes(Document &document, const mpr::PlaneAxes &after, const QString &text,
+                  DragId drag = noDrag);
+    int id() const override { return 4; }
+
+private:
+    void apply(const mpr::PlaneAxes &axes) override;
 };
 
 /// A number that no other drag has.

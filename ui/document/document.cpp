@@ -118,7 +118,8 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
         m_traits = {presets::regionsNamed(volume.notes().bodyPart, volume.notes().title)};
         m_crosshair = middleSample(volume.lattice());
         // Other planes would cut only a strip out of a few slices.
-        m_cut.axes = volume.lattice().size().k < fewSlices && volume.notes().placed
+        m_cut.axes = (volume.lattice().size().k < fewSlices || volume.notes().isLocalizer) &&
+                             volume.notes().placed
                          ? mpr::PlaneAxes::along(volume.lattice())
                          : mpr::PlaneAxes();
         m_measured.clear();

@@ -127,7 +127,7 @@ void RenderWorker::makeFrame(const Request &request) {
             renderInto(*frame, request);
         frame->orientation = request.camera.orientation;
         if (const auto &exposed = request.exposed) {
-            frame->exposedTone = exposed->tone;
+            frame->exposed = exposed->of;
             frame->exposure =
                 picture::measureExposure(*request.prepared.engine, exposed->radiusMm, request.image,
                                          request.shading, exposed->tone, exposed->background);

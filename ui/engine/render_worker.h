@@ -13,6 +13,7 @@
 #include <QObject>
 
 #include "core/picture/exposure.h"
+#include "core/picture/tone_subject.h"
 #include "core/prepare/prepared_engine.h"
 #include "core/task/reason.h"
 #include "gpu/gpu_engine.h"
@@ -30,8 +31,8 @@ struct RenderedFrame {
     std::optional<task::Reason> refusal;
     /// The exposure of the study, if requested.
     std::optional<scene::Exposure> exposure;
-    scene::Tone exposedTone; ///< for which it was measured
-    glm::dquat orientation;  ///< of the camera
+    picture::ToneSubject exposed; ///< for which it was measured
+    glm::dquat orientation;       ///< of the camera
     /// The same view of the compared look, if requested.
     std::optional<picture::ProjectionImage> compared;
     picture::FrameTimes times;
@@ -64,6 +65,7 @@ public:
     struct Exposed {
         double radiusMm;  ///< of the volume
         scene::Tone tone; ///< its contrast
+        picture::ToneSubject of;
         picture::Background background = picture::Background::zero;
     };
     /// Another look that is rendered with each frame, too.

@@ -127,28 +127,34 @@ dicom::CaptureLabels labelsOf(const Document &document, const mpr::Axes &seen, d
     return labels;
 }
 
+PictureMaker planeMaker(const PictureExport &what, const Panes &panes, const Document &document) {
+    const MprView &view = *panes.planes[std::size_t(what.pane)];
+    const Names names = what.isDeidentified ? Names::hidden : Names::shown;
+    return [make = view.pictureMaker(what.scale), ratio = view.devicePixelRatioF() * what.scale,
+            over = recorded(what.isAnnotated, [&](QPainter &painter) {
+                view.paintOver(painter, names);
+                paintPatient(painter, view.rect(), 1, what, studyLabels(document));
+            })](const task::Progress &progress) {
+        QImage picture = make();
+        progress.report(0.3);
+        putOver(picture, over, ratio);
+        return picture;
+    };
+}
+
 PictureWriter planeWriter(const PictureExport &what, const Panes &panes, const Document &document,
                           const QString &path) {
     const MprView &view = *panes.planes[std::size_t(what.pane)];
-    const double ratio = view.devicePixelRatioF() * what.scale;
     const mpr::Plane plane = view.plane();
     dicom::CaptureLabels labels = labelsOf(document, plane.axes, plane.pixelMm / what.scale);
     labels.seriesDescription = "Plane";
     labels.derivation = "Reformatted plane";
-    const dicom::CaptureLabels study = labels;
     if (what.isDeidentified)
         labels = dicom::deidentified(labels);
     labels.isNamedInPicture = what.namesPatient();
-    const Names names = what.isDeidentified ? Names::hidden : Names::shown;
-    return [make = view.pictureMaker(what.scale), what, path, ratio, labels,
-            isGrey = !document.tint(), over = recorded(what.isAnnotated, [&](QPainter &painter) {
-                                           view.paintOver(painter, names);
-                                           paintPatient(painter, view.rect(), 1, what, study);
-                                       })](const task::Progress &progress) {
-        QImage picture = make();
-        progress.report(0.3);
-        putOver(picture, over, ratio);
-        write(picture, what.format, path, labels, isGrey);
+    return [make = planeMaker(what, panes, document), what, path, labels,
+            isGrey = !document.tint()](const task::Progress &progress) {
+        write(make(progress), what.format, path, labels, isGrey);
     };
 }
 
@@ -236,8 +242,8 @@ void ProjectionJob::run(const task::Progress &progress) const {
     }
 }
 
-PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
-                               const Document &document, const QString &path) {
+ProjectionJob projectionJob(const PictureExport &what, const Panes &panes, const Document &document,
+                            const QString &path) {
     ProjectionView &view = *panes.projection;
     ProjectionJob job{what,
                       path,
@@ -271,7 +277,7 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
     if (what.isDeidentified)
         job.labels = dicom::deidentified(job.labels);
     job.labels.isNamedInPicture = what.namesPatient();
-    return [job](const task::Progress &progress) { job.run(progress); };
+    return job;
 }
 
 // All files that an export writes.
@@ -289,6 +295,13 @@ std::vector<fs::path> targets(const PictureExport &what, const QString &path) {
 QWidget *Panes::of(Pane pane) const {
     return pane == Pane::projection ? static_cast<QWidget *>(projection)
                                     : planes[std::size_t(pane)];
+}
+
+Pane Panes::current() const {
+    for (const Pane pane : {Pane::axial, Pane::coronal, Pane::sagittal})
+        if (of(pane)->hasFocus())
+            return pane;
+    return Pane::projection;
 }
 
 QString suffixOf(PictureFormat format) {
@@ -333,13 +346,26 @@ std::optional<task::Reason> obstacle(const PictureExport &what, const Panes &pan
     return {};
 }
 
+PictureMaker pictureMaker(const PictureExport &what, const Panes &panes, const Document &document) {
+    if (const auto why = obstacle(what, panes, document))
+        throw task::Error(task::ErrorCode::usage, *why);
+    if (what.pane != Pane::projection)
+        return planeMaker(what, panes, document);
+    return [job = projectionJob(what, panes, document, {})](const task::Progress &) {
+        return job.picture(0);
+    };
+}
+
 PictureWriter pictureWriter(const PictureExport &what, const Panes &panes, const Document &document,
                             const QString &path) {
     if (const auto why = obstacle(what, panes, document))
         throw task::Error(task::ErrorCode::usage, *why);
     document.requireOther(targets(what, path));
-    return what.pane == Pane::projection ? projectionWriter(what, panes, document, path)
-                                         : planeWriter(what, panes, document, path);
+    if (what.pane != Pane::projection)
+        return planeWriter(what, panes, document, path);
+    return [job = projectionJob(what, panes, document, path)](const task::Progress &progress) {
+        job.run(progress);
+    };
 }
 
 } // namespace pellucid::ui

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include <QImage>
 #include <QString>
 
 #include "core/task/progress.h"
@@ -27,6 +28,8 @@ struct Panes {
     ProjectionView *projection;
 
     QWidget *of(Pane pane) const;
+    /// The one with the keyboard's focus, otherwise the projection.
+    Pane current() const;
 };
 
 /// `png`: as on the screen; `png16`: 16-bit grey, linear from the lower to the upper end of the
@@ -67,6 +70,13 @@ QString firstFileOf(const PictureExport &what, const QString &path);
 /// Why an export is impossible; none if it is possible.
 std::optional<task::Reason> obstacle(const PictureExport &what, const Panes &panes,
                                      const Document &document);
+
+/// Makes a picture of a pane with its annotations, as on the screen; may run on any thread. It
+/// *throws* task::Error, task::Cancelled.
+using PictureMaker = std::function<QImage(const task::Progress &)>;
+/// A maker of the present picture. *Throws* Error{usage} with the obstacle. *Requires*: the format
+/// is `png`.
+PictureMaker pictureMaker(const PictureExport &what, const Panes &panes, const Document &document);
 
 /// Writes a picture of a pane; may run on any thread. The file appears only when complete; a cancel
 /// leaves no frames. It *throws* task::Error, task::Cancelled.

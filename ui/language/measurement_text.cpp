@@ -3,6 +3,8 @@
 
 #include <QCoreApplication>
 
+#include "ui/language/number_text.h"
+
 namespace pellucid::ui {
 
 namespace {
@@ -12,9 +14,9 @@ struct MeasurementTextTexts {
 };
 
 QString valueText(double value, volume::ValueUnit unit) {
-    // Values without a unit may have any magnitude.
+    // Other values may have any magnitude.
     return unit == volume::ValueUnit::hounsfield ? QString::number(value, 'f', 1)
-                                                 : QString::number(value, 'g', 5);
+                                                 : numberText(value, 5);
 }
 
 QString areaText(double mm2, bool hasSpacing) {
@@ -24,26 +26,32 @@ QString areaText(double mm2, bool hasSpacing) {
                        : MeasurementTextTexts::tr("%1 cm²").arg(mm2 / 100.0, 0, 'f', 2);
 }
 
-QString unitText(volume::ValueUnit unit) {
-    return unit == volume::ValueUnit::hounsfield ? QString(" HU") : QString();
-}
-
 } // namespace
 
-QString kindText(measure::Kind kind) {
-    switch (kind) {
+QString kindText(const measure::Measurement &m) {
+    switch (m.kind) {
     case measure::Kind::distance:
-        return MeasurementTextTexts::tr("Distance");
+        return m.isProjected ? MeasurementTextTexts::tr("Projected distance")
+                             : MeasurementTextTexts::tr("Distance");
+    case measure::Kind::polyline:
+        return m.isProjected ? MeasurementTextTexts::tr("Projected polyline")
+                             : MeasurementTextTexts::tr("Polyline");
     case measure::Kind::angle:
-        return MeasurementTextTexts::tr("Angle");
+        return m.isProjected ? MeasurementTextTexts::tr("Projected angle")
+                             : MeasurementTextTexts::tr("Angle");
+    case measure::Kind::cobbAngle:
+        return m.isProjected ? MeasurementTextTexts::tr("Projected Cobb angle")
+                             : MeasurementTextTexts::tr("Cobb angle");
     case measure::Kind::ellipse:
         return MeasurementTextTexts::tr("Ellipse");
     case measure::Kind::rectangle:
         return MeasurementTextTexts::tr("Rectangle");
-    case measure::Kind::projectedDistance:
+    case measure::Kind::arrow:
+        return MeasurementTextTexts::tr("Arrow");
+    case measure::Kind::text:
         break;
     }
-    return MeasurementTextTexts::tr("Projected distance");
+    return MeasurementTextTexts::tr("Text");
 }
 
 QString mainFigure(const measure::Result &result, const volume::Volume &volume) {
@@ -56,7 +64,7 @@ QString mainFigure(const measure::Result &result, const volume::Volume &volume) 
     if (result.angleDegrees)
         return MeasurementTextTexts::tr("%1°").arg(*result.angleDegrees, 0, 'f', 1);
     if (result.values)
-        return valueText(result.values->mean, unit) + unitText(unit);
+        return valueText(result.values->mean, unit) + unitSuffix(unit);
     return result.areaMm2 ? areaText(*result.areaMm2, hasSpacing) : QString();
 }
 
@@ -64,18 +72,21 @@ QStringList allFigures(const measure::Measurement &measurement, const measure::R
                        const volume::Volume &volume) {
     const volume::ValueUnit unit = volume.unit();
     if (!result.areaMm2) {
+        if (measure::isAnnotation(measurement.kind))
+            return {QString::fromStdString(measurement.name)};
         QStringList lines{mainFigure(result, volume)};
-        if (measurement.kind == measure::Kind::projectedDistance)
+        if (measurement.isProjected)
             lines << MeasurementTextTexts::tr("in the picture, depth not measured");
         return lines;
     }
     QStringList lines;
     if (result.values) {
         const measure::RegionValues &v = *result.values;
-        lines << MeasurementTextTexts::tr("mean %1%2").arg(valueText(v.mean, unit), unitText(unit))
-              << MeasurementTextTexts::tr("SD %1").arg(valueText(v.standardDeviation, unit))
-              << MeasurementTextTexts::tr("%1 to %2")
-                     .arg(valueText(v.minimum, unit), valueText(v.maximum, unit));
+        lines
+            << MeasurementTextTexts::tr("mean %1%2").arg(valueText(v.mean, unit), unitSuffix(unit))
+            << MeasurementTextTexts::tr("SD %1").arg(valueText(v.standardDeviation, unit))
+            << MeasurementTextTexts::tr("%1 to %2")
+                   .arg(valueText(v.minimum, unit), valueText(v.maximum, unit));
     } else {
         lines << MeasurementTextTexts::tr("outside the volume");
     }

@@ -9,7 +9,7 @@
 namespace pellucid::ui {
 
 /// "Distance", in the user's language.
-QString kindText(measure::Kind kind);
+QString kindText(const measure::Measurement &measurement);
 
 /// The main figure with its unit: "12.3 mm", "45.2°", "36.1 HU".
 QString mainFigure(const measure::Result &result, const volume::Volume &volume);

@@ -81,6 +81,12 @@ namespace {
     QT_TRANSLATE_NOOP("Names", "Brain"),
     QT_TRANSLATE_NOOP("Names", "Abdomen"),
     QT_TRANSLATE_NOOP("Names", "Mediastinum"),
+    QT_TRANSLATE_NOOP("Names", "Stroke"),
+    QT_TRANSLATE_NOOP("Names", "Subdural"),
+    QT_TRANSLATE_NOOP("Names", "Angiography"),
+    QT_TRANSLATE_NOOP("Names", "SUV 0 to 5"),
+    QT_TRANSLATE_NOOP("Names", "SUV 0 to 10"),
+    QT_TRANSLATE_NOOP("Names", "SUV 0 to 20"),
     QT_TRANSLATE_NOOP("Names", "File"),
     QT_TRANSLATE_NOOP("Names", "Auto"),
     QT_TRANSLATE_NOOP("Names", "Custom")};

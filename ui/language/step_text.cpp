@@ -5,6 +5,7 @@
 #include <QStringList>
 
 #include "ui/language/names.h"
+#include "ui/language/number_text.h"
 
 namespace pellucid::ui {
 
@@ -43,7 +44,7 @@ struct StepTexts {
     QT_TRANSLATE_NOOP("StepTexts", "value units per mm")};
 
 QString number(double value) {
-    return QString::number(value, 'g', 4);
+    return numberText(value);
 }
 
 // Ends that limit nothing are left out.

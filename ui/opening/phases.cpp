@@ -51,8 +51,9 @@ int Phases::current() const {
 }
 
 QString Phases::label(int phase) const {
-    return translated(
-        m_document.sources()[std::size_t(m_sources.at(std::size_t(phase)))].volume.label);
+    const VolumeFacts &volume =
+        m_document.sources()[std::size_t(m_sources.at(std::size_t(phase)))].volume;
+    return volume.label.empty() ? seriesText(volume) : translated(volume.label);
 }
 
 void Phases::show(int phase) {

@@ -118,7 +118,8 @@ QJsonObject objectOf(const Session &s) {
              QJsonDocument::fromJson(QByteArray::fromStdString(scene::toJson(scene))).object()},
             {"window", QJsonObject{{"center", s.shown.displayWindow.center},
                                    {"width", s.shown.displayWindow.width},
-                                   {"name", QString::fromStdString(s.shown.displayWindow.name)}}},
+                                   {"name", QString::fromStdString(s.shown.displayWindow.name)},
+                                   {"inverted", s.shown.displayWindow.isInverted}}},
             {"fitted", s.shown.isFitted},
             {"crosshair", toJson(s.shown.crosshair.mm)},
             {"planes", toJson(s.shown.cut.axes)},
@@ -150,7 +151,7 @@ Session fromJson(const QJsonObject &in) {
     const QJsonObject window = in["window"].toObject();
     s.shown.displayWindow = {window["center"].toDouble(),
                              std::max(1e-6, window["width"].toDouble(1.0)),
-                             window["name"].toString().toStdString()};
+                             window["name"].toString().toStdString(), window["inverted"].toBool()};
     s.shown.exposure = std::exchange(s.shown.scene.tone.exposure, std::nullopt);
     s.shown.isFitted = in["fitted"].toBool();
     s.shown.crosshair = {vectorFrom(in["crosshair"])};

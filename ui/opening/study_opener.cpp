@@ -6,7 +6,6 @@
 
 #include "core/classify/couch.h"
 #include "core/dicom/scan.h"
-#include "core/preprocess/body.h"
 #include "core/preprocess/study_content.h"
 #include "core/system/log.h"
 #include "core/system/memory.h"
@@ -34,21 +33,14 @@ QStringList segmentationsIn(const dicom::Catalogue &catalogue) {
     return paths;
 }
 
-struct Content {
-    bool hasCouch = false;
-    presets::StudyTraits traits;
-};
-
 // A study opens even if this fails, for lack of memory for example.
-Content contentOf(const volume::Volume &volume, const task::Progress &progress) {
-    Content content;
+preprocess::StudyContent contentOf(const volume::Volume &volume, const task::Progress &progress) {
     try {
-        content.traits = preprocess::traitsOf(volume, progress);
-        content.hasCouch = volume.notes().placed && preprocess::hasCouch(volume, progress);
+        return preprocess::contentOf(volume, progress);
     } catch (const task::Error &error) {
-        system::log(std::string("no couch and region were found: ") + error.what());
+        system::log(std::string("what the study shows is unknown: ") + error.what());
+        return {};
     }
-    return content;
 }
 
 } // namespace
@@ -309,7 +301,7 @@ Continuity StudyOpener::leavePhase(int next) {
                      m_document.cut(),          m_document.exposure(),      m_document.segments(),
                      m_document.pose().isFitted};
     // A volume's own window would differ from phase to phase.
-    if (m_document.volume()->unit() == volume::ValueUnit::none)
+    if (!volume::isCalibrated(m_document.volume()->unit()))
         stays.scene.fieldWindow = m_document.fieldWindow();
     keepCurrent();
     m_preparer.forgetVolume();
@@ -333,7 +325,7 @@ void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
     // The former phase stays until this one is loaded.
     const StudySource source = m_document.sources().at(std::size_t(index));
     scene::Scene scene = m_document.scene();
-    if (m_document.volume()->unit() == volume::ValueUnit::none)
+    if (!volume::isCalibrated(m_document.volume()->unit()))
         scene.fieldWindow = m_document.fieldWindow();
     const PreparedFor wanted(scene);
     m_jobs.start(
@@ -431,14 +423,14 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
         const classify::FieldWindow field = classify::defaultFieldWindow(volume);
         const LoadedSegments segments =
             loadSegments(segmentations, volume, nullptr, job.progress().part(0.6, 0.6));
-        const auto [hasCouch, traits] = contentOf(volume, job.progress().part(0.6, 0.6));
-        job.deliver([this, loaded, window, field, segments, bare, hasCouch, traits] {
+        const preprocess::StudyContent content = contentOf(volume, job.progress().part(0.6, 0.6));
+        job.deliver([this, loaded, window, field, segments, bare, content] {
             m_document.addProblems(loaded.skipped);
             m_document.addProblems(segments.problems);
             m_preparer.setHeld(true);
             m_document.setVolume(loaded.volume, window, field, false);
-            m_document.setTraits(traits);
-            if (hasCouch && m_document.scene().look == classify::Look()) {
+            m_document.setTraits(content.traits);
+            if (content.hasCouch && m_document.scene().look == classify::Look()) {
                 scene::Scene scene = m_document.scene();
                 scene.look = bare.look;
                 m_document.setScene(scene);
@@ -459,7 +451,7 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
             return;
         }
         job.stage(tr("Preparing the projection"));
-        (hasCouch ? prepareBare : prepare)(job, volume);
+        (content.hasCouch ? prepareBare : prepare)(job, volume);
     };
 }
 

@@ -14,6 +14,7 @@
 
 #include "core/task/error.h"
 #include "ui/document/document.h"
+#include "ui/language/number_text.h"
 #include "ui/language/reasons.h"
 #include "ui/panels/class_steps.h"
 #include "ui/panels/limit_box.h"
@@ -98,10 +99,9 @@ void ClassDialog::addSource(QFormLayout &form) {
     m_source->setCurrentIndex(m_tissue.isDrawn ? drawn
                               : own.isEmpty()  ? ofValues
                                                : m_source->findData(own));
-    const bool isHu =
-        m_document.volume() && m_document.volume()->unit() == volume::ValueUnit::hounsfield;
-    for (QDoubleSpinBox *box : {m_low, m_high, m_softness})
-        box->setSuffix(isHu ? tr(" HU") : QString());
+    if (m_document.volume())
+        for (QDoubleSpinBox *box : {m_low, m_high, m_softness})
+            box->setSuffix(unitSuffix(m_document.volume()->unit()));
     form.addRow(tr("Source"), m_source);
     form.addRow(tr("From"), m_low);
     form.addRow(tr("To"), m_high);

@@ -356,6 +356,7 @@ void ClassesPanel::showMenu(int index, const QPoint &globalAt) {
                     look.classes[n].weight = 1.0;
         });
     });
+    menu.addAction(tr("Volumes..."), this, &ClassesPanel::volumesRequested);
     menu.addSeparator();
     menu.addAction(tr("Remove"), this, [this, index] {
         change(tr("Remove class"), [&](classify::Look &look) {

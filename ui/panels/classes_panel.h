@@ -39,6 +39,8 @@ public:
 
 signals:
     /// The user asks for the segments of these files, or to choose one if there are none.
+    /// The sizes of the classes are wanted.
+    void volumesRequested();
     void segmentationRequested(const QStringList &paths);
 
 private:

@@ -9,6 +9,8 @@
 #include <QPainter>
 #include <QPainterPath>
 
+#include "ui/language/number_text.h"
+
 namespace pellucid::ui {
 
 namespace {
@@ -108,7 +110,7 @@ void CurveEditor::paintAxes(QPainter &painter) {
         const QRectF box(x - 34, area.bottom() + 3, 68, 16);
         painter.drawText(box.translated(std::min(0.0, width() - 2 - box.right()), 0.0),
                          Qt::AlignHCenter | Qt::AlignTop,
-                         QString::number(std::abs(value) < 1e-9 * range ? 0.0 : value, 'g', 4));
+                         numberText(std::abs(value) < 1e-9 * range ? 0.0 : value));
     }
 }
 
@@ -167,7 +169,7 @@ void CurveEditor::paintEvent(QPaintEvent *) {
     painter.drawText(area.adjusted(6, 2, 0, 0), Qt::AlignLeft | Qt::AlignTop,
                      tr("weight %1 at %2%3")
                          .arg(m_function.at(f), 0, 'f', 2)
-                         .arg(value, 0, 'g', 4)
+                         .arg(numberText(value))
                          .arg(m_unit.isEmpty() ? QString() : " " + m_unit));
 }
 

@@ -76,6 +76,7 @@ void MeasurementsPanel::showAll() {
         QTreeWidgetItem *item = m_list->topLevelItem(int(n));
         item->setText(0, QString::fromStdString(measurement.name));
         item->setText(1, mainFigure(result, *m_document.volume()));
+        item->setToolTip(0, kindText(measurement));
         item->setToolTip(1, allFigures(measurement, result, *m_document.volume()).join('\n'));
     }
     m_hint->setVisible(all.empty());
@@ -92,7 +93,7 @@ void MeasurementsPanel::showSelected() {
 void MeasurementsPanel::goTo(int index) {
     m_document.selectMeasurement(index);
     const measure::Measurement &m = m_document.measured()[std::size_t(index)].measurement;
-    if (m.kind == measure::Kind::projectedDistance) {
+    if (m.isProjected) {
         emit viewRequested(m.axes.right, m.axes.up);
         return;
     }

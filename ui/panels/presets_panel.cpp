@@ -218,7 +218,7 @@ void PresetsPanel::showCurrent() {
         return;
     }
     // All phases of values without a unit use the window of the first.
-    const bool isFree = m_document.volume()->unit() == volume::ValueUnit::none;
+    const bool isFree = !volume::isCalibrated(m_document.volume()->unit());
     const classify::FieldWindow defaultWindow = isFree ? shown : m_document.defaultFieldWindow();
     QString current = tr("Custom look");
     // With or without the couch, it is the same preset.

@@ -19,7 +19,7 @@ RadiographPanel::RadiographPanel(Document &document, QWidget *parent)
       m_detail(new ValueSlider({1.0, std::nullopt}, "detailSlider", "detailValue")),
       m_latitude(new ValueSlider({1.0, std::nullopt}, "latitudeSlider", "latitudeValue")),
       m_sharpness(new ValueSlider({2.0, 0.0}, "sharpnessSlider", "sharpnessValue")),
-      m_detailMark(new QLabel), m_latitudeMark(new QLabel),
+      m_detailMark(new QLabel), m_latitudeMark(new QLabel), m_corner(new QWidget),
       m_withoutCouch(new QCheckBox(tr("Without couch"))),
       m_automatic(new QPushButton(tr("Automatic"))) {
     setObjectName("radiographPanel");
@@ -27,6 +27,11 @@ RadiographPanel::RadiographPanel(Document &document, QWidget *parent)
     m_automatic->setObjectName("automaticContrastButton");
     m_automatic->setToolTip(tr("Choose detail and latitude from the study"));
     m_automatic->setProperty("role", "link");
+    auto *corner = new QHBoxLayout(m_corner);
+    corner->setContentsMargins(0, 0, 0, 0);
+    corner->setSpacing(10);
+    corner->addWidget(m_withoutCouch);
+    corner->addWidget(m_automatic);
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(14, 2, 14, 8);
     column->setSpacing(3);
@@ -51,7 +56,6 @@ RadiographPanel::RadiographPanel(Document &document, QWidget *parent)
     });
     m_withoutCouch->setObjectName("withoutCouchBox");
     m_withoutCouch->setToolTip(tr("Leave out the couch, head rests and clothes, in every preset"));
-    column->addWidget(m_withoutCouch);
     column->addStretch();
     connect(m_withoutCouch, &QCheckBox::clicked, this,
             [this](bool isWithout) { setWithoutCouch(m_document, isWithout); });
@@ -68,7 +72,7 @@ RadiographPanel::RadiographPanel(Document &document, QWidget *parent)
 }
 
 QWidget *RadiographPanel::corner() {
-    return m_automatic;
+    return m_corner;
 }
 
 void RadiographPanel::addRow(const QString &name, const QString &tip, ValueSlider *slider,
@@ -104,6 +108,9 @@ void RadiographPanel::set(const QString &what, DragId drag, Share share,
 void RadiographPanel::showScene() {
     const bool isOpen = m_document.volume() && !m_document.isPreview();
     setEnabled(isOpen);
+    // The body is found by HU.
+    m_withoutCouch->setEnabled(isOpen &&
+                               m_document.volume()->unit() == volume::ValueUnit::hounsfield);
     m_withoutCouch->setChecked(isOpen && classify::isWithoutCouch(m_document.scene().look));
     const scene::Tone &tone = m_document.scene().tone;
     m_automatic->setEnabled(isOpen && (tone.detail || tone.latitude));

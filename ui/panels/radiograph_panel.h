@@ -23,7 +23,8 @@ class RadiographPanel : public QWidget {
 public:
     explicit RadiographPanel(Document &document, QWidget *parent = nullptr);
 
-    /// The button beside the panel's heading, which makes both automatic.
+    /// The controls beside the panel's heading: the couch, and a button that makes detail and
+    /// latitude automatic.
     QWidget *corner();
 
 private:
@@ -37,6 +38,7 @@ private:
     Document &m_document;
     ValueSlider *m_detail, *m_latitude, *m_sharpness;
     QLabel *m_detailMark, *m_latitudeMark;
+    QWidget *m_corner;
     QCheckBox *m_withoutCouch;
     QPushButton *m_automatic;
 };

@@ -20,6 +20,7 @@
 
 #include "ui/document/document.h"
 #include "ui/jobs/job_strip.h"
+#include "ui/panels/header_dialog.h"
 #include "ui/panels/problem_list.h"
 #include "ui/panels/study_details.h"
 #include "ui/panels/study_row_painter.h"
@@ -196,6 +197,11 @@ void StudyPanel::showMenu(const QPoint &at) {
         if (m_document.volume())
             add(tr("Open beside"), "openBesideAction", [this, row] { openBeside(row); });
         add(tr("Details..."), "volumeDetailsAction", [this, row] { showDetails(row); });
+        if (volume->file.isEmpty() && !filesOf(index).isEmpty())
+            add(tr("DICOM header..."), "volumeHeaderAction", [this, row] {
+                if (const QStringList files = filesOf(row); !files.isEmpty())
+                    (new HeaderDialog(files, 0, window()))->show();
+            });
         menu->addSeparator();
     }
     if (study.libraryId != 0) {
@@ -221,18 +227,22 @@ void StudyPanel::openBeside(const QModelIndex &index) {
                                              m_library.files(m_list.study(index), *volume)));
 }
 
-void StudyPanel::showDetails(const QModelIndex &index) {
+QStringList StudyPanel::filesOf(const QModelIndex &index) const {
     const VolumeFacts *const volume = m_list.volume(index);
     if (volume == nullptr)
-        return;
+        return {};
+    if (const int open = m_list.source(index); open >= 0)
+        return m_document.sources()[std::size_t(open)].files;
     QStringList files;
-    const int open = m_list.source(index);
-    if (open >= 0)
-        files = m_document.sources()[std::size_t(open)].files;
-    else
-        for (const dicom::InstanceFile &file : m_library.files(m_list.study(index), *volume))
-            files << QString::fromStdString(file.path.string());
-    showStudyDetails(m_list.study(index), *volume, files, m_list.thumbnail(index), window());
+    for (const dicom::InstanceFile &file : m_library.files(m_list.study(index), *volume))
+        files << QString::fromStdString(file.path.string());
+    return files;
+}
+
+void StudyPanel::showDetails(const QModelIndex &index) {
+    if (const VolumeFacts *const volume = m_list.volume(index))
+        showStudyDetails(m_list.study(index), *volume, filesOf(index), m_list.thumbnail(index),
+                         window());
 }
 
 void StudyPanel::importOpen(const StudyFacts &study) {

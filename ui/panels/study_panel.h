@@ -49,6 +49,7 @@ private:
     void expandFew();
     void showMenu(const QPoint &at);
     void openBeside(const QModelIndex &index);
+    QStringList filesOf(const QModelIndex &index) const;
     void showDetails(const QModelIndex &index);
     void importOpen(const StudyFacts &study);
     void remove(const StudyFacts &study);

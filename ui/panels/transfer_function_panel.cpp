@@ -15,6 +15,7 @@
 #include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/language/names.h"
+#include "ui/language/number_text.h"
 #include "ui/language/reasons.h"
 #include "ui/panels/curve_editor.h"
 
@@ -196,9 +197,7 @@ void TransferFunctionPanel::showScene() {
                      : translatedName(m_document.scene().look.classes[std::size_t(selected)].name));
     m_editor->setFunction(function());
     const auto &volume = m_document.volume();
-    m_editor->setWindow(m_document.fieldWindow(),
-                        volume && volume->unit() == volume::ValueUnit::hounsfield ? tr("HU")
-                                                                                  : QString());
+    m_editor->setWindow(m_document.fieldWindow(), volume ? unitText(volume->unit()) : QString());
     const QSignalBlocker noPoints(m_points), noWeight(m_weight);
     m_points->setValue(int(function().weights.size()));
     m_weight->setValue(function().weights[std::size_t(m_editor->selectedPoint())]);

@@ -6,6 +6,10 @@
 #include <optional>
 
 #include <QCoreApplication>
+#include <QRegularExpression>
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "ui/language/reasons.h"
 
@@ -33,6 +37,37 @@ std::optional<task::Reason> stackOf(const std::vector<task::Reason> &label) {
     const bool isStack = !label.empty() &&
                          std::find(stacks.begin(), stacks.end(), label.back().id()) != stacks.end();
     return isStack ? std::optional(label.back()) : std::nullopt;
+}
+
+// Gated and dynamic scans often write a series for each phase: "Gated, 40%", "CTA phase 3". The
+// description without the number of the phase; empty if it has none.
+QString phaseName(const QString &description) {
+    static const QRegularExpression number(
+        "(\\d+(?:\\.\\d+)?\\s*%)|((?:phase|dyn(?:amic)?|time\\s*point|tp)[\\s_#-]*\\d+)",
+        QRegularExpression::CaseInsensitiveOption);
+    const auto found = number.match(description);
+    if (!found.hasMatch())
+        return {};
+    return QString(description).replace(found.capturedStart(), found.capturedLength(), "#");
+}
+
+// Positions in files are rounded.
+bool isClose(const glm::dvec3 &a, const glm::dvec3 &b) {
+    constexpr double toleranceMm = 1e-3;
+    return glm::all(glm::lessThanEqual(glm::abs(a - b), glm::dvec3(toleranceMm)));
+}
+
+// Series of one scan that differ in the phase that their descriptions name; or dynamic scans, whose
+// series have one description and one place. (Two CT series alike may differ in their kernel.)
+bool areSeriesOfPhases(const VolumeFacts &a, const VolumeFacts &b) {
+    if (a.seriesUid.isEmpty() || b.seriesUid.isEmpty() || a.modality != b.modality ||
+        a.bodyPart != b.bodyPart)
+        return false;
+    if (!phaseName(a.description).isEmpty())
+        return phaseName(a.description) == phaseName(b.description);
+    const bool isDynamic = a.modality == "MR" || a.modality == "PT" || a.modality == "NM";
+    return isDynamic && !a.description.isEmpty() && a.description == b.description && a.originMm &&
+           b.originMm && isClose(*a.originMm, *b.originMm);
 }
 
 } // namespace
@@ -86,6 +121,8 @@ VolumeFacts volumeFacts(const dicom::Selection &s) {
     if (s.volume->notes.hasSpacing)
         facts.spacingMm = {lattice.spacingMm(0), lattice.spacingMm(1),
                            s.volume->placed ? lattice.sliceDistanceMm() : 0.0};
+    if (s.volume->placed)
+        facts.originMm = lattice.origin().mm;
     facts.tiltDeg = lattice.shearRad() * 180.0 / 3.14159265358979323846;
     facts.placed = s.volume->placed;
     facts.warnings = s.volume->notes.warnings;
@@ -116,8 +153,9 @@ QString studyText(const StudyFacts &study) {
 bool arePhases(const VolumeFacts &a, const VolumeFacts &b) {
     const bool isOneSeries = !a.seriesUid.isEmpty() ? a.seriesUid == b.seriesUid
                                                     : !a.file.isEmpty() && b.seriesUid.isEmpty();
-    return isOneSeries && a.file == b.file && a.placed && b.placed && a.size == b.size &&
-           a.spacingMm == b.spacingMm && stackOf(a.label) == stackOf(b.label);
+    return (isOneSeries || areSeriesOfPhases(a, b)) && a.file == b.file && a.placed && b.placed &&
+           a.size == b.size && isClose(a.spacingMm, b.spacingMm) &&
+           stackOf(a.label) == stackOf(b.label);
 }
 
 QString seriesText(const VolumeFacts &volume) {

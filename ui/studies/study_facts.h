@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <QImage>
@@ -37,6 +38,8 @@ struct VolumeFacts {
     int seriesNumber = 0;
     volume::GridSize size{};
     glm::dvec3 spacingMm{0.0}; ///< of columns, rows and slices; 0: unknown
+    /// The first sample's place, of an open volume. *Units*: LPS, mm.
+    std::optional<glm::dvec3> originMm;
     double tiltDeg = 0.0;
     bool placed = true; ///< false: images only
     std::vector<task::Reason> warnings;
@@ -54,7 +57,7 @@ struct VolumeFacts {
 };
 
 /// Whether two volumes of a study have the same position and size, and differ only in time, echo or
-/// the like.
+/// the like: volumes of one series, or series whose descriptions differ only in their phase.
 bool arePhases(const VolumeFacts &a, const VolumeFacts &b);
 
 StudyFacts studyFacts(const dicom::Selection &selection);

@@ -84,6 +84,9 @@ std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogu
         source.volume = volumeFacts(s);
         for (const dicom::InstanceFile &file : s.series->files)
             source.files << QString::fromStdString(file.path.string());
+        if (s.volume->geometry.frameOffsetsMm.empty())
+            for (const dicom::FrameReference &frame : s.volume->frames)
+                source.slices << QString::fromStdString(frame.path.string());
         for (const dicom::InstanceFile &file : s.series->files) {
             const auto archive = catalogue->archiveOf(file.path);
             const auto lasting = QString::fromStdString(archive.value_or(file.path).string());

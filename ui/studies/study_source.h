@@ -29,6 +29,8 @@ struct StudySource {
     VolumeFacts volume;
     /// The files of its series; a phantom has a name instead.
     QStringList files;
+    /// The file of each slice, in their order; empty if slices are interpolated or not known yet.
+    QStringList slices;
     QString phantom;
     /// The paths that still exist after the program ends: for files in an archive, the archive.
     QStringList lasting;

@@ -7,14 +7,22 @@
 
 namespace pellucid::ui {
 
-/// A display window with the key that sets it.
+/// A display window of the user's list, for values of one unit.
 struct WindowPreset {
     volume::ValueWindow window;
-    int key = 0; ///< 1..9, 0 for none
+    volume::ValueUnit unit = volume::ValueUnit::hounsfield;
+    bool operator==(const WindowPreset &) const = default;
 };
 
-/// Brain, Abdomen, Mediastinum, Bone and Lung on 1 to 5, for volumes in HU; none for others.
-std::vector<WindowPreset> windowPresets(const volume::Volume &volume);
+inline constexpr std::size_t maxWindowPresets = 100;
+
+/// Brain, Abdomen, Mediastinum, Bone, Lung, Stroke, Subdural and Angiography for HU; three ranges
+/// for SUV.
+std::vector<WindowPreset> defaultWindowPresets();
+/// The user's list, from the settings; the defaults if there is none. Invalid entries are left out.
+std::vector<WindowPreset> windowPresets();
+/// Stores the user's list in the settings; the defaults are not stored.
+void storeWindowPresets(const std::vector<WindowPreset> &presets);
 
 /// The 0.5 to 99.5 % quantiles.
 volume::ValueWindow automaticWindow(const volume::Volume &volume);

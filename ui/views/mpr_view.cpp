@@ -4,9 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <QApplication>
+#include <QContextMenuEvent>
+#include <QHelpEvent>
 #include <QKeyEvent>
+#include <QLineF>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QToolTip>
 #include <QWheelEvent>
 
 #include <glm/geometric.hpp>
@@ -18,6 +23,7 @@
 #include "ui/views/overlay.h"
 #include "ui/views/plane_texts.h"
 #include "ui/views/slice_picture.h"
+#include "ui/views/tools/text_field.h"
 
 namespace pellucid::ui {
 
@@ -34,8 +40,7 @@ QImage pictureOf(const volume::Volume &volume, const mpr::Plane &plane,
                  const mpr::ResliceOptions &options, const volume::ValueWindow &window,
                  const std::optional<classify::TissueClass> &tint,
                  const std::vector<SegmentTint> &segments) {
-    QImage picture =
-        slicePicture(mpr::reslice(volume, plane, options), window, volume.notes().darkIsHigh, tint);
+    QImage picture = slicePicture(mpr::reslice(volume, plane, options), window, tint);
     if (!segments.empty()) {
         picture = picture.convertToFormat(QImage::Format_RGB32);
         tintSegments(picture, plane, volume.lattice(), segments);
@@ -102,6 +107,12 @@ void MprView::refreshTints() {
 void MprView::setTool(Tool tool) {
     m_tools.choose(tool);
     setCursor(m_tools.cursor());
+    update();
+}
+
+void MprView::setOverlays(const Overlays &overlays) {
+    m_overlays = overlays;
+    m_tools.setMeasurementsShown(overlays.texts);
     update();
 }
 
@@ -187,14 +198,15 @@ void MprView::paintEvent(QPaintEvent *) {
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
         painter.drawImage(QPoint(0, 0), m_image);
         painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
-        m_tools.paint(painter, surface());
-        paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, Names::shown);
+        m_tools.paint(painter, surface(), m_overlays);
+        if (m_overlays.texts)
+            paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, TextsFor::pane);
     } else if (m_document.volume()) {
         painter.setPen(colors.muted);
         painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
                          tr("Images only: not a volume"));
     } else {
-        paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, Names::shown);
+        paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, TextsFor::pane);
     }
     painter.fillRect(QRect(0, 0, width(), 3), colors.plane);
     if (hasFocus()) {
@@ -219,7 +231,7 @@ std::function<QImage()> MprView::pictureMaker(int scale) const {
 
 void MprView::paintOver(QPainter &painter, Names names) const {
     m_tools.paintPlain(painter, surface());
-    paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, names);
+    paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, TextsFor::person, names);
     const OverlayColors colors = overlayColors(colorRole(m_orientation));
     const int line = painter.fontMetrics().height() + 3;
     drawText(painter, rect().adjusted(8, 8 + line, -8, -8), Qt::AlignLeft | Qt::AlignTop,
@@ -228,12 +240,18 @@ void MprView::paintOver(QPainter &painter, Names names) const {
 
 void MprView::resizeEvent(QResizeEvent *) {
     m_imageValid = false;
+    emit viewMoved();
 }
 
 void MprView::mousePressEvent(QMouseEvent *event) {
     setFocus();
+    m_menuPress.reset();
+    if (event->button() == Qt::RightButton && !m_tools.isBusy())
+        m_menuPress = event->position();
     if (!showsVolume())
         return;
+    if (event->button() == Qt::RightButton && m_tools.finishFigure())
+        update();
     m_tools.press(event->button(), event->position());
     update();
 }
@@ -261,9 +279,25 @@ void MprView::mouseReleaseEvent(QMouseEvent *event) {
     else
         m_tools.cancel();
     update();
+    // A drag with the right button is no click.
+    if (event->button() == Qt::RightButton && m_menuPress &&
+        QLineF(*m_menuPress, event->position()).length() < QApplication::startDragDistance())
+        emit menuRequested(this, event->globalPosition().toPoint(),
+                           showsVolume() ? m_tools.measurementAt(event->position()) : -1);
+}
+
+void MprView::contextMenuEvent(QContextMenuEvent *event) {
+    if (event->reason() == QContextMenuEvent::Keyboard)
+        emit menuRequested(this, mapToGlobal(rect().center()), -1);
+    event->accept();
 }
 
 void MprView::mouseDoubleClickEvent(QMouseEvent *event) {
+    if (event->button() == Qt::LeftButton && showsVolume() &&
+        m_tools.doublePress(event->position())) {
+        update();
+        return;
+    }
     // A fast click for an angle's third point may arrive as a double-click.
     const bool marksRegions = m_document.marking().tool() != RegionTool::none;
     if (event->button() == Qt::LeftButton && !m_tools.isMeasuring() && !marksRegions)
@@ -300,6 +334,11 @@ void MprView::zoomBy(double factor) {
     moveView({std::clamp(m_view.zoom * factor, 0.2, 40.0), m_view.panMm});
 }
 
+void MprView::askForText(const QPointF &at, const QString &text,
+                         const std::function<void(const QString &)> &take) {
+    new TextField(*this, at, text, take);
+}
+
 void MprView::moveView(const View &view) {
     const bool isNew = !(view == m_view);
     m_view = view;
@@ -310,6 +349,38 @@ void MprView::moveView(const View &view) {
 
 void MprView::resetView() {
     moveView({});
+}
+
+// The pixels of both panes are of one size, and the crosshair is at the same place in both.
+void MprView::adoptScale(const MprView &other) {
+    if (!showsVolume() || !other.showsVolume())
+        return;
+    const mpr::Plane theirs = other.plane(), own = plane();
+    const auto offset = [](const mpr::Plane &plane, const Document &document) {
+        const glm::dvec3 mm = document.crosshair().mm - plane.center.mm;
+        return glm::dvec2(glm::dot(mm, plane.axes.right), glm::dot(mm, plane.axes.up));
+    };
+    // A pixel of the screen is as many mm, also on a screen of another density.
+    const double wantedMm = theirs.pixelMm * other.devicePixelRatioF() / devicePixelRatioF();
+    moveView({m_view.zoom * own.pixelMm / wantedMm,
+              m_view.panMm + offset(own, m_document) - offset(theirs, other.m_document)});
+}
+
+// The marks have no room for words.
+bool MprView::event(QEvent *event) {
+    if (event->type() == QEvent::ToolTip && m_document.volume()) {
+        const auto *const help = static_cast<QHelpEvent *>(event);
+        const volume::VolumeNotes &notes = m_document.volume()->notes();
+        if (m_overlays.texts &&
+            warningMarkRect(rect()).adjusted(0, -20, 0, 0).contains(help->pos()) &&
+            !notes.warnings.empty()) {
+            QToolTip::showText(help->globalPos(),
+                               warningLines(notes, Names::shown, notes.warnings.size()).join('\n'),
+                               this);
+            return true;
+        }
+    }
+    return QWidget::event(event);
 }
 
 void MprView::wheelEvent(QWheelEvent *event) {
@@ -349,6 +420,13 @@ void MprView::keyPressEvent(QKeyEvent *event) {
         break;
     case Qt::Key_R:
         resetView();
+        break;
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+        if (m_tools.finishFigure())
+            update();
+        else
+            QWidget::keyPressEvent(event);
         break;
     case Qt::Key_Escape:
         if (!m_tools.isBusy()) {

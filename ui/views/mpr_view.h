@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include <QElapsedTimer>
 #include <QImage>
@@ -50,10 +51,15 @@ public:
     };
     const View &view() const { return m_view; }
     void moveView(const View &view);
+    /// Shows mm as large as another pane of the same plane does, with the crosshair at its place.
+    void adoptScale(const MprView &other);
+    void setOverlays(const Overlays &overlays);
 
 signals:
-    /// Zoomed or panned.
+    /// Zoomed, panned or resized.
     void viewMoved();
+    /// `measurement`: the one under the mouse, or -1.
+    void menuRequested(QWidget *pane, const QPoint &globalAt, int measurement);
     void maximizeRequested(QWidget *pane);
     /// The position and value under the cursor; an empty text when there is none.
     void readoutChanged(const QString &text);
@@ -68,6 +74,8 @@ protected:
     void wheelEvent(QWheelEvent *event) override;
     void keyPressEvent(QKeyEvent *event) override;
     void leaveEvent(QEvent *event) override;
+    void contextMenuEvent(QContextMenuEvent *event) override;
+    bool event(QEvent *event) override;
 
 private:
     bool showsVolume() const;
@@ -83,11 +91,15 @@ private:
     double reachMm() const override;
     void panBy(const QPoint &delta) override;
     void zoomBy(double factor) override;
+    void askForText(const QPointF &at, const QString &text,
+                    const std::function<void(const QString &)> &take) override;
 
     Document &m_document;
     const mpr::Orientation m_orientation;
     PlaneTools m_tools;
     View m_view;
+    Overlays m_overlays;
+    std::optional<QPointF> m_menuPress; ///< of the right button
     /// The lattice of the last volume, which may have been a preview.
     volume::Lattice m_lattice;
     bool m_wasPreview = false;

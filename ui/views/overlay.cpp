@@ -48,9 +48,45 @@ OverlayColors overlayColors(const QString &planeRole) {
             dark.color("warning"), dark.color("curve")};
 }
 
+QRect warningMarkRect(const QRect &area) {
+    return {area.right() - 41, area.bottom() - 25, 34, 18};
+}
+
+void drawWarningMark(QPainter &painter, const QRect &area, std::size_t count,
+                     const OverlayColors &colors) {
+    const QRect place = warningMarkRect(area);
+    const QPointF top(place.right() - 8.0, place.top() + 2.5);
+    QPainterPath sign(top);
+    sign.lineTo(top + QPointF(7.5, 13.0));
+    sign.lineTo(top + QPointF(-7.5, 13.0));
+    sign.closeSubpath();
+    painter.save();
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(QColor(0, 0, 0, 190), 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.drawPath(sign);
+    painter.setPen(QPen(colors.warning, 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.setBrush(QColor(0, 0, 0, 110));
+    painter.drawPath(sign);
+    painter.drawLine(top + QPointF(0.0, 4.5), top + QPointF(0.0, 8.2));
+    painter.drawPoint(top + QPointF(0.0, 10.6));
+    painter.restore();
+    if (count > 1)
+        drawText(painter, place.adjusted(0, 0, -20, 0), Qt::AlignRight | Qt::AlignVCenter,
+                 QString::number(count), colors.warning);
+}
+
 void drawText(QPainter &painter, const QRect &area, int flags, const QString &text,
               const QColor &color) {
-    painter.setPen(color.lightness() > 110 ? QColor(0, 0, 0, 190) : QColor(255, 255, 255, 210));
+    // On bone, a thin outline is not enough: a faint one around it separates text and picture.
+    const bool isLight = color.lightness() > 110;
+    QColor outline = isLight ? QColor(0, 0, 0) : QColor(255, 255, 255);
+    outline.setAlpha(70);
+    painter.setPen(outline);
+    for (const QPoint &offset : {QPoint(-2, 0), QPoint(2, 0), QPoint(0, -2), QPoint(0, 2),
+                                 QPoint(-1, -1), QPoint(1, -1), QPoint(-1, 1), QPoint(1, 1)})
+        painter.drawText(area.translated(offset), flags, text);
+    outline.setAlpha(isLight ? 190 : 210);
+    painter.setPen(outline);
     for (const QPoint &offset : {QPoint(-1, 0), QPoint(1, 0), QPoint(0, -1), QPoint(0, 1)})
         painter.drawText(area.translated(offset), flags, text);
     painter.setPen(color);

@@ -31,6 +31,13 @@ OverlayColors filmColors(const QString &planeRole);
 /// Whether texts may contain names: file names and names of looks can identify a patient.
 enum class Names { shown, hidden };
 
+/// What is drawn over the pictures of a pane.
+struct Overlays {
+    bool texts = true; ///< and letters, scale, measurements, warnings
+    bool crosshair = true;
+    bool operator==(const Overlays &) const = default;
+};
+
 /// The first `most` warnings of a volume, one per line. With hidden names, only a note that there
 /// are warnings.
 QStringList warningLines(const volume::VolumeNotes &notes, Names names, std::size_t most);
@@ -53,6 +60,13 @@ std::optional<glm::dvec3> cubeSideAt(const QPointF &at, QPointF center, double r
 /// Draws a cube with the patient's letters as the viewer sees it; `axes` are [U V W].
 void drawOrientationCube(QPainter &painter, QPointF center, double radius, const glm::dmat3 &axes,
                          const OverlayColors &colors);
+
+/// The place of the warning mark of a pane.
+QRect warningMarkRect(const QRect &area);
+/// Draws a small sign with the number of warnings about the volume. Their texts are in the list of
+/// studies and in the tooltip of the mark.
+void drawWarningMark(QPainter &painter, const QRect &area, std::size_t count,
+                     const OverlayColors &colors);
 
 /// Draws text with an outline, legible on any picture.
 void drawText(QPainter &painter, const QRect &area, int flags, const QString &text,

@@ -126,6 +126,18 @@ void PaneArea::toggleMaximized(QWidget *pane) {
     setArrangement(next);
 }
 
+void PaneArea::showAlone(QWidget *pane) {
+    if (pane == nullptr && !m_isAlone)
+        return;
+    Arrangement next = m_arrangement;
+    next.maximized.reset();
+    if (pane != nullptr)
+        next.maximized =
+            std::size_t(std::find(m_panes.begin(), m_panes.end(), pane) - m_panes.begin());
+    setArrangement(next);
+    m_isAlone = pane != nullptr;
+}
+
 void PaneArea::arrangeAs(const PaneArea &other) {
     setArrangement(other.m_arrangement);
 }
@@ -169,6 +181,8 @@ void PaneArea::resizeEvent(QResizeEvent *) {
 void PaneArea::setArrangement(const Arrangement &arrangement) {
     if (arrangement == m_arrangement)
         return;
+    if (arrangement.maximized != m_arrangement.maximized)
+        m_isAlone = false;
     const bool isResizedOnly = arrangement.layout == m_arrangement.layout &&
                                arrangement.maximized == m_arrangement.maximized;
     m_arrangement = arrangement;

@@ -28,6 +28,10 @@ public:
     void setPaneLayout(PaneLayout layout);
     /// Fills the area with a pane, or shows all panes again if that pane already fills it.
     void toggleMaximized(QWidget *pane);
+    /// Shows one pane until the user shows all of them, or until this is called again; null: all of
+    /// them, unless the user has maximized one.
+    void showAlone(QWidget *pane);
+    bool isMaximized() const { return m_arrangement.maximized.has_value(); }
     /// Takes over the layout, the sizes and the maximized pane of another area.
     void arrangeAs(const PaneArea &other);
     /// Discards the sizes that the user gave to the panes of the current layout.
@@ -62,6 +66,7 @@ private:
     std::array<QWidget *, 4> m_panes;
     QSplitter *m_columns, *m_left, *m_right;
     Arrangement m_arrangement;
+    bool m_isAlone = false; ///< the maximized pane was not the user's choice
 };
 
 } // namespace pellucid::ui

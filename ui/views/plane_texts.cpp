@@ -11,6 +11,7 @@
 
 #include "core/scene/camera.h"
 #include "ui/document/document.h"
+#include "ui/language/number_text.h"
 #include "ui/views/crosshair.h"
 #include "ui/views/overlay.h"
 
@@ -71,6 +72,27 @@ bool paintGapEdges(QPainter &painter, const QRect &area, const PaneMapping &mapp
     return isInside;
 }
 
+// "45 / 124": which of the positions that the plane scrolls through; empty for a single one.
+QString sliceText(const Document &document, const glm::dvec3 &axis) {
+    const volume::Volume &volume = *document.volume();
+    if (!volume.notes().placed) // the position is the number of the image
+        return {};
+    const mpr::ScrollRange range = mpr::scrollRange(volume.lattice(), axis);
+    const auto numberAt = [&](double mm) {
+        return 1 + int(std::lround((mm - range.lowMm) / range.stepMm));
+    };
+    const int count = numberAt(range.highMm);
+    const int number =
+        std::clamp(numberAt(glm::dot(document.crosshair().mm, axis)), 1, std::max(1, count));
+    return count > 1 ? QString("%1 / %2").arg(number).arg(count) : QString();
+}
+
+QString windowText(const Document &document) {
+    const volume::ValueWindow &window = document.displayWindow();
+    return PlaneTextsTexts::tr("W %1  C %2", "window width and center")
+        .arg(numberText(window.width), numberText(window.center));
+}
+
 } // namespace
 
 QString planeTitle(mpr::Orientation o) {
@@ -90,18 +112,19 @@ QString valueText(const volume::Volume &volume, volume::PatientPoint at,
     const float value = mpr::valueAt(volume, at, interpolation);
     if (std::isnan(value))
         return {};
-    const bool hounsfield = volume.unit() == volume::ValueUnit::hounsfield;
     QString text = volume.notes().placed ? QString("%1  %2  %3 mm   ")
                                                .arg(coordinateText({1, 0, 0}, at.mm.x),
                                                     coordinateText({0, 1, 0}, at.mm.y),
                                                     coordinateText({0, 0, 1}, at.mm.z))
                                          : QString();
-    return text + QString::number(double(value), 'f', hounsfield || !volume.isFloat() ? 0 : 3) +
-           (hounsfield ? " HU" : "");
+    const bool isWhole = volume.unit() == volume::ValueUnit::hounsfield || !volume.isFloat();
+    return text + (isWhole ? QString::number(double(value), 'f', 0) : numberText(double(value))) +
+           unitSuffix(volume.unit());
 }
 
 void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &mapping,
-                     const Document &document, mpr::Orientation orientation, Names names) {
+                     const Document &document, mpr::Orientation orientation, TextsFor reader,
+                     Names names) {
     const OverlayColors colors = overlayColors(colorRole(orientation));
     const QRect inner = area.adjusted(8, 8, -8, -8);
     const Cut &cut = document.cut();
@@ -129,16 +152,25 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
                                document.volume()->lattice().voxel(document.crosshair()).v.z)));
     drawText(painter, inner, Qt::AlignRight | Qt::AlignTop, position, colors.text);
     int lines = 1; // used at the top right
+    if (const QString slice = sliceText(document, axis); !slice.isEmpty())
+        drawText(painter, inner.adjusted(0, line * lines++, 0, 0), Qt::AlignRight | Qt::AlignTop,
+                 slice, colors.text);
+    // The text must not reach the letter in the middle.
+    const auto fitsBesideLetter = [&](const QString &text) {
+        return painter.fontMetrics().horizontalAdvance(text) < inner.width() / 2 - line;
+    };
+    if (const QString window = windowText(document); fitsBesideLetter(window))
+        drawText(painter, inner.adjusted(0, line, 0, 0), Qt::AlignLeft | Qt::AlignTop, window,
+                 colors.muted);
     if (cut.options.slab.thicknessMm > 0.0)
         drawText(painter, inner.adjusted(0, line * lines++, 0, 0), Qt::AlignRight | Qt::AlignTop,
                  slabText(cut.options.slab), colors.text);
     if (paintGapEdges(painter, area, mapping, *document.volume(), document.crosshair(),
                       colors.warning)) {
-        // The text must not reach the letter in the middle.
         const QString whole = PlaneTextsTexts::tr("interpolated: no image acquired here");
-        const bool fits = painter.fontMetrics().horizontalAdvance(whole) < inner.width() / 2 - line;
         drawText(painter, inner.adjusted(0, line * lines, 0, 0), Qt::AlignRight | Qt::AlignTop,
-                 fits ? whole : PlaneTextsTexts::tr("interpolated"), colors.warning);
+                 fitsBesideLetter(whole) ? whole : PlaneTextsTexts::tr("interpolated"),
+                 colors.warning);
     }
     if (notes.placed)
         drawOrientationLetters(painter, area, mapping.plane.axes.right, mapping.plane.axes.up,
@@ -146,7 +178,11 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
     if (notes.hasSpacing)
         drawScaleBar(painter, QPoint(10, area.bottom() - 9), mapping.pixelsPerMm(),
                      std::min(110, area.width() / 2 - 74), colors);
-    if (const QStringList warnings = warningLines(notes, names, 1); !warnings.isEmpty())
+    if (reader == TextsFor::pane && !notes.warnings.empty())
+        drawWarningMark(painter, notes.lossy ? area.adjusted(0, 0, 0, -line) : area,
+                        notes.warnings.size(), colors);
+    if (const QStringList warnings = warningLines(notes, names, 1);
+        reader == TextsFor::person && !warnings.isEmpty())
         drawText(painter, inner.adjusted(0, 0, 0, -16), Qt::AlignRight | Qt::AlignBottom,
                  painter.fontMetrics().elidedText(warnings.front(), Qt::ElideRight,
                                                   area.width() / 2 - 16),

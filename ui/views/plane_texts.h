@@ -21,8 +21,16 @@ QString planeTitle(mpr::Orientation orientation);
 QString valueText(const volume::Volume &volume, volume::PatientPoint at,
                   mpr::Interpolation interpolation);
 
-/// Paints the texts over a plane: name, position, slab, orientation letters, scale and warnings.
+/// Where texts over a plane are read.
+enum class TextsFor {
+    pane,  ///< warnings are a mark
+    person ///< in an exported picture: with the words of its warnings, as far as names allow
+};
+
+/// Paints the texts over a plane: name, position, slice, window, slab, orientation letters, scale
+/// and warnings.
 void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &mapping,
-                     const Document &document, mpr::Orientation orientation, Names names);
+                     const Document &document, mpr::Orientation orientation, TextsFor reader,
+                     Names names = Names::shown);
 
 } // namespace pellucid::ui

@@ -46,6 +46,11 @@ void ProjectionOverlay::setShowsCrosshair(bool isShown) {
     update();
 }
 
+void ProjectionOverlay::setOverlays(const Overlays &overlays) {
+    m_overlays = overlays;
+    update();
+}
+
 void ProjectionOverlay::setComparison(const QImage &picture, const QString &name) {
     m_comparison = picture;
     m_comparedName = name;
@@ -83,6 +88,15 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping, Mar
     painter.fillRect(QRect(0, 0, width(), 3), colors.plane);
     const QRect inner = rect().adjusted(10, 8, -10, -8);
     const int line = painter.fontMetrics().height() + 3;
+    const auto paintMessage = [&] {
+        painter.setPen(colors.muted);
+        painter.drawText(inner.adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,
+                         m_texts.message);
+    };
+    if (marks != Marks::plain && !m_overlays.texts) {
+        paintMessage();
+        return;
+    }
     painter.save();
     QFont bold = painter.font();
     bold.setBold(true);
@@ -99,10 +113,13 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping, Mar
         return;
     if (names == Names::shown)
         drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, m_texts.lookName, colors.text);
-    // Warnings about the geometry belong on every picture.
+    // Warnings about the geometry belong on every picture; in the window, a mark does.
     QRect warning = second.adjusted(0, line, -width() / 2 - 24, 0);
     const volume::VolumeNotes &notes = m_document.volume()->notes();
-    for (const QString &w : warningLines(notes, names, notes.warnings.size())) {
+    const bool areWords = marks == Marks::plain;
+    if (!areWords && !notes.warnings.empty())
+        drawWarningMark(painter, markArea(), notes.warnings.size(), colors);
+    for (const QString &w : warningLines(notes, names, areWords ? notes.warnings.size() : 0)) {
         drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
                  painter.fontMetrics().elidedText(w, Qt::ElideRight, warning.width()),
                  colors.warning);
@@ -111,13 +128,18 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping, Mar
     if (!m_document.scene().crop.isWhole()) // nobody may take a part for the whole
         drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
                  QCoreApplication::translate("ProjectionView", "Cropped"), colors.warning);
-    if (!m_texts.message.isEmpty()) {
-        painter.setPen(colors.muted);
-        painter.drawText(inner.adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,
-                         m_texts.message);
-    }
+    paintMessage();
     if (!m_texts.figures.isEmpty())
         paintPicture(painter, mapping, marks);
+}
+
+// Above the line at the bottom.
+QRect ProjectionOverlay::markArea() const {
+    return rect().adjusted(0, 0, 0, -fontMetrics().height() - 28);
+}
+
+bool ProjectionOverlay::isOnWarnings(const QPoint &at) const {
+    return m_overlays.texts && warningMarkRect(markArea()).contains(at);
 }
 
 QPointF ProjectionOverlay::cubeCenter() const {
@@ -131,7 +153,7 @@ QRect ProjectionOverlay::anglesRect(const QFontMetrics &metrics, const QString &
 
 std::optional<glm::dvec3> ProjectionOverlay::cubeSideAt(const QPointF &at) const {
     const mpr::Axes &seen = m_mapping.plane.axes;
-    if (m_texts.figures.isEmpty())
+    if (m_texts.figures.isEmpty() || !m_overlays.texts)
         return std::nullopt;
     return ui::cubeSideAt(at, cubeCenter(), cubeRadius, {seen.right, seen.up, seen.toViewer()});
 }
@@ -139,7 +161,8 @@ std::optional<glm::dvec3> ProjectionOverlay::cubeSideAt(const QPointF &at) const
 bool ProjectionOverlay::isOnAngles(const QPointF &at) const {
     const mpr::Axes &seen = m_mapping.plane.axes;
     const QString text = anglesOf({seen.right, seen.up, seen.toViewer()});
-    return !m_texts.figures.isEmpty() && anglesRect(fontMetrics(), text).contains(at.toPoint());
+    return !m_texts.figures.isEmpty() && m_overlays.texts &&
+           anglesRect(fontMetrics(), text).contains(at.toPoint());
 }
 
 // The pivot of turning.
@@ -155,7 +178,13 @@ void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mappi
                                      Marks marks) const {
     const OverlayColors colors = this->colors();
     const int line = painter.fontMetrics().height() + 3;
-    if (marks != Marks::plain) // a printed picture needs no times
+    // A printed picture needs no times, and a narrow pane has no room for them.
+    const QFontMetrics metrics = painter.fontMetrics();
+    const bool fits = metrics.horizontalAdvance(m_texts.figures) <
+                      width() - 40 -
+                          2 * metrics.horizontalAdvance(
+                                  QCoreApplication::translate("ProjectionView", "Projection"));
+    if (marks != Marks::plain && fits)
         drawText(painter, rect().adjusted(10, 8, -10, -8), Qt::AlignRight | Qt::AlignTop,
                  m_texts.figures, colors.text);
     const mpr::Axes &seen = mapping.plane.axes;
@@ -171,7 +200,7 @@ void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mappi
                  width() - barLeft - 60, colors);
     if (!m_comparison.isNull())
         return; // two pictures have no common positions
-    if (m_showsCrosshair && marks != Marks::plain)
+    if (m_showsCrosshair && m_overlays.crosshair && marks != Marks::plain)
         paintCrosshair(painter, mapping);
     m_tools.paint(painter, {mapping, rect(), colors}, marks);
 }

@@ -30,13 +30,16 @@ public:
     void setTexts(const Texts &texts);
     void setMapping(const PaneMapping &mapping);
     void setShowsCrosshair(bool isShown);
+    void setOverlays(const Overlays &overlays);
     /// Covers the canvas with a picture; null: with none. `name`: of the look at its left.
     void setComparison(const QImage &picture, const QString &name);
     /// The side of the orientation cube at a position, see ui::cubeSideAt.
     std::optional<glm::dvec3> cubeSideAt(const QPointF &at) const;
     /// Whether a position is on the angles of the view, beside the cube.
     bool isOnAngles(const QPointF &at) const;
-    bool takesClick(const QPointF &at) const { return isOnAngles(at) || cubeSideAt(at); }
+    /// Whether a position is on the mark of the warnings.
+    bool isOnWarnings(const QPoint &at) const;
+    bool isClickable(const QPointF &at) const { return isOnAngles(at) || cubeSideAt(at); }
     /// Paints the annotations over any picture of the pane's size.
     void paint(QPainter &painter, const PaneMapping &mapping, Marks marks, Names names) const;
 
@@ -47,6 +50,7 @@ private:
     void paintPicture(QPainter &painter, const PaneMapping &mapping, Marks marks) const;
     OverlayColors colors() const;
     QPointF cubeCenter() const;
+    QRect markArea() const;
     QRect anglesRect(const QFontMetrics &metrics, const QString &text) const;
     void paintCrosshair(QPainter &painter, const PaneMapping &mapping) const;
 
@@ -56,6 +60,7 @@ private:
     QImage m_comparison;
     QString m_comparedName;
     bool m_showsCrosshair = false;
+    Overlays m_overlays;
     PaneMapping m_mapping;
 };
 

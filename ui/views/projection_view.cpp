@@ -94,6 +94,7 @@ void ProjectionView::forgetVolume() {
         return;
     m_frame.reset();
     m_fitsNext = true;
+    m_body = {};
     m_drawnShading = {};
     m_message = m_document.volume() ? tr("Preparing the projection") : QString();
     m_canvas->setImage(nullptr);
@@ -267,6 +268,7 @@ void ProjectionView::requestFrame(bool moving) {
     std::optional<RenderWorker::Exposed> exposed;
     if (m_tone.isWanted())
         exposed = {lattice.radiusMm(), m_document.scene().tone,
+                   picture::ToneSubject(m_document.scene()),
                    picture::backgroundOf(*m_document.volume())};
     m_requested =
         m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
@@ -283,12 +285,15 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     if (m_tone.isWanted() && !frame->exposure)
         return;
     if (frame->exposure) {
-        const scene::Tone &tone = m_document.scene().tone;
         m_tone.take(*frame->exposure);
-        // The contrast was changed meanwhile: the next frame, which is under way, measures again.
-        if (frame->exposedTone.detail != tone.detail ||
-            frame->exposedTone.latitude != tone.latitude)
+        // Another request, which measured again, may have been replaced meanwhile. Weights that
+        // move keep the exposure.
+        picture::ToneSubject now(m_document.scene());
+        now.look = frame->exposed.look;
+        if (now != frame->exposed) {
             m_tone.retake();
+            requestFrame(m_rest.isActive());
+        }
     }
     if (std::exchange(m_fitsNext, false)) {
         m_body = m_tone.exposure();

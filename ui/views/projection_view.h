@@ -70,6 +70,7 @@ public:
     /// upright.
     void setTurnsFreely(bool isFree) { m_turnsFreely = isFree; }
     bool turnsFreely() const { return m_turnsFreely; }
+    void setOverlays(const Overlays &overlays);
     /// Shows the look before the last edit beside the present one.
     void setComparing(bool isComparing);
     bool isComparing() const { return m_isComparing; }
@@ -97,6 +98,8 @@ public:
 
 signals:
     void maximizeRequested(QWidget *pane);
+    /// `measurement`: the one under the mouse, or -1.
+    void menuRequested(QWidget *pane, const QPoint &globalAt, int measurement);
     /// The angles beside the cube were clicked.
     void anglesRequested();
     /// Engine and reason for the status bar.
@@ -117,6 +120,7 @@ protected:
     void wheelEvent(QWheelEvent *event) override;
     void keyPressEvent(QKeyEvent *event) override;
     void leaveEvent(QEvent *event) override;
+    void contextMenuEvent(QContextMenuEvent *event) override;
     bool event(QEvent *event) override;
 
 private:
@@ -141,6 +145,8 @@ private:
     double reachMm() const override { return 0.0; } // a picture has no depth
     void panBy(const QPoint &delta) override;
     void zoomBy(double factor) override;
+    void askForText(const QPointF &at, const QString &text,
+                    const std::function<void(const QString &)> &take) override;
     bool showsPicture() const override { return m_frame != nullptr; }
     bool canMove() const override { return m_prepared.has_value(); }
     void orbitBy(const QPoint &delta) override;
@@ -178,6 +184,7 @@ private:
     bool m_isMoving = false; ///< while moveTo sets the pose
     bool m_pending = false;
     bool m_isComparing = false;
+    std::optional<QPointF> m_menuPress; ///< of the right button
     PlanState m_planState = PlanState::holds;
     std::uint64_t m_requested = 0, m_generation = 0;
 };

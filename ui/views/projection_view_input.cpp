@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mouse, wheel and keys of the projection.
+#include <QApplication>
+#include <QContextMenuEvent>
+#include <QHelpEvent>
 #include <QKeyEvent>
+#include <QLineF>
 #include <QMouseEvent>
+#include <QToolTip>
 #include <QWheelEvent>
 
 #include "core/scene/positioner_angles.h"
@@ -9,6 +14,7 @@
 #include "ui/views/camera_moves.h"
 #include "ui/views/projection_overlay.h"
 #include "ui/views/projection_view.h"
+#include "ui/views/tools/text_field.h"
 #include "ui/views/view_keys.h"
 
 namespace pellucid::ui {
@@ -27,8 +33,16 @@ void ProjectionView::showCursor() {
 
 void ProjectionView::mousePressEvent(QMouseEvent *event) {
     setFocus();
-    if (m_tools.isMarking() ||
-        (event->button() == Qt::LeftButton && pressOnCube(event->position())))
+    m_menuPress.reset();
+    if (event->button() == Qt::RightButton) {
+        if (m_tools.finishFigure()) {
+            m_overlay->update();
+            return;
+        }
+        if (!m_tools.isMarking())
+            m_menuPress = event->position();
+    }
+    if (event->button() == Qt::LeftButton && !m_tools.isMarking() && pressOnCube(event->position()))
         return;
     m_tools.press(event->button(), event->position());
     if (m_tools.isMarking())
@@ -43,7 +57,7 @@ void ProjectionView::mouseMoveEvent(QMouseEvent *event) {
     if (m_tools.isMarking() || isHovering)
         m_overlay->update();
     if (event->buttons() == Qt::NoButton && !m_tools.isMarking()) {
-        if (m_overlay->takesClick(event->position()))
+        if (m_overlay->isClickable(event->position()))
             setCursor(Qt::PointingHandCursor);
         else
             showCursor();
@@ -67,12 +81,32 @@ void ProjectionView::mouseReleaseEvent(QMouseEvent *event) {
     m_tools.release(event->button(), event->position());
     showCursor();
     m_overlay->update();
+    // A drag with the right button sets the brightness.
+    if (event->button() == Qt::RightButton && m_menuPress &&
+        QLineF(*m_menuPress, event->position()).length() < QApplication::startDragDistance())
+        emit menuRequested(this, event->globalPosition().toPoint(),
+                           m_tools.measurementAt(event->position()));
+}
+
+void ProjectionView::contextMenuEvent(QContextMenuEvent *event) {
+    if (event->reason() == QContextMenuEvent::Keyboard)
+        emit menuRequested(this, mapToGlobal(rect().center()), -1);
+    event->accept();
+}
+
+void ProjectionView::setOverlays(const Overlays &overlays) {
+    m_overlay->setOverlays(overlays);
+    m_tools.setMeasurementsShown(overlays.texts);
 }
 
 void ProjectionView::mouseDoubleClickEvent(QMouseEvent *event) {
+    if (event->button() == Qt::LeftButton && m_tools.doublePress(event->position())) {
+        m_overlay->update();
+        return;
+    }
     // With a tool for regions, two fast clicks are two regions; on the cube they are two turns.
-    if (event->button() == Qt::LeftButton && !m_tools.marksRegions() &&
-        !m_overlay->takesClick(event->position()))
+    if (event->button() == Qt::LeftButton && !m_tools.marksRegions() && !m_tools.isMarking() &&
+        !m_overlay->isClickable(event->position()))
         emit maximizeRequested(this);
     else
         mousePressEvent(event);
@@ -96,6 +130,11 @@ void ProjectionView::zoomBy(double factor) {
     moveTo(zoomed(m_document.pose(), factor), true);
 }
 
+void ProjectionView::askForText(const QPointF &at, const QString &text,
+                                const std::function<void(const QString &)> &take) {
+    new TextField(*this, at, text, take);
+}
+
 void ProjectionView::wheelEvent(QWheelEvent *event) {
     if (event->angleDelta().y() != 0)
         zoomBy(event->angleDelta().y() > 0 ? 1.15 : 1.0 / 1.15);
@@ -106,6 +145,16 @@ bool ProjectionView::event(QEvent *event) {
     // The new screen may have another pixel ratio, which does not resize the pane.
     if (event->type() == QEvent::ScreenChangeInternal)
         m_document.setProjectionSize(sizeInPixels());
+    if (event->type() == QEvent::ToolTip && m_document.volume()) {
+        const auto *const help = static_cast<QHelpEvent *>(event);
+        const volume::VolumeNotes &notes = m_document.volume()->notes();
+        if (!notes.warnings.empty() && m_overlay->isOnWarnings(help->pos())) {
+            QToolTip::showText(help->globalPos(),
+                               warningLines(notes, Names::shown, notes.warnings.size()).join('\n'),
+                               this);
+            return true;
+        }
+    }
     // Here the digits of the keypad choose standard views, not window presets.
     if (event->type() == QEvent::ShortcutOverride &&
         (static_cast<QKeyEvent *>(event)->modifiers() & Qt::KeypadModifier) != 0) {
@@ -126,6 +175,9 @@ void ProjectionView::keyPressEvent(QKeyEvent *event) {
         orbitBy({event->key() == Qt::Key_Left ? -11 : 11, 0}); // about five degrees
     else if (event->key() == Qt::Key_Up || event->key() == Qt::Key_Down)
         orbitBy({0, event->key() == Qt::Key_Up ? -11 : 11});
+    else if ((event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) &&
+             m_tools.finishFigure())
+        m_overlay->update();
     else if (event->key() == Qt::Key_Escape && m_tools.isMarking()) {
         m_tools.cancel();
         m_overlay->update();

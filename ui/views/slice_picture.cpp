@@ -23,7 +23,7 @@ QRgb tinted(uchar grey, const classify::TissueClass &tint, double value) {
 } // namespace
 
 QImage slicePicture(const mpr::SliceImage &slice, const volume::ValueWindow &window,
-                    bool darkIsHigh, const std::optional<classify::TissueClass> &tint) {
+                    const std::optional<classify::TissueClass> &tint) {
     QImage image(slice.width, slice.height,
                  tint ? QImage::Format_RGB32 : QImage::Format_Grayscale8);
     const auto low = float(window.center - 0.5 * window.width), scale = float(255.0 / window.width);
@@ -36,7 +36,9 @@ QImage slicePicture(const mpr::SliceImage &slice, const volume::ValueWindow &win
         for (int c = 0; c < slice.width; ++c) {
             const bool isOutside = std::isnan(in[c]);
             const float bright = std::clamp((in[c] - low) * scale, 0.0F, 255.0F);
-            const auto grey = uchar(isOutside ? 0.0F : darkIsHigh ? 255.0F - bright : bright);
+            const auto grey = uchar(isOutside           ? 0.0F
+                                    : window.isInverted ? 255.0F - bright
+                                                        : bright);
             if (tint)
                 pixels[c] = isOutside ? qRgb(0, 0, 0) : tinted(grey, *tint, double(in[c]));
             else

@@ -13,6 +13,6 @@ namespace pellucid::ui {
 /// Shows values through a window as grey, tinted with a class's color by their membership. Outside
 /// the volume is black, inverted or not.
 QImage slicePicture(const mpr::SliceImage &slice, const volume::ValueWindow &window,
-                    bool darkIsHigh, const std::optional<classify::TissueClass> &tint);
+                    const std::optional<classify::TissueClass> &tint);
 
 } // namespace pellucid::ui

@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/file_menu.h"
 
+#include <cmath>
+#include <memory>
+
 #include <QAction>
+#include <QClipboard>
+#include <QDateTime>
 #include <QFileInfo>
+#include <QGuiApplication>
+#include <QLocale>
 #include <QMenu>
+#include <QPrintDialog>
+#include <QPrinter>
 
 #include "core/task/error.h"
 #include "ui/document/add_command.h"
 #include "ui/document/commands.h"
 #include "ui/export/export_dialog.h"
+#include "ui/export/print_picture.h"
 #include "ui/export/scene_files.h"
 #include "ui/export/segment_writer.h"
+#include "ui/panels/header_dialog.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/views/projection_view.h"
 #include "ui/window/import_dialog.h"
@@ -60,8 +71,16 @@ FileMenu::FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &
     add(menu, tr("&Export picture..."), "exportPictureAction", QKeySequence("Ctrl+E"), [this] {
         exportPicture();
     })->setIconText(tr("Export"));
+    add(menu, tr("Cop&y picture"), "copyPictureAction", QKeySequence::Copy,
+        [this] { copyPicture(); });
+    add(menu, tr("Pri&nt..."), "printAction", QKeySequence::Print, [this] { printPicture(); });
     add(menu, tr("Export &measurements..."), "exportMeasurementsAction", {},
         [this] { exportMeasurements(); });
+    QAction *const header = add(menu, tr("&DICOM header..."), "headerAction",
+                                QKeySequence("Ctrl+D"), [this] { showHeader(); });
+    connect(&bench.study.document, &Document::volumeChanged, this,
+            [this, header] { header->setEnabled(!headerFiles().isEmpty()); });
+    header->setEnabled(!headerFiles().isEmpty());
     menu.addSeparator();
     add(menu, tr("P&references..."), "preferencesAction", QKeySequence("Ctrl+,"),
         [this] { emit preferencesRequested(); });
@@ -153,6 +172,87 @@ void FileMenu::exportPicture() {
             [this](const std::shared_ptr<const dicom::Catalogue> &capture) {
                 m_bench.study.document.addSources(sourcesFrom(capture));
             });
+    dialog->show();
+}
+
+void FileMenu::copyPicture() {
+    withPicture(1, tr("Copying the picture"), [this](const QImage &picture) {
+        QGuiApplication::clipboard()->setImage(picture);
+        emit messageShown(tr("Copied the picture"));
+    });
+}
+
+void FileMenu::printPicture() {
+    // Enough pixels for a page of paper.
+    withPicture(2, tr("Making the picture"), [this](const QImage &picture) {
+        const Document &document = m_bench.study.document;
+        const int open = document.currentSource();
+        if (open < 0)
+            return;
+        const StudySource &source = document.sources()[std::size_t(open)];
+        const PrintedPage page{
+            picture,
+            patientText(source.study) + ", " + studyText(source.study) + ", " +
+                seriesText(source.volume),
+            tr("Pellucid, printed %1. Not for diagnostic use.")
+                .arg(QLocale().toString(QDateTime::currentDateTime(), QLocale::ShortFormat))};
+        auto printer = std::make_shared<QPrinter>(QPrinter::HighResolution);
+        printer->setPageOrientation(picture.width() > picture.height() ? QPageLayout::Landscape
+                                                                       : QPageLayout::Portrait);
+        auto *dialog = new QPrintDialog(printer.get(), &m_window);
+        dialog->setObjectName("printDialog");
+        dialog->setAttribute(Qt::WA_DeleteOnClose);
+        dialog->setWindowTitle(tr("Print the picture"));
+        connect(dialog, qOverload<QPrinter *>(&QPrintDialog::accepted), this,
+                [this, page, printer](QPrinter *) {
+                    emit messageShown(print(page, *printer) ? tr("Sent to the printer")
+                                                            : tr("The printer is not available"));
+                });
+        // The dialog refers to the printer as long as it exists.
+        connect(dialog, &QObject::destroyed, this, [printer] {});
+        dialog->open();
+    });
+}
+
+void FileMenu::withPicture(int scale, const QString &title,
+                           const std::function<void(const QImage &)> &use) {
+    PictureExport what;
+    what.pane = m_panes.current();
+    what.scale = scale;
+    attempt([&] {
+        m_bench.exports.start(
+            title,
+            [make = pictureMaker(what, m_panes, m_bench.study.document), use](const Job &job) {
+                const QImage picture = make(job.progress());
+                job.deliver([picture, use] { use(picture); });
+            },
+            [this](const Outcome &outcome) {
+                if (outcome.kind == Outcome::Kind::failed)
+                    emit failed(*outcome.reason, outcome.path);
+            });
+    });
+}
+
+// In the order of the slices, if every file is a slice.
+QStringList FileMenu::headerFiles() const {
+    const Document &document = m_bench.study.document;
+    const int open = document.currentSource();
+    if (open < 0 || !document.volume())
+        return {};
+    const StudySource &source = document.sources()[std::size_t(open)];
+    if (!source.phantom.isEmpty() || !source.volume.file.isEmpty() || source.difference)
+        return {};
+    return int(source.slices.size()) == document.volume()->lattice().size().k ? source.slices
+                                                                              : source.files;
+}
+
+void FileMenu::showHeader() {
+    const QStringList files = headerFiles();
+    if (files.isEmpty())
+        return;
+    const Document &document = m_bench.study.document;
+    const double slice = document.volume()->lattice().voxel(document.crosshair()).v.z;
+    auto *dialog = new HeaderDialog(files, int(std::lround(slice)), &m_window);
     dialog->show();
 }
 

@@ -45,6 +45,14 @@ private:
     void savePicture();
     void reportSaved(const QString &path);
     void exportPicture();
+    void copyPicture();
+    void printPicture();
+    /// Makes a picture of the current pane in the background and passes it to `use`.
+    void withPicture(int scale, const QString &title,
+                     const std::function<void(const QImage &)> &use);
+    /// The files of the open volume; none if it has no DICOM headers.
+    QStringList headerFiles() const;
+    void showHeader();
     void saveScene();
     void saveSegments();
     void openScene();

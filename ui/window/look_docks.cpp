@@ -45,12 +45,12 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
     // At these heights, the docks fit in 900 pixels.
     dock(window, tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 150);
     dock(window, tr("RADIOGRAPH"), "radiographDock", scrolling(m_radiograph),
-         m_radiograph->corner(), 136);
+         m_radiograph->corner(), 116);
     dock(window, tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 140);
     dock(window, tr("TRANSFER FUNCTION"), "transferFunctionDock", m_function, m_function->corner(),
          165);
-    dock(window, tr("SHADING"), "shadingDock", scrolling(m_shading), m_shading->corner(), 135);
-    dock(window, tr("QUALITY"), "qualityDock", scrolling(m_quality), m_quality->corner(), 130);
+    dock(window, tr("SHADING"), "shadingDock", scrolling(m_shading), m_shading->corner(), 145);
+    dock(window, tr("QUALITY"), "qualityDock", scrolling(m_quality), m_quality->corner(), 140);
 
     connect(m_presets, &PresetsPanel::presetsListed, &m_previewer, &LookPreviewer::preview);
     connect(m_presets, &PresetsPanel::lookNamed, &projection, &ProjectionView::setLookName);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/main_window.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <QAction>
 #include <QApplication>
 #include <QCloseEvent>
@@ -14,6 +17,8 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QVBoxLayout>
+
+#include <glm/geometric.hpp>
 
 #include "core/system/log.h"
 #include "ui/beside/study_pair.h"
@@ -36,11 +41,13 @@
 #include "ui/views/projection_view.h"
 #include "ui/window/angle_dialog.h"
 #include "ui/window/application.h"
+#include "ui/window/class_volumes_dialog.h"
 #include "ui/window/file_menu.h"
 #include "ui/window/help_menu.h"
 #include "ui/window/huge_question.h"
 #include "ui/window/look_docks.h"
 #include "ui/window/look_menu.h"
+#include "ui/window/pane_menus.h"
 #include "ui/window/preferences_dialog.h"
 #include "ui/window/projection_keys.h"
 #include "ui/window/reopening.h"
@@ -74,6 +81,14 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
                             *m_projection, m_bench.study.phases);
     m_pair->setTool(m_tools->tool());
     connect(m_tools, &ToolsMenu::toolChosen, m_pair, &StudyPair::setTool);
+    connect(m_tools, &ToolsMenu::toolChosen, this, [this](Tool tool) {
+        if (measuredBy(tool))
+            m_view->showAnnotations();
+    });
+    connect(m_tools, &ToolsMenu::classVolumesRequested, this, &MainWindow::showClassVolumes);
+    connect(&m_look->classes(), &ClassesPanel::volumesRequested, this,
+            &MainWindow::showClassVolumes);
+    new PaneMenus(*this, {m_bench.study.document, m_mpr, m_projection, m_panes}, *m_tools);
     createHelpMenu();
     setActionIcons(*this, m_theme);
     makeToolBar(*this, m_bench.study.document, m_theme, m_preferences.toolBar,
@@ -243,6 +258,9 @@ void MainWindow::createViewMenu() {
     connect(m_view, &ViewMenu::comparisonRequested, this, &MainWindow::compareLooks);
     connect(m_view, &ViewMenu::anglesRequested, this, &MainWindow::showAngles);
     connect(m_projection, &ProjectionView::anglesRequested, this, &MainWindow::showAngles);
+    connect(m_view, &ViewMenu::overlaysChanged, m_pair, &StudyPair::setOverlays);
+    connect(m_view, &ViewMenu::bannerToggled, m_pair, &StudyPair::setBannerShown);
+    m_pair->setBannerShown(m_view->showsBanner());
     connect(m_view, &ViewMenu::linkRequested, m_pair, &StudyPair::toggleLink);
     connect(m_view, &ViewMenu::closeBesideRequested, m_pair, &StudyPair::closeBeside);
     connect(m_pair, &StudyPair::besideChanged, m_view, &ViewMenu::setBeside);
@@ -288,10 +306,36 @@ void MainWindow::createStatusBar() {
 
 void MainWindow::showVolumeState() {
     showTitle();
+    showPictures();
     m_stack->setCurrentWidget(m_bench.study.document.volume() ||
                                       m_bench.study.document.currentSource() >= 0
                                   ? m_pair->parentWidget()
                                   : m_start);
+}
+
+// Scouts, single slices and images without positions are pictures: a projection would see them edge
+// on.
+void MainWindow::showPictures() {
+    const auto &volume = m_bench.study.document.volume();
+    const bool arePictures = volume && (volume->notes().isLocalizer || !volume->notes().placed ||
+                                        volume->lattice().size().k == 1);
+    if (!arePictures) {
+        m_panes->showAlone(nullptr);
+        return;
+    }
+    const volume::Lattice &lattice = volume->lattice();
+    const glm::dvec3 normal = glm::normalize(glm::cross(lattice.step(0), lattice.step(1)));
+    const auto facing = [&](const MprView *view) {
+        return std::abs(
+            glm::dot(m_bench.study.document.cut().axes.scrollAxis(view->orientation()), normal));
+    };
+    // Without positions, only the axial pane has pictures.
+    m_panes->showAlone(volume->notes().placed
+                           ? *std::max_element(m_mpr.begin(), m_mpr.end(),
+                                               [&](const MprView *a, const MprView *b) {
+                                                   return facing(a) < facing(b);
+                                               })
+                           : m_mpr.front());
 }
 
 void MainWindow::openPaths(const QStringList &paths) {
@@ -351,6 +395,23 @@ void MainWindow::showAngles() {
     auto *dialog = findChild<AngleDialog *>();
     if (dialog == nullptr)
         dialog = new AngleDialog(m_bench.study.document, *m_projection, this);
+    dialog->show();
+    dialog->raise();
+    dialog->activateWindow();
+}
+
+void MainWindow::showClassVolumes() {
+    Document &document = m_bench.study.document;
+    if (!document.volume() || document.isPreview())
+        return;
+    auto *dialog = findChild<ClassVolumesDialog *>();
+    if (dialog == nullptr) {
+        dialog = new ClassVolumesDialog(document, this);
+        connect(dialog, &ClassVolumesDialog::failed, this, &MainWindow::report);
+        connect(dialog, &ClassVolumesDialog::saved, this, [this](const QString &path) {
+            statusBar()->showMessage(tr("Saved: %1").arg(QFileInfo(path).fileName()), 4000);
+        });
+    }
     dialog->show();
     dialog->raise();
     dialog->activateWindow();

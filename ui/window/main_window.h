@@ -73,8 +73,10 @@ private:
     void createHelpMenu();
     void createStatusBar();
     void showVolumeState();
+    void showPictures();
     void compareLooks(bool isComparing);
     void showAngles();
+    void showClassVolumes();
     void showTitle();
     void report(const task::Reason &what, const QString &path);
     /// Reports the failure of a job in the projection's pane, too.

@@ -36,7 +36,7 @@ QComboBox *makeWindowBox() {
     auto *box = new QComboBox;
     box->setObjectName("windowBox");
     box->setAccessibleName(ToolBarTexts::tr("Window presets of the planes"));
-    box->setToolTip(ToolBarTexts::tr("Window width / center of the planes (keys 0 to 5)"));
+    box->setToolTip(ToolBarTexts::tr("Window width / center of the planes (keys 0 to 9)"));
     box->setMinimumWidth(64); // fits a screen 960 logical pixels wide
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(22);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <vector>
 
 #include <QActionGroup>
 #include <QInputDialog>
@@ -50,16 +51,16 @@ ToolsMenu::ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *
     connect(&document, &Document::sceneChanged, this, &ToolsMenu::showCut);
     m_straighten = addCommand(menu, tr("S&traighten the planes"), "straightenAction",
                               QKeySequence("Shift+C"), this, [this] {
-                                  Cut cut = m_document.cut();
-                                  cut.axes = {};
-                                  m_document.setCut(cut);
+                                  m_document.undoStack()->push(new EditPlaneAxes(
+                                      m_document, {}, tr("Straighten the planes")));
                               });
-    m_alongScan = addCommand(menu, tr("A&lign the planes with the scan"), "alongScanAction",
-                             QKeySequence("Shift+P"), this, [this] {
-                                 Cut cut = m_document.cut();
-                                 cut.axes = mpr::PlaneAxes::along(m_document.volume()->lattice());
-                                 m_document.setCut(cut);
-                             });
+    m_alongScan =
+        addCommand(menu, tr("A&lign the planes with the scan"), "alongScanAction",
+                   QKeySequence("Shift+P"), this, [this] {
+                       m_document.undoStack()->push(new EditPlaneAxes(
+                           m_document, mpr::PlaneAxes::along(m_document.volume()->lattice()),
+                           tr("Align the planes with the scan")));
+                   });
     menu.addSeparator();
     addCine(menu);
     addPhases(menu, phases);
@@ -85,11 +86,19 @@ void ToolsMenu::addTools(QMenu &menu) {
          Tool::crosshair, "C"},
         {tr("Distance"), tr("drag a line, also in the projection"), "distanceToolAction",
          Tool::distance, "M"},
+        {tr("Polyline"), tr("click its corners; a double-click ends it"), "polylineToolAction",
+         Tool::polyline, "Shift+M"},
         {tr("Angle"), tr("drag one leg, click the end of the other"), "angleToolAction",
          Tool::angle, "A"},
+        {tr("Cobb angle"), tr("drag a line along each of two end plates"), "cobbToolAction",
+         Tool::cobbAngle, "Shift+A"},
         {tr("Ellipse"), tr("drag its bounding box"), "ellipseToolAction", Tool::ellipse, "E"},
         {tr("Rectangle"), tr("drag from corner to corner"), "rectangleToolAction", Tool::rectangle,
          "B"},
+        {tr("Arrow"), tr("drag from what it shows to where its text is"), "arrowToolAction",
+         Tool::arrow, "Y"},
+        {tr("Text"), tr("click where it begins; a double-click changes it"), "textToolAction",
+         Tool::text, "Shift+T"},
         {tr("Crop"), tr("drag the sides of the box in the planes"), "cropToolAction", Tool::crop,
          "K"},
         {tr("Connected"), tr("click connected tissue of similar values, also in the projection"),
@@ -106,6 +115,10 @@ void ToolsMenu::addTools(QMenu &menu) {
         action->setActionGroup(m_tools);
     }
     m_tools->actions().first()->setChecked(true);
+}
+
+void ToolsMenu::addToolsTo(QMenu &menu) const {
+    menu.addActions(m_tools->actions());
 }
 
 void ToolsMenu::chooseTool(Tool tool) {
@@ -141,6 +154,10 @@ void ToolsMenu::addRegion(QMenu &menu) {
     add(tr("&Largest part"), "largestRegionAction",
         [this] { useStep(m_document, {StepKind::largestComponent}, tr("Largest part")); });
     region->addSeparator();
+    m_classVolumes =
+        addCommand(*region, tr("Class &volumes..."), "classVolumesAction", QKeySequence("Shift+V"),
+                   this, [this] { emit classVolumesRequested(); });
+    region->addSeparator();
     m_removeBone = addCommand(*region, tr("Remove connected &bone"), "removeBoneAction", {}, this,
                               [this] { removeBone(); });
     RegionMarking &marking = m_document.marking();
@@ -161,6 +178,8 @@ void ToolsMenu::showRegion() {
     for (QAction *action : m_regionActions)
         action->setEnabled(m_document.volume() && m_document.selectedClass() >= 0);
     m_removeBone->setEnabled(m_document.volume() && !m_document.isPreview());
+    m_classVolumes->setEnabled(m_removeBone->isEnabled() &&
+                               !m_document.scene().look.classes.empty());
 }
 
 // The next click names the bone.
@@ -176,6 +195,7 @@ void ToolsMenu::removeBone() {
 
 void ToolsMenu::addSlab(QMenu &menu) {
     m_slabMenu = menu.addMenu(tr("&Slab"));
+    m_slabMenu->setObjectName("slabMenu");
     m_slab = addCommand(*m_slabMenu, tr("&Slab"), "slabAction", QKeySequence("S"), this,
                         [this] { toggleSlab(); });
     m_slab->setCheckable(true);
@@ -321,19 +341,51 @@ void ToolsMenu::addPhases(QMenu &menu, Phases &phases) {
 }
 
 void ToolsMenu::addTo(QToolBar &bar) {
+    const auto addButton = [&](const char *name, QAction *action, QMenu *menu) {
+        auto *button = new QToolButton;
+        button->setObjectName(name);
+        button->setDefaultAction(action);
+        button->setMenu(menu);
+        button->setPopupMode(QToolButton::MenuButtonPopup);
+        button->setToolButtonStyle(bar.toolButtonStyle());
+        bar.addWidget(button);
+        return button;
+    };
+    // Similar tools share a button, which shows the one that was chosen last.
+    const struct {
+        const char *name;
+        std::vector<Tool> tools;
+    } groups[] = {{"lengthButton", {Tool::distance, Tool::polyline}},
+                  {"angleButton", {Tool::angle, Tool::cobbAngle}},
+                  {"valuesButton", {Tool::ellipse, Tool::rectangle}},
+                  {"annotationButton", {Tool::arrow, Tool::text}}};
     const QList<QAction *> tools = m_tools->actions();
     for (qsizetype n = 0; n < tools.size(); ++n) {
-        if (measuredBy(Tool(n)) == measure::Kind::distance) {
-            auto *slab = new QToolButton;
-            slab->setObjectName("slabButton");
-            slab->setDefaultAction(m_slab);
-            slab->setMenu(m_slabMenu);
-            slab->setPopupMode(QToolButton::MenuButtonPopup);
-            slab->setToolButtonStyle(bar.toolButtonStyle());
-            bar.addWidget(slab);
+        if (Tool(n) == Tool::distance) {
+            addButton("slabButton", m_slab, m_slabMenu);
             bar.addSeparator();
         }
-        bar.addAction(tools[n]);
+        const auto *const group =
+            std::find_if(std::begin(groups), std::end(groups), [&](const auto &candidate) {
+                return std::find(candidate.tools.begin(), candidate.tools.end(), Tool(n)) !=
+                       candidate.tools.end();
+            });
+        if (group == std::end(groups)) {
+            bar.addAction(tools[n]);
+            continue;
+        }
+        if (group->tools.front() != Tool(n))
+            continue;
+        auto *menu = new QMenu(&bar);
+        QToolButton *const button = addButton(group->name, tools[n], menu);
+        for (const Tool tool : group->tools) {
+            QAction *const action = tools[qsizetype(tool)];
+            menu->addAction(action);
+            connect(action, &QAction::toggled, button, [button, action](bool isChosen) {
+                if (isChosen)
+                    button->setDefaultAction(action);
+            });
+        }
     }
 }
 

@@ -31,10 +31,13 @@ public:
               ProjectionView &projection, Phases &phases);
 
     void addTo(QToolBar &bar);
+    /// Adds the mouse tools.
+    void addToolsTo(QMenu &menu) const;
     Tool tool() const { return m_tool; }
 
 signals:
     void toolChosen(pellucid::ui::Tool tool);
+    void classVolumesRequested();
 
 private:
     void addTools(QMenu &menu);
@@ -61,7 +64,7 @@ private:
     QActionGroup *m_tools, *m_thicknesses, *m_modes, *m_interpolations;
     QMenu *m_slabMenu = nullptr;
     QAction *m_slab = nullptr, *m_alongScan = nullptr, *m_straighten = nullptr,
-            *m_wholeVolume = nullptr, *m_removeBone = nullptr;
+            *m_wholeVolume = nullptr, *m_removeBone = nullptr, *m_classVolumes = nullptr;
     QList<QAction *> m_regionActions; ///< for the selected class
     double m_lastThicknessMm = 10.0;
 };

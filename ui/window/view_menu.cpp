@@ -7,6 +7,7 @@
 #include <QSettings>
 
 #include "ui/document/add_command.h"
+#include "ui/document/commands.h"
 #include "ui/document/document.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
@@ -17,7 +18,7 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr auto freeRotationKey = "view/freeRotation";
+constexpr auto freeRotationKey = "view/freeRotation", bannerKey = "view/patientBanner";
 
 } // namespace
 
@@ -50,6 +51,7 @@ ViewMenu::ViewMenu(QMenu &menu, QMainWindow &window, const Viewer &viewer, Graph
     compare->setCheckable(true);
     connect(&menu, &QMenu::aboutToShow, this,
             [compare, projection] { compare->setChecked(projection->isComparing()); });
+    addOverlays();
     addBeside();
     add(tr("Prepare the projection a&gain"), "prepareAgainAction", QKeySequence("F5"),
         [this] { emit preparationRequested(); });
@@ -92,11 +94,50 @@ void ViewMenu::addStandardViews() {
         m_viewer.projection->resetView();
         for (MprView *view : m_viewer.planes)
             view->resetView();
-        Cut cut = m_viewer.document.cut();
-        cut.axes = {};
-        m_viewer.document.setCut(cut);
+        if (!m_viewer.document.cut().axes.areStandard())
+            m_viewer.document.undoStack()->push(
+                new EditPlaneAxes(m_viewer.document, {}, tr("Reset views")));
         m_viewer.document.centerCrosshair();
     });
+}
+
+void ViewMenu::addOverlays() {
+    m_menu.addSeparator();
+    const auto addOne = [&](const QString &text, const char *name, const QKeySequence &key,
+                            const std::function<void()> &run) {
+        QAction *action = add(text, name, key, run);
+        action->setCheckable(true);
+        action->setChecked(true);
+        return action;
+    };
+    m_texts = addOne(tr("A&nnotations"), "annotationsAction", QKeySequence("H"),
+                     [this] { showOverlays(); });
+    m_crosshair = addOne(tr("Cross&hair"), "crosshairAction", QKeySequence("Shift+H"),
+                         [this] { showOverlays(); });
+    QAction *banner = addOne(tr("Patient &banner"), "bannerAction", QKeySequence("Shift+B"), {});
+    banner->setChecked(QSettings().value(bannerKey, true).toBool());
+    connect(banner, &QAction::toggled, this, [this](bool isShown) {
+        QSettings().setValue(bannerKey, isShown);
+        emit bannerToggled(isShown);
+    });
+    m_banner = banner;
+    m_menu.addSeparator();
+}
+
+bool ViewMenu::showsBanner() const {
+    return m_banner->isChecked();
+}
+
+void ViewMenu::showOverlays() {
+    emit overlaysChanged({m_texts->isChecked(), m_crosshair->isChecked()});
+}
+
+// Nobody draws a measurement that cannot be seen afterwards.
+void ViewMenu::showAnnotations() {
+    if (m_texts->isChecked())
+        return;
+    m_texts->setChecked(true);
+    showOverlays();
 }
 
 void ViewMenu::addBeside() {

@@ -6,6 +6,7 @@
 #include <QList>
 #include <QObject>
 
+#include "ui/views/overlay.h"
 #include "ui/views/viewer.h"
 
 class QAction;
@@ -30,6 +31,9 @@ public:
     /// Enables the entries for a study beside, which is linked at first.
     void setBeside(bool isThere);
     void setLinked(bool isLinked);
+    bool showsBanner() const;
+    /// Shows the annotations again if they are hidden.
+    void showAnnotations();
 
 signals:
     void comparisonRequested(bool isComparing);
@@ -37,11 +41,15 @@ signals:
     void closeBesideRequested();
     void preparationRequested();
     void anglesRequested();
+    void overlaysChanged(const pellucid::ui::Overlays &overlays);
+    void bannerToggled(bool isShown);
 
 private:
     QAction *add(const QString &text, const char *name, const QKeySequence &key,
                  const std::function<void()> &run);
     void addStandardViews();
+    void addOverlays();
+    void showOverlays();
     void addBeside();
     void addLayouts();
 
@@ -50,6 +58,7 @@ private:
     QActionGroup *m_layouts;
     QAction *m_afterPanes = nullptr;
     QAction *m_link = nullptr, *m_closeBeside = nullptr;
+    QAction *m_texts = nullptr, *m_crosshair = nullptr, *m_banner = nullptr;
 };
 
 } // namespace pellucid::ui

@@ -6,20 +6,28 @@
 #include <QMenu>
 #include <QSignalBlocker>
 
+#include "ui/document/add_command.h"
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
 #include "ui/language/names.h"
+#include "ui/language/number_text.h"
 #include "ui/studies/window_presets.h"
+#include "ui/window/display_window_dialog.h"
 
 namespace pellucid::ui {
 
 namespace {
 
+constexpr int lastPresetKey = 8, fileKey = 9;
+
 QString windowLabel(const volume::ValueWindow &w) {
     return QString("%1  %2 / %3")
-        .arg(translatedName(w.name.empty() ? "Custom" : w.name))
-        .arg(w.width, 0, 'g', 5)
-        .arg(w.center, 0, 'g', 5);
+        .arg(translatedName(w.name.empty() ? "Custom" : w.name), numberText(w.width, 5),
+             numberText(w.center, 5));
+}
+
+QKeySequence keyOf(int digit) {
+    return QKeySequence(QString::number(digit));
 }
 
 } // namespace
@@ -27,53 +35,87 @@ QString windowLabel(const volume::ValueWindow &w) {
 WindowChooser::WindowChooser(Document &document, QMenu &menu, QComboBox &box)
     : QObject(&box), m_document(document), m_menu(menu), m_box(box) {
     connect(&box, &QComboBox::activated, this, [this](int index) {
-        const auto actions = m_menu.actions();
-        if (index >= 0 && index < actions.size())
-            actions[index]->trigger();
+        if (index < m_rows.size())
+            m_rows[index]->trigger();
+        showCurrent(); // the row that opens the dialog is not a window
     });
     connect(&document, &Document::volumeChanged, this, &WindowChooser::showWindows);
     connect(&document, &Document::displayWindowChanged, this, &WindowChooser::showCurrent);
     showWindows();
 }
 
+// A different window is shown as the present one is: inverted or not.
+void WindowChooser::choose(volume::ValueWindow window) {
+    if (!m_document.volume())
+        return;
+    window.isInverted = m_document.displayWindow().isInverted;
+    if (!(m_document.displayWindow() == window))
+        m_document.undoStack()->push(new EditDisplayWindow(m_document, window));
+}
+
 void WindowChooser::add(const volume::ValueWindow &window, const QKeySequence &key) {
     QAction *action = m_menu.addAction(windowLabel(window));
     action->setShortcut(key);
-    connect(action, &QAction::triggered, this, [this, window] {
-        if (m_document.volume() && !(m_document.displayWindow() == window))
-            m_document.undoStack()->push(new EditDisplayWindow(m_document, window));
-    });
+    connect(action, &QAction::triggered, this, [this, window] { choose(window); });
+    m_rows << action;
     m_box.addItem(windowLabel(window));
 }
 
 // The automatic window depends on all values: compute it only when chosen.
 void WindowChooser::addAutomatic() {
-    const QAction *const action = m_menu.addAction(translatedName("Auto"));
-    connect(action, &QAction::triggered, this, [this] {
-        if (!m_document.volume())
-            return;
-        const volume::ValueWindow window = automaticWindow(*m_document.volume());
-        if (!(m_document.displayWindow() == window))
-            m_document.undoStack()->push(new EditDisplayWindow(m_document, window));
-    });
+    QAction *const action =
+        addCommand(m_menu, translatedName("Auto"), "autoWindowAction", keyOf(0), this, [this] {
+            if (m_document.volume())
+                choose(automaticWindow(*m_document.volume()));
+        });
+    m_rows << action;
     m_box.addItem(action->text());
+}
+
+void WindowChooser::addDialog() {
+    m_menu.addSeparator();
+    QAction *inverted = addCommand(
+        m_menu, tr("&Inverted grey"), "invertedPlanesAction", QKeySequence("N"), this, [this] {
+            volume::ValueWindow window = m_document.displayWindow();
+            window.isInverted = !window.isInverted;
+            m_document.undoStack()->push(new EditDisplayWindow(m_document, window));
+        });
+    inverted->setCheckable(true);
+    inverted->setChecked(m_document.displayWindow().isInverted);
+    QAction *const dialog = addCommand(m_menu, tr("&Width and center..."), "displayWindowAction",
+                                       QKeySequence("Shift+W"), this, [this] { openDialog(); });
+    m_rows << dialog;
+    m_box.addItem(tr("Width and center..."));
 }
 
 void WindowChooser::showWindows() {
     m_menu.clear();
+    m_rows.clear();
     const auto &volume = m_document.volume();
     m_box.setEnabled(volume.has_value());
     const QSignalBlocker quiet(m_box);
     m_box.clear();
     if (!volume)
         return;
-    add(m_document.initialWindow(), QKeySequence("0"));
-    for (const WindowPreset &preset : windowPresets(*volume))
-        add(preset.window, QKeySequence(QString::number(preset.key)));
-    for (std::size_t n = 1; n < volume->notes().windows.size(); ++n)
-        add(volume->notes().windows[n], {});
-    if (m_document.initialWindow().name != "Auto")
-        addAutomatic();
+    addAutomatic();
+    const volume::ValueWindow &initial = m_document.initialWindow();
+    std::vector<WindowPreset> presets = windowPresets();
+    std::erase_if(presets, [&](const WindowPreset &p) { return p.unit != volume->unit(); });
+    const auto isListed = [&](const volume::ValueWindow &window) {
+        return std::any_of(presets.begin(), presets.end(), [&](const WindowPreset &p) {
+            return p.window.center == window.center && p.window.width == window.width;
+        });
+    };
+    // The window that the study opened with is always there.
+    if (initial.name != "Auto" && (!volume->notes().windows.empty() || !isListed(initial)))
+        add(initial, keyOf(fileKey));
+    for (const volume::ValueWindow &window : volume->notes().windows)
+        if (window.center != initial.center || window.width != initial.width)
+            add(window, {});
+    int digit = 0;
+    for (const WindowPreset &preset : presets)
+        add(preset.window, ++digit <= lastPresetKey ? keyOf(digit) : QKeySequence());
+    addDialog();
     showCurrent();
 }
 
@@ -82,12 +124,26 @@ void WindowChooser::showCurrent() {
         return;
     const QSignalBlocker quiet(m_box);
     // A window that is not in the menu has an extra row at the end.
-    while (m_box.count() > m_menu.actions().size())
+    while (m_box.count() > m_rows.size())
         m_box.removeItem(m_box.count() - 1);
     const QString text = windowLabel(m_document.displayWindow());
     if (m_box.findText(text) < 0)
         m_box.addItem(text);
     m_box.setCurrentIndex(m_box.findText(text));
+    if (auto *inverted = m_menu.findChild<QAction *>("invertedPlanesAction"))
+        inverted->setChecked(m_document.displayWindow().isInverted);
+}
+
+void WindowChooser::openDialog() {
+    QWidget *const window = m_box.window();
+    auto *dialog = window->findChild<DisplayWindowDialog *>();
+    if (dialog == nullptr) {
+        dialog = new DisplayWindowDialog(m_document, window);
+        connect(dialog, &DisplayWindowDialog::presetsChanged, this, &WindowChooser::showWindows);
+    }
+    dialog->show();
+    dialog->raise();
+    dialog->activateWindow();
 }
 
 } // namespace pellucid::ui

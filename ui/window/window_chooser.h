@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
+#include <QList>
 #include <QObject>
 
 #include "core/volume/volume.h"
 
+class QAction;
 class QComboBox;
 class QKeySequence;
 class QMenu;
@@ -14,7 +18,8 @@ namespace pellucid::ui {
 class Document;
 
 /// The display windows of the planes, as a menu with keys and as a box that shows the current one:
-/// the initial window, the presets, and the file's other windows.
+/// the automatic window, the file's windows, and the user's list. The last row of both opens the
+/// dialog that sets width and center and edits the list.
 class WindowChooser : public QObject {
     Q_OBJECT
 public:
@@ -22,14 +27,18 @@ public:
     WindowChooser(Document &document, QMenu &menu, QComboBox &box);
 
 private:
-    void addAutomatic();
     void showWindows();
     void showCurrent();
     void add(const volume::ValueWindow &window, const QKeySequence &key);
+    void addAutomatic();
+    void addDialog();
+    void choose(volume::ValueWindow window);
+    void openDialog();
 
     Document &m_document;
     QMenu &m_menu;
     QComboBox &m_box;
+    QList<QAction *> m_rows; ///< of the box, in order
 };
 
 } // namespace pellucid::ui

@@ -57,7 +57,7 @@ auto fieldsOf(IsA<InstanceHeader> auto &h) {
            seriesUid, seriesDescription, modality, bodyPart, seriesNumber, instanceNumber,
            hasPixels, floatPixels, rows, columns, samplesPerPixel, declaredFrames, pixelBytes,
            bitsAllocated, bitsStored, highBit, pixelRepresentation, lossy, hasDamagedPixels,
-           oddities, mosaicSide, photometric, rescaleType, paddingValue, paddingLimit, windows,
+           oddities, mosaicSide, photometric, rescaleType, paddingValue, paddingLimit, pet, windows,
            modalityTable, modalityTableFirst, frames] = h;
     return std::tie(sopClassUid, sopClassName, sopInstanceUid, transferSyntax, unsupportedSyntax,
                     patientId, patientName, birthDate, sex, studyUid, studyDate, studyDescription,
@@ -65,8 +65,16 @@ auto fieldsOf(IsA<InstanceHeader> auto &h) {
                     seriesNumber, instanceNumber, hasPixels, floatPixels, rows, columns,
                     samplesPerPixel, declaredFrames, pixelBytes, bitsAllocated, bitsStored, highBit,
                     pixelRepresentation, lossy, hasDamagedPixels, oddities, mosaicSide, photometric,
-                    rescaleType, paddingValue, paddingLimit, windows, modalityTable,
+                    rescaleType, paddingValue, paddingLimit, pet, windows, modalityTable,
                     modalityTableFirst, frames);
+}
+auto fieldsOf(IsA<PetHeader> auto &p) {
+    auto &[units, uptakeType, decayCorrection, seriesDate, seriesTime, acquisitionDate,
+           acquisitionTime, injectionTime, injectionDateTime, weightKg, injectedBq, halfLifeS,
+           uptakePerCount] = p;
+    return std::tie(units, uptakeType, decayCorrection, seriesDate, seriesTime, acquisitionDate,
+                    acquisitionTime, injectionTime, injectionDateTime, weightKg, injectedBq,
+                    halfLifeS, uptakePerCount);
 }
 auto fieldsOf(IsA<VolumeLayout> auto &l) {
     auto &[size, volumes, originMm, stepsMm, scalar, slope, intercept, isDeflated, isSwapped,
@@ -146,7 +154,7 @@ public:
         segment.color = glm::dvec3(0.25, 0.5, 1.0); // components are 0 to 1
     }
     template <class T>
-    requires IsA<T, Rescale> || IsA<T, ArchiveFile> || IsA<T, CodedConcept>
+    requires IsA<T, Rescale> || IsA<T, ArchiveFile> || IsA<T, CodedConcept> || IsA<T, PetHeader>
     void operator()(T &message) { fillFields(message); }
     template <class T> void fillFields(T &message) {
         std::apply([this](auto &...field) { ((*this)(field), ...); }, fieldsOf(message));

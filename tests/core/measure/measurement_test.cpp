@@ -121,9 +121,51 @@ TEST(Measurement, IsTheSameAfterJson) {
          "\xe8\x82\x9d",
          {{0, 0, 0}, {1, 1, 0}},
          mpr::PlaneAxes().turned(mpr::Orientation::axial, 0.3).of(mpr::Orientation::sagittal)},
-        {Kind::projectedDistance, "p", {{0, 0, 0}, {1, 1, 0}}, axial}};
+        {Kind::polyline, "Ureter", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 3, 4}}, axial},
+        {Kind::cobbAngle, "", {{0, 0, 0}, {1, 0, 0}, {0, 0, 5}, {1, 1, 5}}, axial, true},
+        {Kind::arrow, "Stone", {{0, 0, 0}, {1, 1, 0}}, axial},
+        {Kind::text, "Left", {{0, 0, 0}}, axial, true},
+        {Kind::distance, "p", {{0, 0, 0}, {1, 1, 0}}, axial, true}};
     EXPECT_EQ(measure::measurementsFromJson(measure::toJson(all)), all);
     EXPECT_TRUE(measure::measurementsFromJson(measure::toJson({})).empty());
+}
+
+TEST(Measurement, ReadsWhatEarlierVersionsWrote) {
+    const auto read = measure::measurementsFromJson(
+        R"({"schema": "pellucid-measurements/1", "measurements": [{"kind": "projected distance",
+            "name": "p", "points_mm": [[0, 0, 0], [1, 1, 0]], "right": [1, 0, 0],
+            "up": [0, -1, 0]}]})");
+    ASSERT_EQ(read.size(), 1U);
+    EXPECT_EQ(read[0], (Measurement{Kind::distance, "p", {{0, 0, 0}, {1, 1, 0}}, axial, true}));
+}
+
+TEST(Measurement, CobbAnglesAreThoseBetweenLines) {
+    const volume::Volume volume;
+    const auto angle = [&](glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d) {
+        return *measure::measure({Kind::cobbAngle, "", {a, b, c, d}, axial}, volume).angleDegrees;
+    };
+    const double tilt = std::tan(33.0 * std::numbers::pi / 180.0);
+    // In either direction, and wherever the lines are.
+    EXPECT_NEAR(angle({0, 0, 0}, {10, 0, 0}, {3, 50, 0}, {4, 50 + tilt, 0}), 33.0, 1e-9);
+    EXPECT_NEAR(angle({0, 0, 0}, {10, 0, 0}, {4, 50 + tilt, 0}, {3, 50, 0}), 33.0, 1e-9);
+    EXPECT_NEAR(angle({0, 0, 0}, {10, 0, 0}, {7, 7, 0}, {9, 7, 0}), 0.0, 1e-9);
+    EXPECT_NEAR(angle({0, 0, 0}, {10, 0, 0}, {7, 7, 0}, {7, 9, 0}), 90.0, 1e-9);
+}
+
+TEST(Measurement, PolylinesAreAsLongAsTheirParts) {
+    const volume::Volume volume;
+    EXPECT_NEAR(
+        *measure::measure(
+             {Kind::polyline, "", {{0, 0, 0}, {3, 4, 0}, {3, 4, 12}, {3, 5, 12}}, axial}, volume)
+             .lengthMm,
+        5.0 + 12.0 + 1.0, 1e-12);
+}
+
+TEST(Measurement, AnnotationsHaveNoFigures) {
+    const volume::Volume volume;
+    const measure::Result result =
+        measure::measure({Kind::arrow, "Stone", {{0, 0, 0}, {1, 1, 0}}, axial}, volume);
+    EXPECT_FALSE(result.lengthMm || result.angleDegrees || result.areaMm2 || result.values);
 }
 
 TEST(Measurement, BadFilesAreRefusedWithAReason) {
@@ -143,9 +185,12 @@ TEST(Measurement, BadFilesAreRefusedWithAReason) {
         EXPECT_NE(reason(text).find("is not a list of measurements"), std::string::npos) << text;
     EXPECT_EQ(reason(one("3")), "measurement 1: must be an object");
     EXPECT_EQ(reason(one(R"({"kind": "volume"})")),
-              "measurement 1: /kind: unknown value 'volume': use one of distance, angle, ellipse, "
-              "rectangle, "
-              "projected distance");
+              "measurement 1: /kind: unknown value 'volume': use one of distance, polyline, "
+              "angle, Cobb angle, ellipse, rectangle, arrow, text");
+    EXPECT_EQ(reason(one(R"({"kind": "ellipse", "projected": true})")),
+              "measurement 1: regions are measured in planes, not in projections");
+    EXPECT_EQ(reason(one(R"({"kind": "polyline", "points_mm": [[0,0,0]]})")),
+              "measurement 1: it must have 2 to 1000 points");
     EXPECT_EQ(reason(one(R"({"kind": "angle", "name": 3})")), "measurement 1: /name: must be text");
     EXPECT_EQ(reason(one(R"({"kind": "angle", "points_mm": [[0,0,0],[1,1,1]]})")),
               "measurement 1: it must have 3 points");

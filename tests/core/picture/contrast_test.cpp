@@ -68,7 +68,7 @@ Grid expectedCorrection(const ProjectionImage &image, const Display &display) {
         return sum / (grids.factor * grids.factor);
     });
     const auto share = [&](double value) {
-        return std::clamp((value - display.air) / display.airBelow, 0.0, 1.0);
+        return std::clamp((value - display.air) / display.airFade, 0.0, 1.0);
     };
     const auto compressed = [&](double value) {
         return contrast.middle + std::exp2(-1.5 * contrast.latitude) * (value - contrast.middle);

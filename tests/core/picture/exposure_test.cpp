@@ -42,7 +42,7 @@ struct Study {
         const Pixels pixels = compose(image, display);
         std::vector<int> greys;
         for (std::size_t n = 0; n < image.samples.size(); ++n)
-            if (double(image.samples[n]) > display.airBelow)
+            if (double(image.samples[n]) > display.airFade)
                 greys.push_back(pixels[4 * n]);
         std::sort(greys.begin(), greys.end());
         return greys;

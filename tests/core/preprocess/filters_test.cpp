@@ -3,6 +3,7 @@
 #include "core/preprocess/filters.h"
 #include "core/preprocess/morphology.h"
 #include "core/preprocess/parts.h"
+#include "core/preprocess/study_content.h"
 
 #include <cmath>
 #include <limits>
@@ -240,8 +241,8 @@ TEST(Body, KeepsArmsAndLeavesACouch) {
     }
     EXPECT_EQ(lost, 0U);
     EXPECT_EQ(left, 0U);
-    EXPECT_TRUE(preprocess::hasCouch(scan.volume()));
-    EXPECT_FALSE(preprocess::hasCouch(scan.withoutCouch()));
+    EXPECT_TRUE(preprocess::contentOf(scan.volume()).hasCouch);
+    EXPECT_FALSE(preprocess::contentOf(scan.withoutCouch()).hasCouch);
 }
 
 // Not a voxel of a patient is lost, lungs and airways included.
@@ -259,7 +260,7 @@ TEST(Body, LosesNothingOfThePhantoms) {
         });
         EXPECT_GT(tissue, body.size() / 10);
         EXPECT_EQ(lost, 0U);
-        EXPECT_FALSE(preprocess::hasCouch(volume));
+        EXPECT_FALSE(preprocess::contentOf(volume).hasCouch);
     }
 }
 

@@ -51,12 +51,12 @@ volume::Volume trunk(std::int16_t vesselHu) {
 } // namespace
 
 TEST(StudyContent, RegionsAreSeenInTheValues) {
-    EXPECT_EQ(preprocess::traitsOf(phantomOf(phantom::Kind::head)).regions,
+    EXPECT_EQ(preprocess::contentOf(phantomOf(phantom::Kind::head)).traits.regions,
               std::set{BodyRegion::head});
-    const auto chest = preprocess::traitsOf(phantomOf(phantom::Kind::chest)).regions;
+    const auto chest = preprocess::contentOf(phantomOf(phantom::Kind::chest)).traits.regions;
     EXPECT_TRUE(chest.contains(BodyRegion::chest)); // and some of the abdomen
     EXPECT_FALSE(chest.contains(BodyRegion::head));
-    EXPECT_EQ(preprocess::traitsOf(trunk(50)).regions, std::set{BodyRegion::abdomen});
+    EXPECT_EQ(preprocess::contentOf(trunk(50)).traits.regions, std::set{BodyRegion::abdomen});
 }
 
 TEST(StudyContent, TheHeaderComesFirst) {
@@ -68,14 +68,14 @@ TEST(StudyContent, TheHeaderComesFirst) {
                               std::vector<std::int16_t>(samples.begin(), samples.end()),
                               volume::ValueUnit::hounsfield, notes);
     });
-    EXPECT_EQ(preprocess::traitsOf(named).regions, std::set{BodyRegion::pelvis});
+    EXPECT_EQ(preprocess::contentOf(named).traits.regions, std::set{BodyRegion::pelvis});
 }
 
 // Marrow has the values of vessels, but is no contrast medium.
 TEST(StudyContent, ContrastMediumIsFound) {
-    EXPECT_FALSE(preprocess::traitsOf(trunk(50)).hasContrast);
-    EXPECT_TRUE(preprocess::traitsOf(trunk(300)).hasContrast);
-    EXPECT_FALSE(preprocess::traitsOf(phantomOf(phantom::Kind::head)).hasContrast);
+    EXPECT_FALSE(preprocess::contentOf(trunk(50)).traits.hasContrast);
+    EXPECT_TRUE(preprocess::contentOf(trunk(300)).traits.hasContrast);
+    EXPECT_FALSE(preprocess::contentOf(phantomOf(phantom::Kind::head)).traits.hasContrast);
 }
 
 } // namespace pellucid

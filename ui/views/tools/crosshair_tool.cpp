@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/tools/crosshair_tool.h"
 
+#include <QCoreApplication>
 #include <QPainter>
 #include <QRegion>
 
@@ -24,9 +25,10 @@ bool CrosshairTool::press(const QPointF &at) {
     const QPoint pressed = at.toPoint();
     const CrosshairLines shown = lines(m_pane.mapping());
     m_isTurning = shown.isHandleAt(pressed, m_pane.paneSize());
-    if (m_isTurning)
+    if (m_isTurning) {
         m_turnAngle = shown.angleAt(pressed);
-    else
+        m_drag = nextDragId();
+    } else
         moveTo(pressed);
     return true;
 }
@@ -50,10 +52,10 @@ void CrosshairTool::moveTo(const QPoint &to) {
 
 void CrosshairTool::turnTo(const QPoint &to) {
     const double angle = lines(m_pane.mapping()).angleAt(to);
-    Cut cut = m_document.cut();
-    cut.axes = cut.axes.turned(m_orientation, angle - m_turnAngle);
+    const mpr::PlaneAxes turned = m_document.cut().axes.turned(m_orientation, angle - m_turnAngle);
     m_turnAngle = angle;
-    m_document.setCut(cut);
+    m_document.undoStack()->push(new EditPlaneAxes(
+        m_document, turned, QCoreApplication::translate("Commands", "Turn the planes"), m_drag));
 }
 
 void CrosshairTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/mpr/plane.h"
+#include "ui/document/commands.h"
 #include "ui/views/crosshair.h"
 #include "ui/views/tools/pane_tool.h"
 #include "ui/views/tools/tool_pane.h"
@@ -34,6 +35,7 @@ private:
     const mpr::Orientation m_orientation;
     bool m_isTurning = false;
     double m_turnAngle = 0.0;
+    DragId m_drag = noDrag;
 };
 
 } // namespace pellucid::ui

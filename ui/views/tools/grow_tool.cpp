@@ -11,6 +11,7 @@
 
 #include "ui/document/document.h"
 #include "ui/document/region_commands.h"
+#include "ui/language/number_text.h"
 
 namespace pellucid::ui {
 
@@ -124,11 +125,9 @@ void GrowTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks)
     if (m_document.marking().options().addsPoints)
         return;
     const classify::TissueClass chosen = region();
-    const QString high =
-        chosen.high < classify::highestValue ? QString::number(chosen.high, 'g', 4) : QString();
+    const QString high = chosen.high < classify::highestValue ? numberText(chosen.high) : QString();
     drawText(painter, QRect(at.toPoint() + QPoint(10, -22), QSize(240, 20)), Qt::AlignLeft,
-             QString("%1 .. %2").arg(QString::number(chosen.low, 'g', 4), high),
-             surface.colors.text);
+             QString("%1 .. %2").arg(numberText(chosen.low), high), surface.colors.text);
 }
 
 } // namespace pellucid::ui

@@ -41,7 +41,7 @@ double distanceToSegment(const QPointF &p, const QPointF &a, const QPointF &b) {
     return QLineF(p, a + t * d).length();
 }
 
-QPolygonF outlineOf(const Measurement &m, const PaneMapping &mapping) {
+std::vector<QPolygonF> outlinesOf(const Measurement &m, const PaneMapping &mapping) {
     QPolygonF outline;
     const auto add = [&](const glm::dvec3 &mm) { outline << mapping.positionOf({mm}); };
     if (m.kind == Kind::ellipse) {
@@ -53,13 +53,38 @@ QPolygonF outlineOf(const Measurement &m, const PaneMapping &mapping) {
             add(center + std::cos(t) * glm::dot(half, m.axes.right) * m.axes.right +
                 std::sin(t) * glm::dot(half, m.axes.up) * m.axes.up);
         }
-    } else {
-        for (const glm::dvec3 &p : gripsOf(m))
-            add(p);
-        if (m.kind == Kind::rectangle)
-            outline << outline.first();
+        return {outline};
     }
-    return outline;
+    for (const glm::dvec3 &p : gripsOf(m))
+        add(p);
+    switch (m.kind) {
+    case Kind::text:
+        return {};
+    case Kind::cobbAngle: // the second line may not exist yet
+        return outline.size() < 4 ? std::vector<QPolygonF>{outline}
+                                  : std::vector<QPolygonF>{outline.first(2), outline.last(2)};
+    case Kind::rectangle:
+        outline << outline.first();
+        return {outline};
+    default:
+        return {outline};
+    }
+}
+
+QPolygonF arrowHeadOf(const Measurement &m, const PaneMapping &mapping) {
+    if (m.kind != Kind::arrow)
+        return {};
+    constexpr double pixels = 11.0, halfAngleDeg = 24.0;
+    QLineF stroke(mapping.positionOf({m.pointsMm[0]}), mapping.positionOf({m.pointsMm[1]}));
+    const double direction = stroke.angle();
+    stroke.setLength(std::min(pixels, stroke.length()));
+    QPolygonF head;
+    for (const double side : {-halfAngleDeg, halfAngleDeg}) {
+        stroke.setAngle(direction + side);
+        head << stroke.p2();
+    }
+    head.insert(1, stroke.p1());
+    return head;
 }
 
 } // namespace pellucid::ui

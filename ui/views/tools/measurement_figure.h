@@ -17,8 +17,13 @@ std::vector<glm::dvec3> gripsOf(const measure::Measurement &measurement);
 /// Moves a grip. For a region, the corner becomes the second point and stays in the region's plane.
 void moveGrip(measure::Measurement &measurement, int grip, const glm::dvec3 &toMm);
 
-/// The outline on a pane, closed for regions. *Units*: logical pixels.
-QPolygonF outlineOf(const measure::Measurement &measurement, const PaneMapping &mapping);
+/// The lines on a pane: one for most kinds, closed for regions; two for a Cobb angle; none for a
+/// text. *Units*: logical pixels.
+std::vector<QPolygonF> outlinesOf(const measure::Measurement &measurement,
+                                  const PaneMapping &mapping);
+
+/// The two strokes of an arrow's head, with the tip in the middle; empty for other kinds.
+QPolygonF arrowHeadOf(const measure::Measurement &measurement, const PaneMapping &mapping);
 
 /// The distance from a point to a line segment. *Units*: those of the points.
 double distanceToSegment(const QPointF &point, const QPointF &from, const QPointF &to);

@@ -87,6 +87,24 @@ std::vector<QPointF> gripsOn(const PaneMapping &mapping, const measure::Measurem
     return points;
 }
 
+// The points that a text may be beside: for an arrow its tail, for others the grips.
+std::vector<QPointF> anchorsOf(const PaneMapping &mapping, const measure::Measurement &m) {
+    return m.kind == measure::Kind::arrow ? std::vector{mapping.positionOf({m.pointsMm[1]})}
+                                          : gripsOn(mapping, m);
+}
+
+// All figures if they leave most of the pane free, otherwise the main one.
+QString fittingText(const QFontMetrics &metrics, const Measured &measured, const QSize &pane,
+                    const volume::Volume &volume) {
+    constexpr double maxShare = 0.3; // of the pane's sides
+    const QString all = allFigures(measured.measurement, measured.result, volume).join('\n');
+    const QSize size = metrics.boundingRect(QRect(0, 0, 400, 200), Qt::AlignLeft, all).size();
+    const QString main = mainFigure(measured.result, volume);
+    const bool isLarge =
+        size.height() > maxShare * pane.height() && size.height() > 2 * metrics.height();
+    return isLarge && !main.isEmpty() ? main : all;
+}
+
 // Draws a line from a figure to its text if the text is far away.
 void paintLeader(QPainter &painter, const std::vector<QPointF> &points, const QRect &area,
                  const QColor &color) {
@@ -114,15 +132,16 @@ void paintMeasurements(QPainter &painter, const ToolSurface &surface,
     QRegion lines;
     for (const DrawnMeasurement &d : drawn) {
         paintMeasurement(painter, mapping, d.measured.measurement, colorOf(d), d.isSelected);
-        lines += regionAround(outlineOf(d.measured.measurement, mapping));
+        for (const QPolygonF &outline : outlinesOf(d.measured.measurement, mapping))
+            lines += regionAround(outline);
     }
     const QRect viewport(0, 0, int(mapping.plane.width / mapping.pixelRatio),
                          int(mapping.plane.height / mapping.pixelRatio));
     std::vector<QRect> taken = lettersOf(viewport);
     for (const DrawnMeasurement &d : drawn) {
-        const std::vector<QPointF> points = gripsOn(mapping, d.measured.measurement);
+        const std::vector<QPointF> points = anchorsOf(mapping, d.measured.measurement);
         const QString text =
-            allFigures(d.measured.measurement, d.measured.result, volume).join('\n');
+            fittingText(painter.fontMetrics(), d.measured, viewport.size(), volume);
         if (points.empty() || text.isEmpty())
             continue;
         const QSize size =
@@ -137,19 +156,30 @@ void paintMeasurements(QPainter &painter, const ToolSurface &surface,
 
 void paintMeasurement(QPainter &painter, const PaneMapping &mapping, const measure::Measurement &m,
                       const QColor &color, bool isSelected) {
-    const QPolygonF outline = outlineOf(m, mapping);
+    std::vector<QPolygonF> outlines = outlinesOf(m, mapping);
+    if (const QPolygonF head = arrowHeadOf(m, mapping); !head.isEmpty())
+        outlines.push_back(head);
     // A dark line underneath keeps it legible on bone.
-    painter.setPen(QPen(QColor(0, 0, 0, 150), 3.0));
-    painter.drawPolyline(outline);
-    painter.setPen(QPen(color, 1.4));
-    painter.drawPolyline(outline);
+    for (const QPen &pen : {QPen(QColor(0, 0, 0, 150), 3.0), QPen(color, 1.4)}) {
+        painter.setPen(pen);
+        for (const QPolygonF &outline : outlines)
+            painter.drawPolyline(outline);
+    }
+    if (m.kind == measure::Kind::cobbAngle && outlines.size() == 2) {
+        // Shows which two lines belong together.
+        painter.setPen(QPen(color, 1.0, Qt::DotLine));
+        painter.drawLine(0.5 * (outlines[0][0] + outlines[0][1]),
+                         0.5 * (outlines[1][0] + outlines[1][1]));
+        painter.setPen(QPen(color, 1.4));
+    }
+    const bool hasCrosses = !measure::isRegion(m.kind) && m.kind != measure::Kind::arrow;
     for (const glm::dvec3 &p : gripsOf(m)) {
         const QPointF at = mapping.positionOf({p});
         if (isSelected) {
             painter.setBrush(QColor(0, 0, 0, 160));
             painter.drawEllipse(at, 3.5, 3.5);
             painter.setBrush(Qt::NoBrush);
-        } else if (!measure::isRegion(m.kind)) {
+        } else if (hasCrosses) {
             painter.drawLine(at - QPointF(3, 3), at + QPointF(3, 3));
             painter.drawLine(at - QPointF(3, -3), at + QPointF(3, -3));
         }

@@ -54,7 +54,9 @@ void PlaneTools::choose(Tool tool) {
 
 // The selected tool has priority over measurements.
 PaneTool &PlaneTools::toolAt(const QPointF &at) const {
-    return !m_chosen->gripCursor(at) && m_measure->gripCursor(at) ? *m_measure : *m_chosen;
+    return m_showsMeasurements && !m_chosen->gripCursor(at) && m_measure->gripCursor(at)
+               ? *m_measure
+               : *m_chosen;
 }
 
 Qt::CursorShape PlaneTools::cursorAt(const QPointF &at) const {
@@ -95,6 +97,18 @@ void PlaneTools::release(Qt::MouseButton button, const QPointF &at) {
     m_button = Qt::NoButton;
 }
 
+bool PlaneTools::doublePress(const QPointF &at) {
+    return m_measure->doublePress(at);
+}
+
+bool PlaneTools::finishFigure() {
+    return m_measure->finishPolyline();
+}
+
+int PlaneTools::measurementAt(const QPointF &at) const {
+    return m_showsMeasurements ? m_measure->at(at) : -1;
+}
+
 bool PlaneTools::isBusy() const {
     return std::any_of(m_tools.begin(), m_tools.end(),
                        [](const auto &entry) { return entry.second->isBusy(); });
@@ -119,10 +133,15 @@ void PlaneTools::moveCrosshair(const QPointF &at) {
     m_crosshair->moveTo(at.toPoint());
 }
 
-void PlaneTools::paint(QPainter &painter, const ToolSurface &surface) const {
-    for (const auto &[tool, paneTool] : m_tools)
-        paneTool->paint(painter, surface,
-                        paneTool.get() == m_chosen ? Marks::chosen : Marks::shown);
+void PlaneTools::paint(QPainter &painter, const ToolSurface &surface, const Overlays &shown) const {
+    for (const auto &[tool, paneTool] : m_tools) {
+        const bool isChosen = paneTool.get() == m_chosen;
+        // What the user works with is visible.
+        const bool isHidden = (paneTool.get() == m_measure && !shown.texts) ||
+                              (paneTool.get() == m_crosshair && !shown.crosshair);
+        if (isChosen || !isHidden)
+            paneTool->paint(painter, surface, isChosen ? Marks::chosen : Marks::shown);
+    }
 }
 
 void PlaneTools::paintPlain(QPainter &painter, const ToolSurface &surface) const {

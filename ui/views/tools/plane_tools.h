@@ -37,6 +37,12 @@ public:
     /// The mouse leaves the pane.
     void leave();
     void release(Qt::MouseButton button, const QPointF &at);
+    /// A double-click. Returns false if no tool uses it.
+    bool doublePress(const QPointF &at);
+    /// Ends a figure of any number of points. Returns false if there is none.
+    bool finishFigure();
+    /// The measurement at this position, or -1.
+    int measurementAt(const QPointF &at) const;
 
     /// Whether something is unfinished that `cancel` would drop.
     bool isBusy() const;
@@ -46,8 +52,11 @@ public:
 
     void moveCrosshair(const QPointF &at);
 
+    /// Whether measurements can be seen, and thus dragged.
+    void setMeasurementsShown(bool areShown) { m_showsMeasurements = areShown; }
+
     /// Draws the tools' marks on the pane.
-    void paint(QPainter &painter, const ToolSurface &surface) const;
+    void paint(QPainter &painter, const ToolSurface &surface, const Overlays &shown) const;
     /// Draws the marks for an exported picture.
     void paintPlain(QPainter &painter, const ToolSurface &surface) const;
 
@@ -65,6 +74,7 @@ private:
     PaneTool *m_activeTool = nullptr;        ///< gets the moves of the drag; null: nothing to drag
     Qt::MouseButton m_button = Qt::NoButton; ///< the button of the drag
     QPoint m_last;
+    bool m_showsMeasurements = true;
 };
 
 } // namespace pellucid::ui

@@ -13,12 +13,13 @@ ProjectionTools::ProjectionTools(Document &document, ProjectionPane &pane)
 
 void ProjectionTools::choose(Tool tool) {
     cancel();
-    m_measures = tool == Tool::distance;
+    const auto kind = measuredBy(tool);
+    m_measures = kind && !measure::isRegion(*kind);
     m_region = tool == Tool::connected  ? static_cast<PaneTool *>(&m_grow)
                : tool == Tool::paint    ? static_cast<PaneTool *>(&m_paint)
                : tool == Tool::scissors ? static_cast<PaneTool *>(&m_lasso)
                                         : nullptr;
-    m_measure.setKind(m_measures ? std::optional(measure::Kind::projectedDistance) : std::nullopt);
+    m_measure.setKind(m_measures ? kind : std::nullopt);
 }
 
 std::optional<Qt::CursorShape> ProjectionTools::cursor() const {
@@ -45,6 +46,11 @@ PaneTool *ProjectionTools::toolOf(Qt::MouseButton button) {
 }
 
 void ProjectionTools::press(Qt::MouseButton button, const QPointF &at) {
+    if (m_measure.isBusy()) { // a figure of several clicks
+        if (button == Qt::LeftButton)
+            m_measure.press(at);
+        return;
+    }
     if (isMarking())
         return;
     m_activeTool = nullptr;
@@ -52,12 +58,13 @@ void ProjectionTools::press(Qt::MouseButton button, const QPointF &at) {
     if (button == Qt::LeftButton && m_pane.showsPicture()) {
         // Ctrl turns the view with any tool.
         const bool turns = (QGuiApplication::keyboardModifiers() & Qt::ControlModifier) != 0;
-        const bool marks = m_region != nullptr && !turns && !m_measure.gripCursor(at);
+        const bool isOnMeasurement = m_showsMeasurements && m_measure.gripCursor(at);
+        const bool marks = m_region != nullptr && !turns && !isOnMeasurement;
         if (marks) {
             m_region->press(at);
             return; // a click beside the patient does not turn the view
         }
-        if (!turns && m_measure.press(at))
+        if (!turns && (m_measures || isOnMeasurement) && m_measure.press(at))
             return;
     }
     m_activeTool = toolOf(button);
@@ -95,6 +102,18 @@ void ProjectionTools::leave() {
 
 bool ProjectionTools::isMarking() const {
     return m_measure.isBusy() || (m_region != nullptr && m_region->isBusy());
+}
+
+bool ProjectionTools::doublePress(const QPointF &at) {
+    return m_pane.showsPicture() && m_measure.doublePress(at);
+}
+
+bool ProjectionTools::finishFigure() {
+    return m_measure.finishPolyline();
+}
+
+int ProjectionTools::measurementAt(const QPointF &at) const {
+    return m_pane.showsPicture() && m_showsMeasurements ? m_measure.at(at) : -1;
 }
 
 void ProjectionTools::cancel() {

@@ -13,8 +13,8 @@
 namespace pellucid::ui {
 
 /// The tools of the projection and the current drag. The left button orbits, the middle one pans,
-/// the right one sets the brightness. Of the selectable tools, those for distances and regions have
-/// an effect here. Measurements can be dragged with any tool.
+/// the right one sets the brightness. Of the selectable tools, those that measure in one plane,
+/// annotate or mark regions have an effect here. Measurements can be dragged with any tool.
 class ProjectionTools {
 public:
     ProjectionTools(Document &document, ProjectionPane &pane);
@@ -34,6 +34,15 @@ public:
     void leave();
     /// Any button ends the drag; only the left one ends a measurement or a region.
     void release(Qt::MouseButton button, const QPointF &at);
+
+    /// A double-click. Returns false if no tool uses it.
+    bool doublePress(const QPointF &at);
+    /// Ends a figure of any number of points. Returns false if there is none.
+    bool finishFigure();
+    /// The measurement at this position, or -1.
+    int measurementAt(const QPointF &at) const;
+    /// Whether measurements can be seen, and thus dragged.
+    void setMeasurementsShown(bool areShown) { m_showsMeasurements = areShown; }
 
     /// Whether the selected tool marks regions.
     bool marksRegions() const { return m_region != nullptr; }
@@ -57,7 +66,7 @@ private:
     PaintTool m_paint;
     LassoTool m_lasso;
     PaneTool *m_region = nullptr; ///< the selected tool for regions
-    bool m_measures = false;
+    bool m_measures = false, m_showsMeasurements = true;
     PaneTool *m_activeTool = nullptr; ///< gets the moves of the drag
     QPoint m_last;
 };

@@ -9,16 +9,21 @@
 namespace pellucid::ui {
 
 /// The tool of the left mouse button in the panes. In the projection, the button orbits unless the
-/// tool is `distance` or marks regions. ToolsMenu::addTools lists the tools in the same order.
+/// tool measures (not a region of values) or marks regions. ToolsMenu::addTools lists the tools in
+/// the same order.
 enum class Tool {
     window,
     pan,
     zoom,
     crosshair,
     distance,
+    polyline,
     angle,
+    cobbAngle,
     ellipse,
     rectangle,
+    arrow,
+    text,
     crop,
     connected,
     paint,
@@ -43,17 +48,25 @@ inline bool marksRegions(Tool tool) {
     return regionToolOf(tool) != RegionTool::none;
 }
 
-/// The kind of measurement that a tool draws, if any.
+/// The kind of measurement or annotation that a tool draws, if any.
 inline std::optional<measure::Kind> measuredBy(Tool tool) {
     switch (tool) {
     case Tool::distance:
         return measure::Kind::distance;
+    case Tool::polyline:
+        return measure::Kind::polyline;
     case Tool::angle:
         return measure::Kind::angle;
+    case Tool::cobbAngle:
+        return measure::Kind::cobbAngle;
     case Tool::ellipse:
         return measure::Kind::ellipse;
     case Tool::rectangle:
         return measure::Kind::rectangle;
+    case Tool::arrow:
+        return measure::Kind::arrow;
+    case Tool::text:
+        return measure::Kind::text;
     default:
         return std::nullopt;
     }

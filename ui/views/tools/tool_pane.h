@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include <QPoint>
+#include <QPointF>
 #include <QSize>
+#include <QString>
 
 #include "core/picture/display.h"
 #include "core/scene/scene.h"
@@ -23,6 +27,10 @@ public:
     virtual void panBy(const QPoint &delta) = 0;
     /// Scales the picture about the center of the pane; above 1 enlarges it.
     virtual void zoomBy(double factor) = 0;
+    /// Lets the user type a text on the pane; `take` gets it without spaces at its ends, unless the
+    /// user presses Escape.
+    virtual void askForText(const QPointF &at, const QString &text,
+                            const std::function<void(const QString &)> &take) = 0;
 
 protected:
     ~ToolPane() = default;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/pane_menus.h"
+
+#include <algorithm>
+
+#include <QAction>
+#include <QMainWindow>
+#include <QMenu>
+
+#include "ui/document/commands.h"
+#include "ui/document/document.h"
+#include "ui/views/mpr_view.h"
+#include "ui/views/pane_area.h"
+#include "ui/views/projection_view.h"
+#include "ui/window/tools_menu.h"
+
+namespace pellucid::ui {
+
+PaneMenus::PaneMenus(QMainWindow &window, const Viewer &viewer, const ToolsMenu &tools)
+    : QObject(&window), m_window(window), m_viewer(viewer), m_tools(tools) {
+    for (MprView *const plane : viewer.planes)
+        connect(plane, &MprView::menuRequested, this, &PaneMenus::open);
+    connect(viewer.projection, &ProjectionView::menuRequested, this, &PaneMenus::open);
+}
+
+void PaneMenus::open(QWidget *pane, const QPoint &globalAt, int measurement) {
+    if (!m_viewer.document.volume())
+        return;
+    auto *const opened = new QMenu(pane);
+    QMenu &menu = *opened;
+    menu.setObjectName("paneMenu");
+    menu.setAttribute(Qt::WA_DeleteOnClose);
+    if (measurement >= 0)
+        addMeasurement(menu, measurement);
+    QMenu *const tools = menu.addMenu(tr("&Tool"));
+    m_tools.addToolsTo(*tools);
+    if (pane == m_viewer.projection)
+        addProjection(menu);
+    else
+        addPlane(menu, pane);
+    menu.addSeparator();
+    menu.addAction(m_viewer.area->isMaximized() ? tr("Show &all panes") : tr("&Maximize"), this,
+                   [this, pane] { m_viewer.area->toggleMaximized(pane); });
+    addNamed(menu, {"annotationsAction", "crosshairAction"});
+    menu.addSeparator();
+    addNamed(menu, {"copyPictureAction", "exportPictureAction", "printAction"});
+    menu.popup(globalAt);
+}
+
+void PaneMenus::addMeasurement(QMenu &menu, int measurement) {
+    Document &document = m_viewer.document;
+    const auto &measured = document.measured();
+    if (measurement >= int(measured.size()))
+        return;
+    const measure::Measurement chosen = measured[std::size_t(measurement)].measurement;
+    const QString name = QString::fromStdString(chosen.name).simplified().left(30);
+    menu.addAction(name.isEmpty() ? tr("&Delete")
+                                  : tr("&Delete %1").arg(QString(name).replace('&', "&&")),
+                   this, [&document, chosen] {
+                       auto all = document.measurements();
+                       const auto found = std::find(all.begin(), all.end(), chosen);
+                       if (found == all.end())
+                           return;
+                       all.erase(found);
+                       document.selectMeasurement(-1);
+                       document.undoStack()->push(
+                           new EditMeasurements(document, all, tr("Delete measurement")));
+                   });
+    menu.addSeparator();
+}
+
+void PaneMenus::addPlane(QMenu &menu, QWidget *pane) {
+    addSubmenu(menu, "windowMenu");
+    addSubmenu(menu, "slabMenu");
+    menu.addSeparator();
+    menu.addAction(tr("&Reset the plane's view"), this,
+                   [pane] { static_cast<MprView *>(pane)->resetView(); });
+    addNamed(menu, {"straightenAction", "alongScanAction"});
+}
+
+void PaneMenus::addProjection(QMenu &menu) {
+    QMenu *const views = menu.addMenu(tr("&View"));
+    addNamed(*views, {"frontViewAction", "backViewAction", "leftViewAction", "rightViewAction",
+                      "topViewAction", "bottomViewAction"});
+    addNamed(menu, {"anglesAction"});
+    menu.addSeparator();
+    menu.addAction(tr("&Fit to the patient"), m_viewer.projection, &ProjectionView::resetView);
+    addNamed(menu, {"filmAction", "automaticToneAction", "removeCouchAction", "depthCueAction",
+                    "compareAction"});
+}
+
+void PaneMenus::addNamed(QMenu &menu, std::initializer_list<const char *> actions) {
+    for (const char *const name : actions)
+        if (auto *const action = m_window.findChild<QAction *>(name))
+            menu.addAction(action);
+}
+
+void PaneMenus::addSubmenu(QMenu &menu, const char *name) {
+    if (auto *const submenu = m_window.findChild<QMenu *>(name))
+        menu.addMenu(submenu);
+}
+
+} // namespace pellucid::ui
