@@ -64,7 +64,12 @@ std::optional<presets::Preset> presetFor(const SceneOptions &options) {
 
 void changeLook(classify::Look &look, const SceneOptions &options) {
     if (!options.bezier.empty()) {
-        look.transferFunction.weights = weightsFromText(options.bezier);
+        look.transferFunction = {weightsFromText(options.bezier)};
+        if (!options.bezierRange.empty()) {
+            const auto range = parseNumbers("--bezier-range", options.bezierRange, ',', 2);
+            look.transferFunction.low = range[0];
+            look.transferFunction.high = range[1];
+        }
         look.classes.clear();
     }
     if (!options.classes.empty())

@@ -131,6 +131,11 @@ void addLookOptions(CLI::App &command, SceneOptions &options) {
                     "w0,w1,...: the transfer function, 2 to 16 weights from 0 to 2")
         ->check(notEmpty());
     command
+        .add_option("--bezier-range", options.bezierRange,
+                    "LO,HI: the densities, from 0 to 1, that --bezier applies to; beyond, the "
+                    "weights are those of its ends")
+        ->check(notEmpty());
+    command
         .add_option("--class", options.classes,
                     "NAME=WEIGHT[:#rrggbb]: show only the named classes, each with a weight "
                     "from 0 to 2; may be repeated")

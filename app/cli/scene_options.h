@@ -19,7 +19,7 @@ namespace pellucid::cli {
 struct SceneOptions {
     bool isInverted = false, isWithoutCouch = false;
     std::string carm, contrast, detail, scene, preset, view, orientation, size, window, bezier,
-        reconstruction, quality, kernel, storage, depthCue, lightFrame, crop;
+        bezierRange, reconstruction, quality, kernel, storage, depthCue, lightFrame, crop;
     bool isUniform = false, weightsAreOptional = false; ///< the latter: of --class
     std::vector<std::string> classes, lights, segmentations, segments, points;
     double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0, pixelMm = 0.0, rollOff = -1.0,

@@ -16,7 +16,7 @@ Layer alone(TissueClass tissue) {
     tissue.weight = 1.0;
     tissue.color = {};
     tissue.name = "class";
-    return {std::move(tissue), -1, 0, {}, 0};
+    return {std::move(tissue), -1, 0, 0.0, 1.0, {}, 0};
 }
 
 std::array<double, 3> weightsOf(const TissueClass &tissue) {
@@ -29,7 +29,8 @@ Mixture termsOf(const TransferFunction &function) {
     Mixture mixture;
     const auto &weights = function.weights;
     for (std::size_t n = 0; n < weights.size(); ++n) {
-        mixture.layers.push_back({{}, int(n), function.degree(), {}, 0});
+        mixture.layers.push_back(
+            {{}, int(n), function.degree(), function.low, function.high, {}, 0});
         mixture.channelWeights.push_back({weights[n], weights[n], weights[n]});
     }
     return mixture;
@@ -63,7 +64,7 @@ Mixture mixtureOf(const Look &source, std::optional<std::size_t> adjusted) {
         return mixture;
     const ColorBasis basis = colorBasisOf(others);
     for (std::size_t c = 0; c < basis.colors.size(); ++c) {
-        mixture.layers.push_back({{}, -1, 0, others.classes, int(c)});
+        mixture.layers.push_back({{}, -1, 0, 0.0, 1.0, others.classes, int(c)});
         mixture.channelWeights.push_back(basis.colors[c]);
     }
     return mixture;
@@ -90,9 +91,12 @@ DensityField layerField(const volume::Volume &volume, const FieldWindow &window,
             .channels[std::size_t(layer.channel)];
     if (layer.index < 0)
         return classField(volume, window, layer.tissue, runner, progress);
-    const WeightedCurve curve{ValueCurve(window, DensityKind::window, std::nullopt, [&](double f) {
-        return bernstein(layer.index, layer.degree, f);
-    })};
+    TransferFunction basis{std::vector<double>(std::size_t(layer.degree) + 1, 0.0), layer.low,
+                           layer.high};
+    basis.weights[std::size_t(layer.index)] = 1.0;
+    const WeightedCurve curve{ValueCurve(
+        window, DensityKind::window, std::nullopt, [&](double f) { return basis.at(f); },
+        layer.high - layer.low)};
     return task::orOutOfMemory(task::because::noMemoryForABasisField, [&] {
         std::vector<std::vector<float>> sums(
             1, std::vector<float>(volume.lattice().size().count(), 0.0F));

@@ -17,7 +17,8 @@ namespace pellucid::classify {
 struct Layer {
     /// The class without its own weight and color; unnamed: the whole volume.
     TissueClass tissue;
-    int index = -1, degree = 0; ///< b_index of the degree; -1: none
+    int index = -1, degree = 0;   ///< b_index of the degree; -1: none
+    double low = 0.0, high = 1.0; ///< the range of densities of b_index
     /// The classes whose sum it is, as channel `channel` of their look; none: it is `tissue`.
     std::vector<TissueClass> sum;
     int channel = 0;

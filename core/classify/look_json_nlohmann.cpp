@@ -19,8 +19,29 @@ namespace because = task::because;
 using files::JsonValue;
 using nlohmann::json;
 
+// A misspelt member would do something other than what is meant.
+void requireMembers(const JsonValue &in, std::initializer_list<const char *> known) {
+    for (const auto &member : in.members())
+        if (std::find(known.begin(), known.end(), member.first) == known.end()) {
+            std::string names;
+            for (const char *name : known)
+                names += (names.empty() ? "" : ", ") + std::string(name);
+            in.refuse(because::isNoneOf(member.first, names));
+        }
+}
+
 TransferFunction functionFrom(const JsonValue &in) {
-    const TransferFunction function{in.numbers()};
+    // Weights alone for a curve over all densities, as earlier versions wrote it.
+    TransferFunction function;
+    if (in.isObject()) {
+        requireMembers(in, {"weights", "range"});
+        function.weights = in.at("weights").numbers();
+        const auto [low, high] = in.at("range").twoNumbers();
+        function.low = low;
+        function.high = high;
+    } else {
+        function.weights = in.numbers();
+    }
     in.checked([&] { validate(function); });
     return function;
 }
@@ -39,17 +60,6 @@ std::vector<volume::PatientPoint> pointsFrom(const JsonValue &in) {
     for (const JsonValue &point : in.elements())
         points.push_back(pointFrom(point));
     return points;
-}
-
-// A misspelt member of a mark would do the opposite of what is meant.
-void requireMembers(const JsonValue &in, std::initializer_list<const char *> known) {
-    for (const auto &member : in.members())
-        if (std::find(known.begin(), known.end(), member.first) == known.end()) {
-            std::string names;
-            for (const char *name : known)
-                names += (names.empty() ? "" : ", ") + std::string(name);
-            in.refuse(because::isNoneOf(member.first, names));
-        }
 }
 
 Stroke strokeFrom(const JsonValue &in) {
@@ -179,6 +189,12 @@ template <class Points> json pointsJson(const Points &points) {
     return out;
 }
 
+json functionJson(const TransferFunction &function) {
+    if (function.isWhole())
+        return function.weights;
+    return {{"weights", function.weights}, {"range", {function.low, function.high}}};
+}
+
 json classJson(const TissueClass &tissue);
 
 // The input of a step; null if it has none.
@@ -223,7 +239,7 @@ json classJson(const TissueClass &tissue) {
                 {"weight", tissue.weight},
                 {"color", colorText(tissue.color)}};
     if (tissue.transferFunction)
-        out["transfer_function"] = tissue.transferFunction->weights;
+        out["transfer_function"] = functionJson(*tissue.transferFunction);
     if (!tissue.segment.empty())
         out["segment"] = tissue.segment;
     if (tissue.isDrawn)
@@ -247,7 +263,7 @@ std::string toJson(const Look &look) {
     json out = json::object();
     // The number of control points is part of the look, even if all weights are 1.
     if (look.transferFunction != TransferFunction())
-        out["transfer_function"] = look.transferFunction.weights;
+        out["transfer_function"] = functionJson(look.transferFunction);
     for (const TissueClass &tissue : look.classes)
         out["classes"].push_back(classJson(tissue));
     return out.dump();

@@ -30,11 +30,16 @@ std::function<double(double)> shapeOf(const std::optional<TransferFunction> &fun
     return [f = *function](double density) { return f.at(density); };
 }
 
+double rangeOf(const std::optional<TransferFunction> &function) {
+    return function ? function->high - function->low : 1.0;
+}
+
 // `amounts`: of the class in each sum.
 WeightedCurve curveOf(const TissueClass &tissue, const FieldWindow &window, DensityKind density,
                       const ColorBasis::Rgb &amounts) {
     const double w = tissue.weight;
-    return {ValueCurve(window, density, tissue, shapeOf(tissue.transferFunction)),
+    return {ValueCurve(window, density, tissue, shapeOf(tissue.transferFunction),
+                       rangeOf(tissue.transferFunction)),
             std::array{w * amounts[0], w * amounts[1], w * amounts[2]}};
 }
 
@@ -95,7 +100,8 @@ ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window,
             basis.colors.size(), std::vector<float>(volume.lattice().size().count(), 0.0F));
         if (look.classes.empty()) {
             const WeightedCurve curve{ValueCurve(window, DensityKind::window, std::nullopt,
-                                                 shapeOf(look.transferFunction))};
+                                                 shapeOf(look.transferFunction),
+                                                 rangeOf(look.transferFunction))};
             addCurves({volume}, {&curve, 1}, sums, progress);
         } else {
             addClasses(volume, window, shown, basis.amounts, runner, sums, progress);

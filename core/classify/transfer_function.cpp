@@ -45,9 +45,10 @@ double bernstein(int index, int degree, double f) {
 }
 
 double TransferFunction::at(double f) const {
+    const double g = std::clamp((f - low) / (high - low), 0.0, 1.0);
     double sum = 0.0;
     for (int i = 0; i <= degree(); ++i)
-        sum += weights[std::size_t(i)] * bernstein(i, degree(), f);
+        sum += weights[std::size_t(i)] * bernstein(i, degree(), g);
     return sum;
 }
 
@@ -61,6 +62,10 @@ void validate(const TransferFunction &function) {
         throw task::Error(task::ErrorCode::usage,
                           task::because::weightsOutOfRange(TransferFunction::minPoints,
                                                            TransferFunction::maxPoints, points));
+    if (!(function.low >= 0.0 && function.high <= 1.0 &&
+          function.high - function.low >= TransferFunction::narrowestRange))
+        throw task::Error(task::ErrorCode::usage, task::because::curveRangeInvalid(fmt::format(
+                                                      "{:g}", TransferFunction::narrowestRange)));
     for (const double weight : function.weights)
         if (!(weight >= 0.0 && weight <= TransferFunction::largestWeight))
             throw task::Error(task::ErrorCode::usage,
@@ -96,10 +101,24 @@ FittedTransferFunction fitTransferFunction(const std::function<double(double)> &
     return fitted;
 }
 
+namespace {
+
+// The closest curve with these points over a range.
+TransferFunction fitted(const TransferFunction &function, int points, double low, double high) {
+    TransferFunction closest =
+        fitTransferFunction([&](double g) { return function.at(low + g * (high - low)); }, points)
+            .function;
+    closest.low = low;
+    closest.high = high;
+    return closest;
+}
+
+} // namespace
+
 TransferFunction withPoints(const TransferFunction &function, int points) {
     std::vector<double> weights = function.weights;
     if (points < int(weights.size()))
-        return fitTransferFunction([&](double f) { return function.at(f); }, points).function;
+        return fitted(function, points, function.low, function.high);
     while (int(weights.size()) < points) {
         // The control points of the next degree are on the sides of the control polygon.
         std::vector<double> raised(weights.size() + 1);
@@ -111,7 +130,14 @@ TransferFunction withPoints(const TransferFunction &function, int points) {
         }
         weights = std::move(raised);
     }
-    return {weights};
+    return {weights, function.low, function.high};
+}
+
+TransferFunction withRange(const TransferFunction &function, double low, double high) {
+    const std::vector<double> &weights = function.weights;
+    if (std::equal(weights.begin() + 1, weights.end(), weights.begin())) // all are the same
+        return {weights, low, high};
+    return fitted(function, int(weights.size()), low, high);
 }
 
 } // namespace pellucid::classify

@@ -13,8 +13,13 @@ namespace pellucid::classify {
 namespace {
 
 // f B(f) between steps of this size differs from its chord by h^2/8 times its second derivative:
-// 1e-6 for sixteen points that alternate between 0 and 2, the steepest possible.
-constexpr int tableSteps = 16384;
+// 1e-6 for sixteen points that alternate between 0 and 2, the steepest possible. Over a narrow
+// range the curve is steeper, and the steps are smaller.
+constexpr int fewestSteps = 16384;
+
+int stepsFor(double range) {
+    return int(std::ceil(fewestSteps / range));
+}
 
 using Shares = std::array<float, 3>;
 
@@ -42,7 +47,7 @@ std::vector<Shares> tableOf(std::span<const WeightedCurve> curves) {
 
 ValueCurve::ValueCurve(const FieldWindow &window, DensityKind density,
                        std::optional<TissueClass> tissue,
-                       const std::function<double(double)> &shape)
+                       const std::function<double(double)> &shape, double range)
     : m_low(float(window.low)), m_scale(0.0F), m_density(density), m_tissue(std::move(tissue)) {
     double width = window.high - window.low;
     if (density == DensityKind::range && m_tissue && m_tissue->hasRange()) {
@@ -53,12 +58,13 @@ ValueCurve::ValueCurve(const FieldWindow &window, DensityKind density,
         m_scale = float(1.0 / width);
     if (!shape)
         return;
-    m_table.resize(tableSteps + 2);
-    for (int n = 0; n <= tableSteps; ++n) {
-        const double f = double(n) / tableSteps;
+    const int steps = stepsFor(range);
+    m_table.resize(std::size_t(steps) + 2);
+    for (int n = 0; n <= steps; ++n) {
+        const double f = double(n) / steps;
         m_table[std::size_t(n)] = float(f * shape(f));
     }
-    m_table.back() = m_table[tableSteps]; // the right neighbour of f = 1
+    m_table.back() = m_table[std::size_t(steps)]; // the right neighbour of f = 1
 }
 
 float ValueCurve::at(float value, Region region) const {
@@ -72,7 +78,7 @@ float ValueCurve::at(float value, Region region) const {
                                                   : 0.0F;
     float shown = f;
     if (!m_table.empty()) {
-        const float at = f * tableSteps;
+        const float at = f * float(m_table.size() - 2);
         const int left = int(at);
         const float *const pair = m_table.data() + left;
         shown = pair[0] + (at - float(left)) * (pair[1] - pair[0]);

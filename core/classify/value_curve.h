@@ -16,9 +16,9 @@ namespace pellucid::classify {
 /// if there is a class, times the transfer function's weight.
 class ValueCurve {
 public:
-    /// `shape`: B(f); null for 1.
+    /// `shape`: B(f); null for 1. `range`: the width of the densities over which it changes.
     ValueCurve(const FieldWindow &window, DensityKind density, std::optional<TissueClass> tissue,
-               const std::function<double(double)> &shape);
+               const std::function<double(double)> &shape, double range = 1.0);
 
     /// NaN becomes 0.
     float at(float value, Region region = Region::inside) const;

@@ -53,16 +53,6 @@
     </message>
 </context>
 <context>
-    <name>pellucid::ui::ImportDialog</name>
-    <message numerus="yes">
-        <source>and %n more</source>
-        <translation>
-            <numerusform>and %n more</numerusform>
-            <numerusform>and %n more</numerusform>
-        </translation>
-    </message>
-</context>
-<context>
     <name>pellucid::ui::ProblemList</name>
     <message numerus="yes">
         <source>and %n more</source>

@@ -68,10 +68,6 @@
         <translation>manual_zh_TW.html</translation>
     </message>
     <message>
-        <source>Pellucid manual</source>
-        <translation>Pellucid 使用手冊</translation>
-    </message>
-    <message>
         <source>Libraries</source>
         <translation>程式庫</translation>
     </message>
@@ -2797,6 +2793,10 @@
         <source>regions are measured in planes, not in projections</source>
         <translation>區域在切面中測量，不在投影中測量</translation>
     </message>
+    <message>
+        <source>the range of a transfer function must be within 0 to 1 and at least %1 wide</source>
+        <translation>轉換函數的範圍必須在 0 至 1 之內，且至少寬 %1</translation>
+    </message>
 </context>
 <context>
     <name>RegionTexts</name>
@@ -3296,6 +3296,14 @@
         <source>Window width / center of the planes (keys 0 to 9)</source>
         <translation>切面的窗寬／窗位（按鍵 0 至 9）</translation>
     </message>
+    <message>
+        <source>View</source>
+        <translation>檢視</translation>
+    </message>
+    <message>
+        <source>See the patient from a side, or at an angle</source>
+        <translation>由某一側或某一角度觀看病患</translation>
+    </message>
 </context>
 <context>
     <name>overlay</name>
@@ -3635,12 +3643,12 @@
         <translation>轉換函數</translation>
     </message>
     <message>
-        <source>Drag a segment up or down; double-click resets it to 1</source>
-        <translation>上下拖曳線段；按兩下重設為 1</translation>
-    </message>
-    <message>
         <source>weight %1 at %2%3</source>
         <translation>%2%3 處的權重 %1</translation>
+    </message>
+    <message>
+        <source>Drag a segment up or down; double-click resets it to 1. The wheel zooms the axis, a drag of the axis moves it, a double-click on it shows all values</source>
+        <translation>上下拖曳線段；按兩下重設為 1。滾輪縮放座標軸，拖曳座標軸可移動，在其上按兩下則顯示所有數值</translation>
     </message>
 </context>
 <context>
@@ -3850,6 +3858,10 @@
     <message>
         <source>no name</source>
         <translation>無姓名</translation>
+    </message>
+    <message>
+        <source>Turntable, video (MP4): install ffmpeg first</source>
+        <translation>轉盤，影片 (MP4)：請先安裝 ffmpeg</translation>
     </message>
 </context>
 <context>
@@ -4179,11 +4191,17 @@
         <source>Choose files, folders, a DICOMDIR or ZIP archives. Folders are searched recursively.</source>
         <translation>請選擇檔案、資料夾、DICOMDIR 或 ZIP 壓縮檔。資料夾會連同所有子資料夾一併搜尋。</translation>
     </message>
-    <message numerus="yes">
-        <source>and %n more</source>
-        <translation>
-            <numerusform>及其他 %n 項</numerusform>
-        </translation>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Files and folders to import</source>
+        <translation>要匯入的檔案與資料夾</translation>
+    </message>
+    <message>
+        <source>Take the selected files and folders off the list (Del)</source>
+        <translation>將所選的檔案與資料夾移出清單 (Del)</translation>
     </message>
 </context>
 <context>
@@ -4389,6 +4407,37 @@
     <message>
         <source>Saved: %1</source>
         <translation>已儲存：%1</translation>
+    </message>
+    <message>
+        <source>&amp;Reset layout</source>
+        <translation>重設版面(&amp;R)</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ManualWindow</name>
+    <message>
+        <source>Pellucid manual</source>
+        <translation>Pellucid 使用手冊</translation>
+    </message>
+    <message>
+        <source>Search the manual</source>
+        <translation>搜尋手冊</translation>
+    </message>
+    <message>
+        <source>Enter: next place; Shift+Enter: previous place</source>
+        <translation>Enter：下一處；Shift+Enter：上一處</translation>
+    </message>
+    <message>
+        <source>Contents</source>
+        <translation>目錄</translation>
+    </message>
+    <message>
+        <source>Nothing found</source>
+        <translation>找不到</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>第 %1 項，共 %2 項</translation>
     </message>
 </context>
 <context>
@@ -4690,6 +4739,34 @@
     <message>
         <source>List all presets, not only those for the body region of the open study</source>
         <translation>列出所有預設集，而不只是適合目前檢查部位者</translation>
+    </message>
+    <message>
+        <source>Open a study to see it with the presets.</source>
+        <translation>開啟檢查，即可以預設集檢視。</translation>
+    </message>
+    <message>
+        <source>Pictures without positions have no projection, and so no presets.</source>
+        <translation>沒有位置的影像沒有投影，因此沒有預設集。</translation>
+    </message>
+    <message>
+        <source>Delete preset %1</source>
+        <translation>刪除預設集 %1</translation>
+    </message>
+    <message>
+        <source>Delete preset</source>
+        <translation>刪除預設集</translation>
+    </message>
+    <message>
+        <source>Delete the preset %1? Undo brings it back as long as the study is open.</source>
+        <translation>要刪除預設集 %1 嗎？只要檢查仍開啟，即可復原。</translation>
+    </message>
+    <message>
+        <source>Delete...</source>
+        <translation>刪除…</translation>
+    </message>
+    <message>
+        <source>Delete (built-in presets stay)</source>
+        <translation>刪除（內建預設集不可刪除）</translation>
     </message>
 </context>
 <context>
@@ -5623,6 +5700,14 @@
         <source>DICOM header...</source>
         <translation>DICOM 標頭…</translation>
     </message>
+    <message>
+        <source>Nothing found</source>
+        <translation>找不到</translation>
+    </message>
+    <message>
+        <source>No studies yet. Open one, or import studies into the library; files may also be dropped here.</source>
+        <translation>尚無檢查。請開啟檢查，或將檢查匯入資料庫；亦可將檔案拖放至此。</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::SubtractionDialog</name>
@@ -5793,16 +5878,8 @@
         <translation>在切面中拖曳方框的各邊</translation>
     </message>
     <message>
-        <source>%1: %2 (%3)</source>
-        <translation>%1：%2 (%3)</translation>
-    </message>
-    <message>
         <source>&amp;Slab</source>
         <translation>厚切(&amp;S)</translation>
-    </message>
-    <message>
-        <source>Slab: give the planes a thickness (S; [ and ] change it)</source>
-        <translation>厚切：使切面有厚度（S；以 [ 與 ] 調整）</translation>
     </message>
     <message>
         <source>&amp;Mean</source>
@@ -5855,10 +5932,6 @@
     <message>
         <source>Pla&amp;y</source>
         <translation>播放(&amp;Y)</translation>
-    </message>
-    <message>
-        <source>Play the slices of the plane, or turn the projection around the patient (Space)</source>
-        <translation>播放切面的各切片，或繞病患旋轉投影（空白鍵）</translation>
     </message>
     <message>
         <source>S&amp;peed</source>
@@ -6000,6 +6073,18 @@
         <source>Class &amp;volumes...</source>
         <translation>類別體積(&amp;V)…</translation>
     </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>Slab: give the planes a thickness; [ and ] change it</source>
+        <translation>厚切：使切面具有厚度；以 [ 與 ] 變更</translation>
+    </message>
+    <message>
+        <source>Play the slices of the plane, or turn the projection around the patient</source>
+        <translation>播放切面的切片，或繞病患旋轉投影</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::TransferFunctionPanel</name>
@@ -6070,6 +6155,26 @@
     <message>
         <source>Whole volume</source>
         <translation>整個體積</translation>
+    </message>
+    <message>
+        <source>The value at the left end of the curve; lower values have its weight</source>
+        <translation>曲線左端的數值；更低的數值採用其權重</translation>
+    </message>
+    <message>
+        <source>Lowest value of the curve</source>
+        <translation>曲線的最低值</translation>
+    </message>
+    <message>
+        <source>The value at the right end of the curve; higher values have its weight</source>
+        <translation>曲線右端的數值；更高的數值採用其權重</translation>
+    </message>
+    <message>
+        <source>Highest value of the curve</source>
+        <translation>曲線的最高值</translation>
+    </message>
+    <message>
+        <source>Range of the curve</source>
+        <translation>曲線的範圍</translation>
     </message>
 </context>
 <context>

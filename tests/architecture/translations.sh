@@ -42,4 +42,12 @@ for (_, source, _), message in wanted.items():
 sys.exit(wrong)
 PYTHON
 done
+# Both manuals have the same chapters, tables and pictures.
+for part in '<h3>' '<h4>' '<tr>' '<img' '<pre>'; do
+    counts=$(for manual in resources/manual/manual*.html; do grep -o "$part" "$manual" | wc -l; done | sort -u | wc -l)
+    if [ "$counts" != 1 ]; then
+        echo "resources/manual: the manuals differ in the number of $part"
+        failed=1
+    fi
+done
 exit $failed

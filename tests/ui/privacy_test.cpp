@@ -9,6 +9,7 @@
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QProcess>
+#include <QPushButton>
 #include <QScopeGuard>
 
 #include "tests/support/files.h"
@@ -132,16 +133,23 @@ private slots:
         QCOMPARE(mainWindow().windowTitle(), QString("Secret Name - Pellucid"));
     }
 
-    // A killed program leaves its session; one that ends leaves no path that names the patient.
-    void aSessionPathThatNamesThePatientEndsWithTheProgram() {
+    // It is in the user's private folder, as the library is.
+    void aSessionIsKeptWhateverItsPath() {
         const fs::path named = m_folder / "Secret Name";
         fs::copy(headPath().toStdString(), named);
         open(QString::fromStdString(named.string()));
         QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-        const auto &source = document().sources().at(0);
-        QVERIFY(ui::namesPatient(source.lasting.at(0), source.study));
         endProgram();
-        QVERIFY(!hasSession());
+        QVERIFY(hasSession());
+        const auto rights = fs::status(sessionFile().parent_path()).permissions();
+        QVERIFY((rights & (fs::perms::group_all | fs::perms::others_all)) == fs::perms::none);
+        restart();
+        auto *offer = find<QPushButton>("resumeButton");
+        QVERIFY(offer->isVisible());
+        QVERIFY(!offer->text().contains("Secret") && !offer->toolTip().contains("Secret"));
+        offer->click();
+        settle();
+        QVERIFY(document().volume());
     }
 
     // Neither the name nor the number of a patient is in the files that the program keeps.

@@ -18,6 +18,7 @@
 #include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/export/capture_labels.h"
+#include "ui/export/video_writer.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/jobs/job_strip.h"
 #include "ui/language/reasons.h"
@@ -55,6 +56,9 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     setWindowTitle(tr("Export picture"));
     setAttribute(Qt::WA_DeleteOnClose);
     m_pane->setCurrentIndex(int(Pane::projection));
+    if (!VideoWriter::isAvailable())
+        m_format->setItemText(int(PictureFormat::video),
+                              tr("Turntable, video (MP4): install ffmpeg first"));
     m_annotated->setObjectName("exportAnnotatedBox");
     m_annotated->setChecked(true);
     m_annotated->setToolTip(tr("Names, letters, scale and measurements; without them the picture "

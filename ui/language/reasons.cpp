@@ -4,6 +4,7 @@
 #include <string>
 
 #include <QCoreApplication>
+#include <QRegularExpression>
 #include <QStringList>
 
 namespace pellucid::ui {
@@ -21,8 +22,18 @@ QString joined(const std::vector<task::Reason> &reasons, const char *separator) 
     return all.join(QCoreApplication::translate("Reasons", separator));
 }
 
+// Archives name files after UIDs, which say nothing to a reader: the end tells them apart.
+QString withoutUids(QString text) {
+    constexpr qsizetype kept = 8;
+    static const QRegularExpression uid("[0-2](?:\\.\\d+){5,}");
+    for (auto found = uid.match(text); found.hasMatch(); found = uid.match(text))
+        text.replace(found.capturedStart(), found.capturedLength(),
+                     QString::fromUtf8("…") + found.captured().right(kept).remove('.'));
+    return text;
+}
+
 QString translated(const task::Argument &argument) {
-    return argument.reasons.empty() ? QString::fromStdString(argument.text)
+    return argument.reasons.empty() ? withoutUids(QString::fromStdString(argument.text))
                                     : joined(argument.reasons, betweenReasons);
 }
 

@@ -2,18 +2,25 @@
 #include "ui/opening/recent_paths.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <QCryptographicHash>
 #include <QDir>
 #include <QRegularExpression>
 #include <QSettings>
 
+#include "core/files/atomic_file.h"
+#include "core/files/read_text.h"
+#include "core/files/user_folders.h"
+#include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/library/study_library.h"
 #include "ui/settings/preferences.h"
 #include "ui/studies/search_words.h"
 
 namespace pellucid::ui {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -63,6 +70,60 @@ std::optional<StudyFacts> recentStudy(const QString &entry, StudyLibrary &librar
     const auto study = library.study(parts[1].toLongLong());
     // Numbers are given again: to another study.
     return study && digestOf(*study) == parts[2] ? study : std::nullopt;
+}
+
+namespace {
+
+constexpr const char *privatePrefix = "private:";
+
+std::optional<fs::path> privateFile(const QString &digest) {
+    const auto folder = files::userDataFolder();
+    return folder ? std::optional(*folder / "recent" / (digest.toStdString() + ".path"))
+                  : std::nullopt;
+}
+
+void removePrivate(const QString &entry) {
+    std::error_code ignored;
+    if (entry.startsWith(privatePrefix))
+        if (const auto file = privateFile(entry.section(':', 1, 1)))
+            fs::remove(*file, ignored);
+}
+
+} // namespace
+
+std::optional<QString> privateEntry(const QString &path, const QString &label) {
+    const QString digest =
+        QCryptographicHash::hash(path.toUtf8(), QCryptographicHash::Sha256).toHex().left(32);
+    const auto file = privateFile(digest);
+    if (!file)
+        return std::nullopt;
+    try {
+        std::error_code ignored; // the write reports it
+        fs::create_directories(file->parent_path(), ignored);
+        files::AtomicFile written(*file);
+        written.write(path.toStdString());
+        written.commit();
+    } catch (const task::Error &) {
+        return std::nullopt;
+    }
+    return QString("%1%2:%3").arg(privatePrefix, digest, label);
+}
+
+QString privateLabel(const QString &entry) {
+    return entry.startsWith(privatePrefix) ? entry.section(':', 2) : QString();
+}
+
+QString pathOf(const QString &entry) {
+    if (!entry.startsWith(privatePrefix))
+        return entry;
+    constexpr std::size_t longestPath = 1 << 16;
+    try {
+        if (const auto file = privateFile(entry.section(':', 1, 1)))
+            return QString::fromStdString(files::readText(*file, longestPath));
+    } catch (const task::Error &) {
+        // The file is gone: so is the entry.
+    }
+    return {};
 }
 
 bool namesPatient(const QString &path, const StudyFacts &study) {
@@ -119,6 +180,8 @@ void addRecentPaths(const QStringList &paths) {
         recent.removeAll(path);
         recent.prepend(path);
     }
+    for (const QString &old : recent.mid(recentCount))
+        removePrivate(old);
     QSettings().setValue(recentKey, recent.mid(0, recentCount));
 }
 
@@ -129,12 +192,16 @@ void forgetRecentPath(const QString &path) {
 }
 
 void forgetPaths() {
+    for (const QString &entry : recentPaths())
+        removePrivate(entry);
     QSettings().setValue(recentKey,
                          recentPaths().filter(QRegularExpression(QString("^") + studyPrefix)));
     QSettings().remove(exportKey);
 }
 
 void forgetRecentPaths() {
+    for (const QString &entry : recentPaths())
+        removePrivate(entry);
     QSettings().remove(recentKey);
     QSettings().remove(exportKey);
 }

@@ -18,6 +18,14 @@ QStringList recentPaths();
 /// A study of the library as such an entry; the study that an entry means, if it is one and there.
 QString recentEntry(const StudyFacts &study);
 std::optional<StudyFacts> recentStudy(const QString &entry, StudyLibrary &library);
+/// A path that may name a patient, as an entry with a label: "2026-01-01 CT". The path itself is
+/// kept in the user's data folder, as the paths of the library are, and not in the settings.
+/// Nothing if it cannot be kept there.
+std::optional<QString> privateEntry(const QString &path, const QString &label);
+/// The label of such an entry; empty for others.
+QString privateLabel(const QString &entry);
+/// The path of an entry: itself, or what `privateEntry` kept; empty if it is gone.
+QString pathOf(const QString &entry);
 /// Whether a path below the user's home, or elsewhere, holds a name, the number or the birth date
 /// of the patient, as folders of a disc often do: in the letters of the header, whatever their
 /// case, accents and what stands between them.

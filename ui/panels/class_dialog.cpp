@@ -8,9 +8,11 @@
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QScreen>
 
 #include "core/task/error.h"
 #include "ui/document/document.h"
@@ -61,6 +63,8 @@ ClassDialog::ClassDialog(Document &document, std::size_t index, QWidget *parent)
     form->addRow(m_message);
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
     form->addRow(buttons);
+    for (QAbstractButton *button : buttons->buttons())
+        static_cast<QPushButton *>(button)->setAutoDefault(false);
 
     connect(buttons, &QDialogButtonBox::accepted, this, &ClassDialog::accept);
     connect(buttons, &QDialogButtonBox::rejected, this, &ClassDialog::reject);
@@ -106,6 +110,31 @@ void ClassDialog::addSource(QFormLayout &form) {
     form.addRow(tr("From"), m_low);
     form.addRow(tr("To"), m_high);
     form.addRow(tr("Softness"), m_softness);
+}
+
+// Enter takes what was typed; only the buttons close the dialog.
+void ClassDialog::keyPressEvent(QKeyEvent *event) {
+    if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)
+        event->accept();
+    else
+        QDialog::keyPressEvent(event);
+}
+
+// Beside the pictures that it changes.
+void ClassDialog::showEvent(QShowEvent *event) {
+    QDialog::showEvent(event);
+    if (event->spontaneous() || parentWidget() == nullptr)
+        return;
+    const QRect window = parentWidget()->window()->frameGeometry();
+    const QRect screen = parentWidget()->screen()->availableGeometry();
+    const QSize size = frameGeometry().size();
+    // Over the panels at the right; on a wide screen, outside the window.
+    const int beside = window.right() + 8;
+    const int x =
+        beside + size.width() <= screen.right() ? beside : window.right() - size.width() - 4;
+    const int y = window.top() + (window.height() - size.height()) / 2;
+    move(std::clamp(x, screen.left(), std::max(screen.left(), screen.right() - size.width())),
+         std::clamp(y, screen.top(), std::max(screen.top(), screen.bottom() - size.height())));
 }
 
 void ClassDialog::done(int result) {

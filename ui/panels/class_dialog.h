@@ -35,6 +35,10 @@ public:
     void accept() override;
     void done(int result) override;
 
+protected:
+    void keyPressEvent(QKeyEvent *event) override;
+    void showEvent(QShowEvent *event) override;
+
 private:
     void addSource(QFormLayout &form);
     void showTint();

@@ -8,6 +8,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPainterPath>
+#include <QWheelEvent>
 
 #include "ui/language/number_text.h"
 
@@ -34,7 +35,8 @@ double tickStep(double range) {
 CurveEditor::CurveEditor(const Theme &theme, QWidget *parent) : QWidget(parent), m_theme(theme) {
     setObjectName("curveEditor");
     setAccessibleName(tr("Transfer function"));
-    setToolTip(tr("Drag a segment up or down; double-click resets it to 1"));
+    setToolTip(tr("Drag a segment up or down; double-click resets it to 1. The wheel zooms the "
+                  "axis, a drag of the axis moves it, a double-click on it shows all values"));
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
 }
@@ -90,6 +92,20 @@ QPointF CurveEditor::handleAt(int index) const {
             yOf(m_function.weights[std::size_t(index)])};
 }
 
+double CurveEditor::valueAt(double share) const {
+    const double f = m_function.low + share * (m_function.high - m_function.low);
+    return m_window.low + f * (m_window.high - m_window.low);
+}
+
+double CurveEditor::shareOf(double value) const {
+    const double f = (value - m_window.low) / (m_window.high - m_window.low);
+    return (f - m_function.low) / (m_function.high - m_function.low);
+}
+
+bool CurveEditor::isOnAxis(const QPointF &at) const {
+    return at.y() > plot().bottom() + 2.0;
+}
+
 void CurveEditor::paintAxes(QPainter &painter) {
     const QRectF area = plot();
     painter.setPen(m_theme.color("muted"));
@@ -99,13 +115,12 @@ void CurveEditor::paintAxes(QPainter &painter) {
     for (const double weight : {0.0, 1.0, 2.0})
         painter.drawText(QRectF(0, yOf(weight) - 8, area.left() - 4, 16),
                          Qt::AlignRight | Qt::AlignVCenter, QString::number(weight));
-    const double range = m_window.high - m_window.low;
+    const double low = valueAt(0.0), high = valueAt(1.0), range = high - low;
     if (!(range > 0.0))
         return;
     const double step = tickStep(range);
-    for (double value = std::ceil(m_window.low / step) * step;
-         value <= m_window.high + 1e-9 * range; value += step) {
-        const double x = area.left() + (value - m_window.low) / range * area.width();
+    for (double value = std::ceil(low / step) * step; value <= high + 1e-9 * range; value += step) {
+        const double x = area.left() + shareOf(value) * area.width();
         painter.drawLine(QPointF(x, area.bottom()), QPointF(x, area.bottom() + 3));
         const QRectF box(x - 34, area.bottom() + 3, 68, 16);
         painter.drawText(box.translated(std::min(0.0, width() - 2 - box.right()), 0.0),
@@ -147,8 +162,9 @@ void CurveEditor::paintEvent(QPaintEvent *) {
     QPainterPath curve;
     constexpr int steps = 128;
     for (int n = 0; n <= steps; ++n) {
-        const double f = double(n) / steps;
-        const QPointF at(area.left() + f * area.width(), yOf(m_function.at(f)));
+        const double share = double(n) / steps;
+        const double f = m_function.low + share * (m_function.high - m_function.low);
+        const QPointF at(area.left() + share * area.width(), yOf(m_function.at(f)));
         n == 0 ? curve.moveTo(at) : curve.lineTo(at);
     }
     painter.setBrush(Qt::NoBrush);
@@ -163,8 +179,9 @@ void CurveEditor::paintEvent(QPaintEvent *) {
         return;
     painter.setPen(QPen(m_theme.color("error"), 1.0));
     painter.drawLine(QPointF(m_mouseX, area.top()), QPointF(m_mouseX, area.bottom()));
-    const double f = (m_mouseX - area.left()) / area.width();
-    const double value = m_window.low + f * (m_window.high - m_window.low);
+    const double share = (m_mouseX - area.left()) / area.width();
+    const double f = m_function.low + share * (m_function.high - m_function.low);
+    const double value = valueAt(share);
     painter.setPen(m_theme.color("curve"));
     painter.drawText(area.adjusted(6, 2, 0, 0), Qt::AlignLeft | Qt::AlignTop,
                      tr("weight %1 at %2%3")
@@ -176,6 +193,14 @@ void CurveEditor::paintEvent(QPaintEvent *) {
 void CurveEditor::mousePressEvent(QMouseEvent *event) {
     if (event->button() != Qt::LeftButton)
         return;
+    if (isOnAxis(event->position())) {
+        m_isMovingRange = true;
+        m_drag = nextDragId();
+        m_dragFromX = event->position().x();
+        m_lowAtPress = m_function.low;
+        setCursor(Qt::ClosedHandCursor);
+        return;
+    }
     const int segment = segmentAt(event->position().x());
     m_dragging = true;
     m_hovered = segment;
@@ -189,6 +214,12 @@ void CurveEditor::mousePressEvent(QMouseEvent *event) {
 
 void CurveEditor::mouseMoveEvent(QMouseEvent *event) {
     m_mouseX = event->position().x();
+    if (m_isMovingRange) {
+        const double width = m_function.high - m_function.low;
+        const double by = (m_dragFromX - m_mouseX) / plot().width() * width;
+        offerRange(m_lowAtPress + by, width);
+        return;
+    }
     if (!m_dragging) {
         m_hovered = plot().contains(event->position()) ? segmentAt(m_mouseX) : -1;
         update();
@@ -200,12 +231,43 @@ void CurveEditor::mouseMoveEvent(QMouseEvent *event) {
 }
 
 void CurveEditor::mouseReleaseEvent(QMouseEvent *) {
-    m_dragging = false;
+    m_dragging = m_isMovingRange = false;
     unsetCursor();
 }
 
+void CurveEditor::offerRange(double low, double width) {
+    const double wide = std::clamp(width, classify::TransferFunction::narrowestRange, 1.0);
+    const double from = std::clamp(low, 0.0, 1.0 - wide);
+    if (from != m_function.low || from + wide != m_function.high)
+        emit rangeChanged(from, std::min(1.0, from + wide), m_drag);
+}
+
+// One turn of the wheel is one edit.
+void CurveEditor::wheelEvent(QWheelEvent *event) {
+    constexpr double factor = 1.25;
+    constexpr qint64 pauseMs = 700;
+    const int steps = event->angleDelta().y();
+    event->accept();
+    if (steps == 0)
+        return;
+    if (!m_sinceWheel.isValid() || m_sinceWheel.elapsed() > pauseMs)
+        m_drag = nextDragId();
+    m_sinceWheel.start();
+    const QRectF area = plot();
+    const double share = std::clamp((event->position().x() - area.left()) / area.width(), 0.0, 1.0);
+    const double width = m_function.high - m_function.low,
+                 wanted = std::clamp(steps > 0 ? width / factor : width * factor,
+                                     classify::TransferFunction::narrowestRange, 1.0);
+    offerRange(m_function.low + share * (width - wanted), wanted);
+}
+
 void CurveEditor::mouseDoubleClickEvent(QMouseEvent *event) {
-    m_dragging = false;
+    m_dragging = m_isMovingRange = false;
+    if (isOnAxis(event->position())) {
+        m_drag = nextDragId();
+        offerRange(0.0, 1.0);
+        return;
+    }
     emit weightChanged(segmentAt(event->position().x()), 1.0, nextDragId());
 }
 

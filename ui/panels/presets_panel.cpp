@@ -10,8 +10,12 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
+#include <QMessageBox>
 #include <QPainter>
+#include <QPointer>
 #include <QPushButton>
+#include <QStyledItemDelegate>
+#include <QUndoCommand>
 #include <QVBoxLayout>
 
 #include "core/classify/couch.h"
@@ -44,13 +48,60 @@ QIcon emptyIcon() {
     return QIcon(pixmap);
 }
 
+// Paints the picture of a preset and its name in up to two lines; Qt's own has one.
+class PresetPainter : public QStyledItemDelegate {
+public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+
+    void paint(QPainter *painter, const QStyleOptionViewItem &option,
+               const QModelIndex &index) const override {
+        QStyleOptionViewItem item = option;
+        initStyleOption(&item, index);
+        const QWidget *const view = item.widget;
+        view->style()->drawPrimitive(QStyle::PE_PanelItemViewItem, &item, painter, view);
+        QRect picture(QPoint(), pictureSize);
+        picture.moveCenter(item.rect.center());
+        picture.moveTop(item.rect.top() + margin);
+        item.icon.paint(painter, picture, Qt::AlignCenter,
+                        item.state.testFlag(QStyle::State_Enabled) ? QIcon::Normal
+                                                                   : QIcon::Disabled);
+        painter->setFont(view->font());
+        const bool isSelected = item.state.testFlag(QStyle::State_Selected);
+        painter->setPen(item.palette.color(isSelected ? QPalette::Highlight : QPalette::Text));
+        const QRect below = item.rect.adjusted(margin, 0, -margin, -margin);
+        painter->drawText(QRect(below.left(), picture.bottom() + margin, below.width(),
+                                below.bottom() - picture.bottom()),
+                          Qt::AlignHCenter | Qt::AlignTop,
+                          twoLines(item.text, view->fontMetrics(), below.width()));
+    }
+
+private:
+    static constexpr int margin = 3;
+
+    static QString twoLines(const QString &text, const QFontMetrics &metrics, int width) {
+        if (metrics.horizontalAdvance(text) <= width)
+            return text;
+        // As many words as fit, then the rest.
+        qsizetype at = -1;
+        for (qsizetype space = text.indexOf(' '); space >= 0; space = text.indexOf(' ', space + 1))
+            if (metrics.horizontalAdvance(text.left(space)) <= width)
+                at = space;
+        qsizetype end = at; // without a blank, as in Chinese, between letters
+        while (at < 0 && metrics.horizontalAdvance(text.left(end + 1)) <= width)
+            ++end;
+        const QString first = text.left(end);
+        const QString rest = text.mid(at < 0 ? end : at + 1);
+        return first + "\n" + metrics.elidedText(rest, Qt::ElideRight, width);
+    }
+};
+
 } // namespace
 
 PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_library(presets::PresetLibrary::ofUser()),
       m_corner(new QWidget), m_listsAll(new QPushButton(tr("All"))), m_save(new QPushButton),
       m_gallery(new QListWidget), m_name(new QLineEdit), m_confirm(new QPushButton(tr("Save"))),
-      m_nameRow(new QWidget), m_message(new QLabel) {
+      m_nameRow(new QWidget), m_message(new QLabel), m_empty(new QLabel) {
     setObjectName("presetsPanel");
     setAttribute(Qt::WA_StyledBackground);
     m_gallery->setObjectName("presetGallery");
@@ -58,11 +109,11 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     m_gallery->setViewMode(QListView::IconMode);
     m_gallery->setMovement(QListView::Static);
     m_gallery->setResizeMode(QListView::Adjust);
-    m_gallery->setUniformItemSizes(true);
     m_gallery->setIconSize(pictureSize);
-    m_gallery->setGridSize(pictureSize + QSize(4, 22));
+    // Names have two lines.
+    m_gallery->setGridSize(pictureSize + QSize(4, 36));
+    m_gallery->setItemDelegate(new PresetPainter(m_gallery));
     m_gallery->setSpacing(0);
-    m_gallery->setTextElideMode(Qt::ElideRight);
     m_gallery->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_gallery->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     m_gallery->setContextMenuPolicy(Qt::CustomContextMenu);
@@ -89,6 +140,9 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     m_message->setProperty("role", "warning");
     m_message->setWordWrap(true);
     m_message->hide();
+    m_empty->setObjectName("presetsEmpty");
+    m_empty->setProperty("role", "muted");
+    m_empty->setWordWrap(true);
 
     auto *nameLayout = new QHBoxLayout(m_nameRow);
     nameLayout->setContentsMargins(0, 0, 0, 0);
@@ -100,6 +154,7 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     column->setSpacing(2);
     column->addWidget(m_nameRow);
     column->addWidget(m_message);
+    column->addWidget(m_empty, 0, Qt::AlignTop);
     column->addWidget(m_gallery, 1);
     connectControls();
     setEnabled(false);
@@ -181,8 +236,15 @@ void PresetsPanel::list() {
         item->setToolTip(entry.preset.notes.empty()
                              ? name
                              : name + ": " + QString::fromStdString(entry.preset.notes));
+        item->setSizeHint(m_gallery->gridSize()); // of two lines, also if the name has one
         m_gallery->addItem(item);
     }
+    const bool isOpen = m_document.volume().has_value();
+    m_empty->setText(!isOpen ? tr("Open a study to see it with the presets.")
+                             : tr("Pictures without positions have no projection, and so no "
+                                  "presets."));
+    m_empty->setVisible(!isOpen || !m_document.volume()->notes().placed);
+    m_gallery->setVisible(m_empty->isHidden());
     showCurrent();
     if (!m_library.skipped().empty()) {
         const auto &first = m_library.skipped().front();
@@ -232,16 +294,22 @@ void PresetsPanel::showCurrent() {
     };
     if (isShown({}) && scene.shading == shading::Shading() && shown == defaultWindow)
         current = tr("Plain density");
+    const presets::PresetEntry *found = nullptr;
     for (const auto &entry : m_library.entries()) {
         const auto window = entry.preset.window.value_or(defaultWindow);
         if (!suits(entry.preset) || !(window == shown) ||
             !isShown(presets::lookFor(entry.preset, window)) ||
             !(entry.preset.shading == scene.shading))
             continue;
-        current = translatedName(entry.preset.name);
-        if (QListWidgetItem *const item = itemOf(QString::fromStdString(entry.preset.name)))
+        // Of several with the same look, the one that was chosen or saved last.
+        const bool isChosen = QString::fromStdString(entry.preset.name) == m_chosen;
+        if (found == nullptr || isChosen)
+            found = &entry;
+    }
+    if (found != nullptr) {
+        current = translatedName(found->preset.name);
+        if (QListWidgetItem *const item = itemOf(QString::fromStdString(found->preset.name)))
             m_gallery->setCurrentItem(item);
-        break;
     }
     emit lookNamed(current);
 }
@@ -250,6 +318,7 @@ void PresetsPanel::apply(QListWidgetItem *item) {
     const auto *entry = m_library.find(item->data(nameRole).toString().toStdString());
     if (entry == nullptr || !m_document.volume())
         return;
+    m_chosen = item->data(nameRole).toString();
     if (const QStringList missing = m_document.missingSegments(entry->preset.look);
         !missing.isEmpty()) {
         emit failed(task::because::sceneNeedsSegments(missing.join(", ").toStdString()),
@@ -294,6 +363,7 @@ void PresetsPanel::saveLook() {
                                          m_document.scene().shading, m_document.fieldWindow(),
                                          *m_document.volume()));
         m_nameRow->hide();
+        m_chosen = name;
         list();
         if (QListWidgetItem *const item = itemOf(name))
             m_gallery->scrollToItem(item);
@@ -315,11 +385,53 @@ bool PresetsPanel::eventFilter(QObject *watched, QEvent *event) {
     return QWidget::eventFilter(watched, event);
 }
 
-void PresetsPanel::remove(const QString &name) {
-    attempt([&] {
-        m_library.remove(name.toStdString());
-        list();
-    });
+// Removes one of the user's presets and brings it back. The panel may be that of an earlier window.
+class PresetsPanel::Removal : public QUndoCommand {
+public:
+    Removal(PresetsPanel &panel, const presets::Preset &preset)
+        : QUndoCommand(tr("Delete preset %1").arg(QString::fromStdString(preset.name))),
+          m_panel(&panel), m_preset(preset) {}
+    void redo() override {
+        change([&](presets::PresetLibrary &library) { library.remove(m_preset.name); });
+    }
+    void undo() override {
+        change([&](presets::PresetLibrary &library) { library.save(m_preset); });
+    }
+
+private:
+    template <class F> void change(const F &what) {
+        if (m_panel == nullptr) {
+            auto library = presets::PresetLibrary::ofUser();
+            what(library);
+            return;
+        }
+        m_panel->attempt([&] {
+            what(m_panel->m_library);
+            m_panel->list();
+        });
+    }
+
+    QPointer<PresetsPanel> m_panel;
+    const presets::Preset m_preset;
+};
+
+void PresetsPanel::askToRemove(const QString &name) {
+    auto *question = new QMessageBox(
+        QMessageBox::NoIcon, tr("Delete preset"),
+        tr("Delete the preset %1? Undo brings it back as long as the study is open.").arg(name),
+        QMessageBox::Cancel, window());
+    question->setObjectName("removePresetQuestion");
+    question->setAttribute(Qt::WA_DeleteOnClose);
+    question->setTextFormat(Qt::PlainText);
+    QPushButton *const yes = question->addButton(tr("Delete"), QMessageBox::AcceptRole);
+    question->setDefaultButton(QMessageBox::Cancel);
+    connect(question, &QMessageBox::buttonClicked, this,
+            [this, name, yes](const QAbstractButton *button) {
+                const auto *const entry = m_library.find(name.toStdString());
+                if (button == static_cast<const void *>(yes) && entry != nullptr)
+                    m_document.undoStack()->push(new Removal(*this, entry->preset));
+            });
+    question->open();
 }
 
 void PresetsPanel::importPreset() {
@@ -380,11 +492,15 @@ void PresetsPanel::showMenu(const QPoint &at) {
     const auto *entry = m_library.find(name.toStdString());
     if (entry == nullptr)
         return;
-    QMenu menu;
-    QAction *removal = menu.addAction(tr("Delete"));
+    auto *menu = new QMenu(this);
+    menu->setObjectName("presetMenu");
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    QAction *removal = menu->addAction(tr("Delete..."), this, [this, name] { askToRemove(name); });
+    removal->setObjectName("removePresetAction");
     removal->setEnabled(!entry->isBuiltIn());
-    if (menu.exec(m_gallery->mapToGlobal(at)) == removal)
-        remove(name);
+    if (entry->isBuiltIn())
+        removal->setText(tr("Delete (built-in presets stay)"));
+    menu->popup(m_gallery->mapToGlobal(at));
 }
 
 } // namespace pellucid::ui

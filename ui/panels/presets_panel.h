@@ -49,7 +49,8 @@ private:
     void showCurrent();
     void apply(QListWidgetItem *item);
     void saveLook();
-    void remove(const QString &name);
+    class Removal;
+    void askToRemove(const QString &name);
     void showMenu(const QPoint &at);
     /// Runs `what` and reports a task::Error that it throws.
     template <class F> void attempt(const F &what);
@@ -65,7 +66,8 @@ private:
     QLineEdit *m_name;
     QPushButton *m_confirm;
     QWidget *m_nameRow;
-    QLabel *m_message;
+    QLabel *m_message, *m_empty;
+    QString m_chosen; ///< the preset that was chosen or saved last
 };
 
 } // namespace pellucid::ui

@@ -81,8 +81,17 @@ void StudyList::rebuild() {
         }
         addVolumes(*m_entries[rows.value(key)], {source.volume});
     }
-    std::erase_if(m_entries,
-                  [&](const auto &entry) { return !matches(entry->study, entry->volumes); });
+    // A search never hides what is open.
+    const int open = m_document.currentSource();
+    const QString shown =
+        open < 0 ? QString() : m_document.sources()[std::size_t(open)].study.key();
+    m_hasOther = false;
+    std::erase_if(m_entries, [&](const auto &entry) {
+        const bool isFound = matches(entry->study, entry->volumes);
+        const bool isOpen = entry->study.key() == shown;
+        m_hasOther = m_hasOther || (isOpen && !isFound);
+        return !isFound && !isOpen;
+    });
     m_openCount = int(m_entries.size());
     for (int row = 0; row < m_openCount; ++row)
         m_entries[std::size_t(row)]->row = row;

@@ -29,6 +29,8 @@ public:
     StudyOrder order() const { return m_order; }
     /// The number of matching studies, fetched or not.
     int studyCount() const { return m_openCount + m_libraryCount; }
+    /// The same without an open study that is listed although it does not match.
+    int matchCount() const { return studyCount() - (m_hasOther ? 1 : 0); }
 
     /// The study of a row; for a volume, its parent.
     const StudyFacts &study(const QModelIndex &index) const;
@@ -70,6 +72,7 @@ private:
     StudyOrder m_order = StudyOrder::newestFirst;
     std::vector<std::unique_ptr<Entry>> m_entries;
     int m_openCount = 0, m_libraryCount = 0;
+    bool m_hasOther = false; ///< the open study does not match the search
     /// Thumbnails of open volumes that are not in the library, by key; made on demand.
     mutable QHash<QString, QImage> m_thumbnails;
     mutable ThumbnailMaker m_maker;

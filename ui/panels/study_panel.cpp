@@ -8,6 +8,7 @@
 #include <QDragEnterEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMessageBox>
@@ -47,7 +48,8 @@ QStringList localPaths(const QMimeData &data) {
 StudyPanel::StudyPanel(Document &document, StudyLibrary &library, const Theme &theme,
                        QWidget *parent)
     : QWidget(parent), m_document(document), m_library(library), m_list(document, library),
-      m_search(new QLineEdit), m_tree(new QTreeView), m_corner(new QPushButton(tr("Import"))) {
+      m_search(new QLineEdit), m_tree(new QTreeView), m_corner(new QPushButton(tr("Import"))),
+      m_empty(new QLabel) {
     setObjectName("studyPanel");
     setAttribute(Qt::WA_StyledBackground);
     setAcceptDrops(true);
@@ -67,6 +69,9 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, const Theme &t
     m_corner->setObjectName("importButton");
     m_corner->setProperty("role", "link");
     m_corner->setToolTip(tr("Add studies to the library (Ctrl+I)"));
+    m_empty->setObjectName("studiesEmpty");
+    m_empty->setProperty("role", "muted");
+    m_empty->setWordWrap(true);
     m_tree->setObjectName("seriesTree");
     m_tree->setAccessibleName(tr("Studies"));
     m_tree->setHeaderHidden(true);
@@ -86,11 +91,13 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, const Theme &t
     layout->setContentsMargins(14, 4, 10, 12);
     layout->setSpacing(6);
     layout->addLayout(top);
+    layout->addWidget(m_empty, 0, Qt::AlignTop);
     layout->addWidget(m_tree, 1);
     layout->addWidget(new JobStrip(library.jobs(), "import"));
     layout->addWidget(new ProblemList(document, theme));
     connectControls();
     expandFew();
+    showEmpty();
 }
 
 void StudyPanel::connectControls() {
@@ -106,6 +113,7 @@ void StudyPanel::connectControls() {
     connect(&m_list, &QAbstractItemModel::modelReset, this, [this] {
         expandFew();
         showCurrent();
+        showEmpty();
     });
     connect(&m_document, &Document::currentSourceChanged, this, &StudyPanel::showCurrent);
     m_tree->setExpandsOnDoubleClick(false);
@@ -143,6 +151,15 @@ QWidget *StudyPanel::corner() {
 void StudyPanel::focusSearch() {
     m_search->setFocus();
     m_search->selectAll();
+}
+
+void StudyPanel::showEmpty() {
+    const bool isSearching = !m_list.search().trimmed().isEmpty();
+    const int matching = m_list.matchCount();
+    m_empty->setVisible(matching == 0);
+    m_empty->setText(isSearching ? tr("Nothing found")
+                                 : tr("No studies yet. Open one, or import studies into the "
+                                      "library; files may also be dropped here."));
 }
 
 void StudyPanel::expandFew() {

@@ -9,6 +9,7 @@
 #include "ui/studies/study_source.h"
 #include "ui/theme/theme.h"
 
+class QLabel;
 class QLineEdit;
 class QMenu;
 class QPushButton;
@@ -47,6 +48,7 @@ private:
     void activate(const QModelIndex &index);
     void showCurrent();
     void expandFew();
+    void showEmpty();
     void showMenu(const QPoint &at);
     void openBeside(const QModelIndex &index);
     QStringList filesOf(const QModelIndex &index) const;
@@ -64,6 +66,7 @@ private:
     QElapsedTimer m_sinceToggle; ///< since a study was expanded or collapsed
     QTreeView *m_tree;
     QPushButton *m_corner;
+    QLabel *m_empty;
     QTimer m_typing;
 };
 

@@ -41,10 +41,15 @@ int cardWidth(const QStyleOptionViewItem &option) {
     return view->width() - std::max(bar, indent);
 }
 
-// Wraps warnings to a width.
+// Wraps the first warning to a width and counts the others; the details have all of them.
 QStringList warningLines(const QFont &font, int width, const QStringList &warnings) {
     QStringList lines;
-    for (const QString &warning : warnings) {
+    if (warnings.isEmpty())
+        return lines;
+    QString first = warnings.front();
+    if (warnings.size() > 1)
+        first += " (+" + QString::number(warnings.size() - 1) + ")";
+    for (const QString &warning : {first}) {
         QTextLayout layout(warning, font);
         layout.beginLayout();
         for (QTextLine line = layout.createLine(); line.isValid(); line = layout.createLine()) {

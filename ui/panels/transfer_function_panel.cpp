@@ -18,12 +18,14 @@
 #include "ui/language/number_text.h"
 #include "ui/language/reasons.h"
 #include "ui/panels/curve_editor.h"
+#include "ui/panels/limit_box.h"
 
 namespace pellucid::ui {
 
 namespace {
 
 constexpr int histogramBins = 96;
+constexpr double maxValue = 9e8, typicalRange = 2000.0;
 
 QPushButton *addLink(QHBoxLayout *row, const QString &text, const char *name, const QString &tip) {
     auto *button = new QPushButton(text);
@@ -39,7 +41,9 @@ QPushButton *addLink(QHBoxLayout *row, const QString &text, const char *name, co
 TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &theme,
                                              QWidget *parent)
     : QWidget(parent), m_document(document), m_editor(new CurveEditor(theme)),
-      m_subject(new QLabel), m_points(new QSpinBox), m_weight(new QDoubleSpinBox) {
+      m_subject(new QLabel), m_points(new QSpinBox), m_weight(new QDoubleSpinBox),
+      m_low(new LimitBox("curveLowBox", -maxValue, maxValue, typicalRange)),
+      m_high(new LimitBox("curveHighBox", -maxValue, maxValue, typicalRange)) {
     setObjectName("transferFunctionPanel");
     setAttribute(Qt::WA_StyledBackground);
     using classify::TransferFunction;
@@ -60,6 +64,9 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &th
     m_weight->setKeyboardTracking(false); // apply only complete input
     layOut();
     connect(m_editor, &CurveEditor::weightChanged, this, &TransferFunctionPanel::setWeight);
+    connect(m_editor, &CurveEditor::rangeChanged, this, &TransferFunctionPanel::setRange);
+    for (LimitBox *box : {m_low, m_high})
+        connect(box, &QDoubleSpinBox::valueChanged, this, &TransferFunctionPanel::typeRange);
     connect(m_editor, &CurveEditor::pointSelected, this, &TransferFunctionPanel::showScene);
     connect(m_points, &QSpinBox::valueChanged, this, [this](int points) {
         if (points != int(function().weights.size()))
@@ -97,7 +104,23 @@ void TransferFunctionPanel::layOut() {
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(14, 2, 14, 8);
     column->setSpacing(4);
-    column->addWidget(m_subject);
+    m_low->setToolTip(tr("The value at the left end of the curve; lower values have its weight"));
+    m_low->setAccessibleName(tr("Lowest value of the curve"));
+    m_high->setToolTip(
+        tr("The value at the right end of the curve; higher values have its weight"));
+    m_high->setAccessibleName(tr("Highest value of the curve"));
+    m_subject->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    auto *top = new QHBoxLayout;
+    top->setSpacing(4);
+    top->addWidget(m_subject, 1);
+    for (LimitBox *box : {m_low, m_high}) {
+        box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+        box->setKeyboardTracking(false);
+        box->setAlignment(Qt::AlignRight);
+        box->setFixedWidth(76);
+        top->addWidget(box);
+    }
+    column->addLayout(top);
     column->addWidget(m_editor, 1);
     column->addLayout(bottom);
     connect(reset, &QPushButton::clicked, this, [this] {
@@ -138,6 +161,32 @@ void TransferFunctionPanel::setWeight(int index, double weight, DragId drag) {
     change(bent, tr("Transfer function"), drag);
 }
 
+void TransferFunctionPanel::setRange(double low, double high, DragId drag) {
+    change(classify::withRange(function(), low, high), tr("Range of the curve"), drag);
+}
+
+void TransferFunctionPanel::typeRange() {
+    using classify::TransferFunction;
+    const classify::FieldWindow window = m_document.fieldWindow();
+    const double width = window.high - window.low;
+    if (!m_document.volume() || !(width > 0.0))
+        return;
+    // The end that was not edited stays exactly where it is.
+    const auto density = [&](const LimitBox *box, double now) {
+        const double shown = window.low + now * width;
+        const double typed = box->exact();
+        return std::abs(typed - shown) < 1e-9 * width ? now : (typed - window.low) / width;
+    };
+    double low =
+        std::clamp(density(m_low, function().low), 0.0, 1.0 - TransferFunction::narrowestRange);
+    double high = std::clamp(density(m_high, function().high), 0.0, 1.0);
+    if (high - low < TransferFunction::narrowestRange)
+        high = low + TransferFunction::narrowestRange;
+    if (low != function().low || high != function().high)
+        setRange(low, std::min(high, 1.0), noDrag);
+    showScene(); // also restores a number that is out of range
+}
+
 void TransferFunctionPanel::copy() {
     QStringList weights;
     for (const double weight : function().weights)
@@ -146,7 +195,7 @@ void TransferFunctionPanel::copy() {
 }
 
 void TransferFunctionPanel::paste() {
-    classify::TransferFunction pasted{{}};
+    classify::TransferFunction pasted{{}, function().low, function().high};
     for (const QString &part : QGuiApplication::clipboard()->text().split(',')) {
         bool isNumber = false;
         pasted.weights.push_back(part.trimmed().toDouble(&isNumber));
@@ -163,23 +212,41 @@ void TransferFunctionPanel::paste() {
     }
 }
 
+classify::FieldWindow TransferFunctionPanel::shownRange() const {
+    const classify::FieldWindow window = m_document.fieldWindow();
+    const double width = window.high - window.low;
+    return {window.low + function().low * width, window.low + function().high * width};
+}
+
 void TransferFunctionPanel::setHistogram(const volume::Histogram &histogram) {
     m_histogram = histogram;
     showHistogram();
 }
 
 void TransferFunctionPanel::showHistogram() {
-    const classify::FieldWindow window = m_document.fieldWindow();
+    const classify::FieldWindow window = shownRange();
     const double step = (m_histogram.high - m_histogram.low) / double(m_histogram.counts.size());
     std::vector<double> heights;
     if (!m_histogram.counts.empty() && window.high > window.low && step > 0.0) {
         // Logarithmic: bone has a thousandth of the samples of air.
         heights.assign(histogramBins, 0.0);
-        for (std::size_t n = 0; n < m_histogram.counts.size(); ++n) {
-            const double value = m_histogram.low + (double(n) + 0.5) * step;
-            const double f = (value - window.low) / (window.high - window.low);
-            if (f >= 0.0 && f < 1.0)
-                heights[std::size_t(f * histogramBins)] += double(m_histogram.counts[n]);
+        const double width = (window.high - window.low) / histogramBins;
+        if (width < step) { // a range narrower than the histogram's own bins
+            const auto last = double(m_histogram.counts.size() - 1);
+            for (std::size_t n = 0; n < heights.size(); ++n) {
+                const double value = window.low + (double(n) + 0.5) * width;
+                const double at = std::clamp((value - m_histogram.low) / step - 0.5, 0.0, last);
+                const auto left = std::size_t(at), right = std::min(left + 1, std::size_t(last));
+                heights[n] = std::lerp(double(m_histogram.counts[left]),
+                                       double(m_histogram.counts[right]), at - double(left));
+            }
+        } else {
+            for (std::size_t n = 0; n < m_histogram.counts.size(); ++n) {
+                const double value = m_histogram.low + (double(n) + 0.5) * step;
+                const double f = (value - window.low) / (window.high - window.low);
+                if (f >= 0.0 && f < 1.0)
+                    heights[std::size_t(f * histogramBins)] += double(m_histogram.counts[n]);
+            }
         }
         double most = 0.0;
         for (double &height : heights)
@@ -198,7 +265,14 @@ void TransferFunctionPanel::showScene() {
     m_editor->setFunction(function());
     const auto &volume = m_document.volume();
     m_editor->setWindow(m_document.fieldWindow(), volume ? unitText(volume->unit()) : QString());
-    const QSignalBlocker noPoints(m_points), noWeight(m_weight);
+    const QSignalBlocker noPoints(m_points), noWeight(m_weight), noLow(m_low), noHigh(m_high);
+    for (LimitBox *box : {m_low, m_high}) {
+        const double width = shownRange().high - shownRange().low;
+        box->setDecimals(width >= 50.0 ? 0 : width >= 1.0 ? 2 : 5);
+        box->setSuffix(volume ? unitSuffix(volume->unit()) : QString());
+    }
+    m_low->give(shownRange().low);
+    m_high->give(shownRange().high);
     m_points->setValue(int(function().weights.size()));
     m_weight->setValue(function().weights[std::size_t(m_editor->selectedPoint())]);
     showHistogram();

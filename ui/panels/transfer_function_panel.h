@@ -14,6 +14,7 @@ class QSpinBox;
 namespace pellucid::ui {
 
 class CurveEditor;
+class LimitBox;
 class Document;
 
 /// Edits the transfer function of the whole volume or the selected class: curve, number of control
@@ -34,6 +35,10 @@ private:
     void change(const classify::TransferFunction &function, const QString &what,
                 DragId drag = noDrag);
     void setWeight(int index, double weight, DragId drag);
+    void setRange(double low, double high, DragId drag);
+    void typeRange();
+    /// The values of the curve's range.
+    classify::FieldWindow shownRange() const;
     void copy();
     void paste();
     void showScene();
@@ -44,6 +49,7 @@ private:
     QLabel *m_subject;
     QSpinBox *m_points;
     QDoubleSpinBox *m_weight;
+    LimitBox *m_low, *m_high; ///< the range of the curve
     volume::Histogram m_histogram;
 };
 

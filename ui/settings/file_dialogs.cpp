@@ -3,7 +3,10 @@
 
 #include <array>
 
+#include <QDir>
 #include <QFileDialog>
+#include <QFileInfo>
+#include <QHash>
 #include <QSettings>
 #include <QVariant>
 
@@ -35,27 +38,51 @@ private:
     std::array<QVariant, 2> m_before;
 };
 
+// The folder of each purpose, until the program ends: folders may name patients.
+QString &folderOf(const QString &purpose) {
+    static QHash<QString, QString> folders;
+    return folders[purpose];
+}
+
+void keepFolder(const QString &purpose, const QString &file) {
+    if (!file.isEmpty())
+        folderOf(purpose) = QFileInfo(file).absolutePath();
+}
+
+// Studies are opened and imported from the same places.
+constexpr auto studies = "studies";
+
 } // namespace
 
 QStringList askForFiles(QWidget *parent, const QString &title) {
     const DialogHistoryGuard guard;
-    return QFileDialog::getOpenFileNames(parent, title);
+    const QStringList files = QFileDialog::getOpenFileNames(parent, title, folderOf(studies));
+    keepFolder(studies, files.value(0));
+    return files;
 }
 
 QString askForFile(QWidget *parent, const QString &title, const QString &filter) {
     const DialogHistoryGuard guard;
-    return QFileDialog::getOpenFileName(parent, title, {}, filter);
+    const QString file = QFileDialog::getOpenFileName(parent, title, folderOf(filter), filter);
+    keepFolder(filter, file);
+    return file;
 }
 
 QString askForFolder(QWidget *parent, const QString &title) {
     const DialogHistoryGuard guard;
-    return QFileDialog::getExistingDirectory(parent, title);
+    const QString folder = QFileDialog::getExistingDirectory(parent, title, folderOf(studies));
+    keepFolder(studies, folder);
+    return folder;
 }
 
 QString askForSavePath(QWidget *parent, const QString &title, const QString &path,
                        const QString &filter) {
     const DialogHistoryGuard guard;
-    return QFileDialog::getSaveFileName(parent, title, path, filter);
+    const bool hasFolder = QFileInfo(path).isAbsolute() || folderOf(filter).isEmpty();
+    const QString file = QFileDialog::getSaveFileName(
+        parent, title, hasFolder ? path : QDir(folderOf(filter)).filePath(path), filter);
+    keepFolder(filter, file);
+    return file;
 }
 
 } // namespace pellucid::ui

@@ -12,7 +12,7 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr const char *defaultProperty = "defaultShortcut";
+constexpr const char *defaultProperty = "defaultShortcut", *tipProperty = "toolTipWithoutKey";
 
 QString settingsKey(const QString &name) {
     return "shortcuts/" + name;
@@ -32,6 +32,15 @@ QKeySequence defaultKeyOf(QAction *action) {
         return QKeySequence(known.toString(), QKeySequence::PortableText);
     action->setProperty(defaultProperty, action->shortcut().toString(QKeySequence::PortableText));
     return action->shortcut();
+}
+
+// Names the key in the tooltip, as tool buttons show it.
+void showKey(QAction &action) {
+    if (!action.property(tipProperty).isValid())
+        action.setProperty(tipProperty, plain(action.toolTip()));
+    const QString tip = action.property(tipProperty).toString();
+    const QString key = action.shortcut().toString(QKeySequence::NativeText);
+    action.setToolTip(key.isEmpty() ? tip : QString("%1 (%2)").arg(tip, key));
 }
 
 void add(const QMenu &menu, const QString &path, std::vector<ShortcutEntry> &entries) {
@@ -57,13 +66,16 @@ std::vector<ShortcutEntry> shortcutEntries(const QWidget &window) {
 
 void applyShortcuts(const QWidget &window) {
     const QSettings settings;
-    for (const ShortcutEntry &entry : shortcutEntries(window))
+    for (const ShortcutEntry &entry : shortcutEntries(window)) {
         if (const QVariant chosen = settings.value(settingsKey(entry.name)); chosen.isValid())
             entry.action->setShortcut(QKeySequence(chosen.toString(), QKeySequence::PortableText));
+        showKey(*entry.action);
+    }
 }
 
 void setShortcut(const ShortcutEntry &entry, const QKeySequence &key) {
     entry.action->setShortcut(key);
+    showKey(*entry.action);
     if (key == entry.defaultKey)
         QSettings().remove(settingsKey(entry.name));
     else

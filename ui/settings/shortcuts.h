@@ -21,7 +21,7 @@ struct ShortcutEntry {
 
 /// Every named action of a window's menus, in menu order.
 std::vector<ShortcutEntry> shortcutEntries(const QWidget &window);
-/// Applies the user's keys to the actions of a window.
+/// Applies the user's keys to the actions of a window, whose tooltips name them.
 void applyShortcuts(const QWidget &window);
 /// Sets and stores the key of an action. The default key is not stored.
 void setShortcut(const ShortcutEntry &entry, const QKeySequence &key);

@@ -33,4 +33,9 @@ QDockWidget *makeDock(const QString &title, const char *name, QWidget *panel, QW
     return dock;
 }
 
+void showHeading(QDockWidget &dock, bool isShown) {
+    if (auto *heading = dock.findChild<QToolButton *>(dock.objectName() + "Heading"))
+        heading->setVisible(isShown);
+}
+
 } // namespace pellucid::ui

@@ -10,14 +10,13 @@
 #include <QLocale>
 #include <QMenu>
 #include <QPlainTextEdit>
-#include <QShortcut>
 #include <QTabWidget>
-#include <QTextBrowser>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
 #include "ui/document/add_command.h"
 #include "ui/window/libraries.h"
+#include "ui/window/manual_window.h"
 
 namespace pellucid::ui {
 
@@ -34,20 +33,6 @@ QUrl manual() {
     const QString english = "manual.html";
     return QUrl("qrc:/pellucid/manual/" +
                 (QFile::exists(":/pellucid/manual/" + translated) ? translated : english));
-}
-
-void showManual() {
-    // Not modal: people read and try.
-    auto *browser = new QTextBrowser;
-    browser->setObjectName("manual");
-    browser->setAttribute(Qt::WA_DeleteOnClose);
-    browser->setAttribute(Qt::WA_QuitOnClose, false); // closing the main window ends the program
-    browser->setWindowTitle(HelpMenuTexts::tr("Pellucid manual"));
-    browser->setSource(manual());
-    browser->resize(760, 800);
-    QObject::connect(new QShortcut(Qt::Key_Escape, browser), &QShortcut::activated, browser,
-                     &QWidget::close);
-    browser->show();
 }
 
 QWidget *libraryTable() {
@@ -109,7 +94,8 @@ void showAbout(QWidget &window) {
 
 void addHelpMenu(QMenu &menu, QWidget &window) {
     addCommand(menu, HelpMenuTexts::tr("&Manual"), "manualAction", QKeySequence("F1"), &menu,
-               [] { showManual(); });
+               // Not modal: people read and try.
+               [] { (new ManualWindow(manual()))->show(); });
     addCommand(menu, HelpMenuTexts::tr("&About Pellucid"), "aboutAction", {}, &menu,
                [&window] { showAbout(window); });
 }

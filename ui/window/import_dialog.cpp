@@ -1,35 +1,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/import_dialog.h"
-#include "ui/settings/file_dialogs.h"
 
 #include <QDialogButtonBox>
 #include <QDir>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLabel>
+#include <QListWidget>
 #include <QPushButton>
 #include <QRadioButton>
 #include <QSettings>
 #include <QVBoxLayout>
+
+#include "ui/settings/file_dialogs.h"
 
 namespace pellucid::ui {
 
 namespace {
 
 constexpr const char *copyKey = "library/copy";
-constexpr int maxListedPaths = 6;
+constexpr int listHeight = 140;
 
 } // namespace
 
 ImportDialog::ImportDialog(const QStringList &paths, QWidget *parent)
-    : QDialog(parent), m_pathsLabel(new QLabel),
+    : QDialog(parent), m_hint(new QLabel(tr("Choose files, folders, a DICOMDIR or ZIP archives. "
+                                            "Folders are searched recursively."))),
+      m_list(new QListWidget), m_remove(new QPushButton(tr("Remove"))),
       m_refer(new QRadioButton(tr("&Reference the files in place"))),
       m_copy(new QRadioButton(tr("&Copy the files into the library"))) {
     setObjectName("importDialog");
     setWindowTitle(tr("Import into the library"));
     setAttribute(Qt::WA_DeleteOnClose);
-    m_pathsLabel->setObjectName("importPaths");
-    m_pathsLabel->setWordWrap(true);
-    m_pathsLabel->setMinimumWidth(420);
+    m_hint->setWordWrap(true);
+    m_hint->setMinimumWidth(420);
+    m_list->setObjectName("importPaths");
+    m_list->setAccessibleName(tr("Files and folders to import"));
+    m_list->setProperty("role", "plain");
+    m_list->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    m_list->setTextElideMode(Qt::ElideMiddle);
+    m_list->setFixedHeight(listHeight);
+    m_remove->setObjectName("importRemoveButton");
+    m_remove->setToolTip(tr("Take the selected files and folders off the list (Del)"));
+    m_list->installEventFilter(this);
+    connect(m_remove, &QPushButton::clicked, this, &ImportDialog::removeSelected);
+    connect(m_list, &QListWidget::itemSelectionChanged, this, &ImportDialog::showPaths);
     m_refer->setObjectName("referButton");
     m_refer->setToolTip(tr("Takes no space; the files must stay where they are"));
     m_copy->setObjectName("copyButton");
@@ -52,6 +67,7 @@ ImportDialog::ImportDialog(const QStringList &paths, QWidget *parent)
     choose->addWidget(files);
     choose->addWidget(folder);
     choose->addStretch(1);
+    choose->addWidget(m_remove);
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
     m_import = buttons->addButton(tr("Import"), QDialogButtonBox::AcceptRole);
     m_import->setObjectName("importNowButton");
@@ -59,7 +75,8 @@ ImportDialog::ImportDialog(const QStringList &paths, QWidget *parent)
     connect(buttons, &QDialogButtonBox::rejected, this, &ImportDialog::reject);
     auto *layout = new QVBoxLayout(this);
     layout->setSpacing(10);
-    layout->addWidget(m_pathsLabel);
+    layout->addWidget(m_hint);
+    layout->addWidget(m_list);
     layout->addLayout(choose);
     layout->addWidget(m_refer);
     layout->addWidget(m_copy);
@@ -68,20 +85,38 @@ ImportDialog::ImportDialog(const QStringList &paths, QWidget *parent)
 }
 
 void ImportDialog::add(const QStringList &paths) {
-    m_paths << paths;
-    m_paths.removeDuplicates();
+    for (const QString &path : paths)
+        if (!m_paths.contains(path)) {
+            m_paths << path;
+            auto *item = new QListWidgetItem(QDir::toNativeSeparators(path), m_list);
+            item->setToolTip(item->text());
+        }
+    showPaths();
+}
+
+bool ImportDialog::eventFilter(QObject *watched, QEvent *event) {
+    const bool isRemoval = watched == m_list && event->type() == QEvent::KeyPress &&
+                           static_cast<QKeyEvent *>(event)->key() == Qt::Key_Delete;
+    if (isRemoval)
+        removeSelected();
+    return isRemoval || QDialog::eventFilter(watched, event);
+}
+
+void ImportDialog::removeSelected() {
+    for (int row = m_list->count() - 1; row >= 0; --row)
+        if (m_list->item(row)->isSelected()) {
+            m_paths.removeAt(row);
+            delete m_list->takeItem(row);
+        }
+    showPaths();
+}
+
+void ImportDialog::showPaths() {
+    m_hint->setVisible(m_paths.isEmpty());
+    m_list->setVisible(!m_paths.isEmpty());
+    m_remove->setVisible(!m_paths.isEmpty());
+    m_remove->setEnabled(!m_list->selectedItems().isEmpty());
     m_import->setEnabled(!m_paths.isEmpty());
-    if (m_paths.isEmpty()) {
-        m_pathsLabel->setText(tr("Choose files, folders, a DICOMDIR or ZIP archives. Folders are "
-                                 "searched recursively."));
-        return;
-    }
-    QStringList shown;
-    for (const QString &path : m_paths.mid(0, maxListedPaths))
-        shown << QDir::toNativeSeparators(path);
-    if (m_paths.size() > maxListedPaths)
-        shown << tr("and %n more", "", int(m_paths.size()) - maxListedPaths);
-    m_pathsLabel->setText(shown.join("\n"));
 }
 
 void ImportDialog::accept() {

@@ -7,6 +7,7 @@
 #include "ui/library/import_studies.h"
 
 class QLabel;
+class QListWidget;
 class QPushButton;
 class QRadioButton;
 
@@ -21,12 +22,19 @@ public:
 signals:
     void chosen(const pellucid::ui::Import &import);
 
+protected:
+    bool eventFilter(QObject *watched, QEvent *event) override;
+
 private:
     void add(const QStringList &paths);
+    void removeSelected();
+    void showPaths();
     void accept() override;
 
     QStringList m_paths;
-    QLabel *m_pathsLabel;
+    QLabel *m_hint;
+    QListWidget *m_list;
+    QPushButton *m_remove;
     QRadioButton *m_refer, *m_copy;
     QPushButton *m_import;
 };

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/look_docks.h"
 
+#include <algorithm>
+
+#include <QAction>
 #include <QDockWidget>
 #include <QMainWindow>
+#include <QScopedValueRollback>
 #include <QScrollArea>
 
 #include "ui/engine/card_copier.h"
@@ -21,6 +25,8 @@ namespace pellucid::ui {
 namespace {
 
 constexpr int panelWidth = 300;
+// In a lower window, the panels would not fit below each other.
+constexpr int lowWindow = 900, tabsHeight = 300;
 
 // Lets a panel scroll, so that all docks fit in a height of 720 pixels.
 QWidget *scrolling(QWidget *panel) {
@@ -38,9 +44,9 @@ QWidget *scrolling(QWidget *panel) {
 
 LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer,
                      CardCopier &copier, ProjectionView &projection, const Theme &theme)
-    : QObject(&window), m_previewer(document), m_presets(new PresetsPanel(document)),
-      m_radiograph(new RadiographPanel(document)), m_classes(new ClassesPanel(document)),
-      m_function(new TransferFunctionPanel(document, theme)),
+    : QObject(&window), m_window(window), m_previewer(document),
+      m_presets(new PresetsPanel(document)), m_radiograph(new RadiographPanel(document)),
+      m_classes(new ClassesPanel(document)), m_function(new TransferFunctionPanel(document, theme)),
       m_shading(new ShadingPanel(document, theme)), m_quality(new QualityPanel(document)) {
     // At these heights, the docks fit in 900 pixels.
     dock(window, tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 150);
@@ -52,6 +58,15 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
     dock(window, tr("SHADING"), "shadingDock", scrolling(m_shading), m_shading->corner(), 145);
     dock(window, tr("QUALITY"), "qualityDock", scrolling(m_quality), m_quality->corner(), 140);
 
+    window.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
+    for (QDockWidget *dock : m_docks) {
+        const auto moved = [this] {
+            if (!m_isArranging)
+                m_areMoved = true;
+        };
+        connect(dock, &QDockWidget::topLevelChanged, this, moved);
+        connect(dock, &QDockWidget::dockLocationChanged, this, moved);
+    }
     connect(m_presets, &PresetsPanel::presetsListed, &m_previewer, &LookPreviewer::preview);
     connect(m_presets, &PresetsPanel::lookNamed, &projection, &ProjectionView::setLookName);
     connect(&m_previewer, &LookPreviewer::pictureReady, m_presets, &PresetsPanel::setPicture);
@@ -66,8 +81,58 @@ void LookDocks::unfold(QWidget &panel) {
     for (QDockWidget *dock : m_docks)
         if (dock->isAncestorOf(&panel)) {
             dock->show();
+            dock->raise(); // in front of other tabs
             dock->widget()->show();
         }
+}
+
+bool LookDocks::areTabs() const {
+    return !m_window.tabifiedDockWidgets(m_docks.front()).isEmpty();
+}
+
+void LookDocks::fit(int windowHeight) {
+    const bool asTabs = windowHeight < lowWindow;
+    if (!m_areMoved && asTabs != areTabs())
+        arrange(asTabs);
+}
+
+void LookDocks::reset(int windowHeight) {
+    for (QDockWidget *dock : m_docks) {
+        dock->setFloating(false);
+        dock->show();
+        dock->widget()->show();
+    }
+    m_areMoved = false;
+    arrange(windowHeight < lowWindow);
+}
+
+void LookDocks::arrange(bool asTabs) {
+    const QScopedValueRollback arranging(m_isArranging, true);
+    QList<QDockWidget *> shown;
+    for (QDockWidget *dock : m_docks) {
+        if (dock->toggleViewAction()->isChecked())
+            shown << dock;
+        m_window.removeDockWidget(dock);
+    }
+    // Classes and the curve of the selected one are seen together.
+    const std::vector<QDockWidget *> tabs{m_docks[0], m_docks[1], m_docks[4], m_docks[5]};
+    QList<QDockWidget *> rows;
+    QList<int> heights;
+    for (std::size_t n = 0; n < m_docks.size(); ++n) {
+        QDockWidget *const dock = m_docks[n];
+        const bool isTab = asTabs && std::find(tabs.begin(), tabs.end(), dock) != tabs.end();
+        m_window.addDockWidget(Qt::RightDockWidgetArea, dock);
+        if (isTab && dock != m_docks.front())
+            m_window.tabifyDockWidget(m_docks.front(), dock);
+        else {
+            rows << dock;
+            heights << (isTab ? tabsHeight : m_heights[n]);
+        }
+        showHeading(*dock, !isTab);
+        dock->setVisible(shown.contains(dock));
+    }
+    m_docks.front()->raise();
+    m_window.resizeDocks(rows, heights, Qt::Vertical);
 }
 
 void LookDocks::dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,

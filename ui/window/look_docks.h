@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include <QObject>
 
 #include "ui/engine/look_previewer.h"
@@ -21,9 +23,10 @@ class RadiographPanel;
 class ShadingPanel;
 class TransferFunctionPanel;
 
-/// The docks on the right of the window: presets, radiograph, classes, transfer
-/// function, shading, quality.
-/// Connects them with the objects that they control.
+/// The docks on the right of the window: presets, radiograph, classes, transfer function, shading,
+/// quality. Connects them with the objects that they control. In a high window they are stacked; in
+/// a low one some share a place as tabs, so that nothing is cut. Once the user has moved a dock,
+/// they stay as they are.
 class LookDocks : public QObject {
     Q_OBJECT
 public:
@@ -36,12 +39,23 @@ public:
     ShadingPanel &shading() { return *m_shading; }
     /// Shows a panel whose dock may be closed or collapsed.
     void unfold(QWidget &panel);
+    /// Stacks the docks or makes tabs of them. *Units*: logical pixels.
+    void fit(int windowHeight);
+    /// Whether the user has moved a dock; kept with the layout.
+    bool areMoved() const { return m_areMoved; }
+    void setMoved(bool areMoved) { m_areMoved = areMoved; }
+    /// Shows all docks where they were at first.
+    void reset(int windowHeight);
 
 private:
     /// `corner`: a widget beside the heading; may be null.
     void dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,
               QWidget *corner, int height);
 
+    bool areTabs() const;
+    void arrange(bool asTabs);
+
+    QMainWindow &m_window;
     LookPreviewer m_previewer;
     PresetsPanel *m_presets;
     RadiographPanel *m_radiograph;
@@ -51,6 +65,7 @@ private:
     QualityPanel *m_quality;
     std::vector<QDockWidget *> m_docks;
     std::vector<int> m_heights;
+    bool m_areMoved = false, m_isArranging = false;
 };
 
 } // namespace pellucid::ui

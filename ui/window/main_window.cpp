@@ -64,7 +64,9 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     const auto exposure = bench.study.document.exposure(); // of the study that is open already
     setObjectName("mainWindow");
     setAcceptDrops(true);
-    resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
+    // With the frame that the desktop adds.
+    constexpr QSize preferred(1600, 1000), frame(16, 44);
+    resize(preferred.boundedTo(screen()->availableGeometry().size() - frame));
     qApp->installEventFilter(new WheelGuard(this));
     createPanes();
     m_docks = new StudyDocks(*this, m_bench, m_theme);
@@ -92,13 +94,15 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     createHelpMenu();
     setActionIcons(*this, m_theme);
     makeToolBar(*this, m_bench.study.document, m_theme, m_preferences.toolBar,
-                {*m_tools, m_view->layouts(), lookMenu->windowMenu()});
+                {*m_tools, m_view->layouts(), m_view->standardViews(), lookMenu->windowMenu()});
     createStatusBar();
     applyShortcuts(*this);
     connectBench();
     const QSettings settings;
     restoreGeometry(settings.value("geometry").toByteArray());
     restoreState(settings.value("windowState").toByteArray());
+    m_look->setMoved(settings.value("docksMoved").toBool());
+    m_look->fit(height());
     m_panes->restoreSizes(settings);
     connect(new ProjectionKeys(*this, *m_projection), &ProjectionKeys::comparisonRequested, this,
             &MainWindow::compareLooks);
@@ -235,9 +239,13 @@ void MainWindow::createEditMenu() {
     QMenu *menu = menuBar()->addMenu(tr("&Edit"));
     QAction *undo = m_bench.study.document.undoStack()->createUndoAction(this, tr("Undo"));
     undo->setObjectName("undoAction");
+    undo->setIconText(tr("Undo")); // of the button; the menu names the edit
+    undo->setToolTip(tr("Undo"));
     undo->setShortcut(QKeySequence::Undo);
     QAction *redo = m_bench.study.document.undoStack()->createRedoAction(this, tr("Redo"));
     redo->setObjectName("redoAction");
+    redo->setIconText(tr("Redo"));
+    redo->setToolTip(tr("Redo"));
     redo->setShortcut(QKeySequence("Ctrl+Shift+Z"));
     menu->addActions({undo, redo});
     menu->addSeparator();
@@ -275,6 +283,8 @@ void MainWindow::createHelpMenu() {
         window->addAction(dock->toggleViewAction());
     for (QDockWidget *dock : m_look->docks())
         window->addAction(dock->toggleViewAction());
+    window->addSeparator();
+    command(*window, tr("&Reset layout"), "resetLayoutAction", {}, [this] { resetLayout(); });
     addHelpMenu(*menuBar()->addMenu(tr("&Help")), *this);
 }
 
@@ -441,7 +451,23 @@ void MainWindow::keepLayout() {
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("windowState", saveState());
+    settings.setValue("docksMoved", m_look->areMoved());
     m_panes->saveSizes(settings);
+}
+
+void MainWindow::resizeEvent(QResizeEvent *event) {
+    QMainWindow::resizeEvent(event);
+    if (m_look != nullptr)
+        m_look->fit(height());
+}
+
+void MainWindow::resetLayout() {
+    m_docks->reset();
+    m_look->reset(height());
+    m_panes->setPaneLayout(PaneLayout::onePlusThree);
+    m_panes->restoreDefaultSizes();
+    for (QAction *layout : m_view->layouts())
+        layout->setChecked(layout->objectName() == "onePlusThreeAction");
 }
 
 void MainWindow::closeEvent(QCloseEvent *event) {

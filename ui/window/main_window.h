@@ -60,6 +60,7 @@ protected:
     void dragEnterEvent(QDragEnterEvent *event) override;
     void dropEvent(QDropEvent *event) override;
     void closeEvent(QCloseEvent *event) override;
+    void resizeEvent(QResizeEvent *event) override;
     void keyPressEvent(QKeyEvent *event) override;
     void changeEvent(QEvent *event) override;
 
@@ -74,6 +75,7 @@ private:
     void createStatusBar();
     void showVolumeState();
     void showPictures();
+    void resetLayout();
     void compareLooks(bool isComparing);
     void showAngles();
     void showClassVolumes();

@@ -50,20 +50,33 @@ void Reopening::forgetAll() {
 }
 
 void Reopening::rememberPaths(QStringList paths) {
-    erase_if(paths, [&](const QString &path) {
-        const bool isKept = mayBeKept(path, m_bench.study.document);
-        if (!isKept) // remembered when this was allowed
-            forgetRecentPath(path);
-        return !isKept;
-    });
-    remember(paths);
+    QStringList entries;
+    const Document &document = m_bench.study.document;
+    for (const QString &path : paths) {
+        if (mayBeKept(path, document)) {
+            entries << path;
+            continue;
+        }
+        forgetRecentPath(path); // remembered when this was allowed
+        const auto named = std::find_if(
+            document.sources().begin(), document.sources().end(),
+            [&](const StudySource &source) { return namesPatient(path, source.study); });
+        if (!m_preferences.remembersStudies || named == document.sources().end())
+            continue;
+        const StudyFacts &study = named->study;
+        if (const auto entry =
+                privateEntry(path, (dateText(study.date) + " " + study.modalities).simplified()))
+            entries << *entry;
+    }
+    remember(entries);
 }
 
 // Opens the volume with the most samples, as for a folder.
 void Reopening::openRecent(const QString &entry) {
     const auto study = recentStudy(entry, m_bench.library);
     if (!study) {
-        m_bench.study.opener.openPaths({entry});
+        if (const QString path = pathOf(entry); !path.isEmpty())
+            m_bench.study.opener.openPaths({path});
         return;
     }
     const auto volumes = m_bench.library.volumes(*study);
@@ -91,6 +104,8 @@ void Reopening::show() {
                                   ? patientText(*study) + ", " + studyText(*study)
                                   : studyText(*study),
                               entry});
+        else if (const QString label = privateLabel(entry); !label.isEmpty())
+            recent.push_back({label, entry});
         else if (QDir::isAbsolutePath(entry))
             recent.push_back({QDir::toNativeSeparators(entry), entry});
     }

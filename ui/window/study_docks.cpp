@@ -15,7 +15,8 @@
 namespace pellucid::ui {
 
 StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme)
-    : QObject(&window), m_studies(new StudyPanel(bench.study.document, bench.library, theme)),
+    : QObject(&window), m_window(window),
+      m_studies(new StudyPanel(bench.study.document, bench.library, theme)),
       m_measurements(new MeasurementsPanel(bench.study.document)) {
     m_study = makeDock(tr("STUDIES"), "studyDock", m_studies, m_studies->corner());
     m_studies->setMinimumWidth(250);
@@ -26,6 +27,17 @@ StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme
     window.resizeDocks({m_study, m_measured}, {700, 180}, Qt::Vertical);
     m_history = addHistory(window, bench);
     m_spectrum = addSpectrum(window, bench, theme);
+}
+
+void StudyDocks::reset() {
+    for (QDockWidget *dock : {m_study, m_measured, m_history, m_spectrum}) {
+        dock->setFloating(false);
+        m_window.addDockWidget(Qt::LeftDockWidgetArea, dock);
+        dock->setVisible(dock == m_study || dock == m_measured);
+    }
+    m_studies->show();
+    m_measurements->show();
+    m_window.resizeDocks({m_study, m_measured}, {700, 180}, Qt::Vertical);
 }
 
 QDockWidget *StudyDocks::addHistory(QMainWindow &window, Workbench &bench) {

@@ -30,10 +30,14 @@ public:
     QDockWidget &study() { return *m_study; }
     QDockWidget &spectrum() { return *m_spectrum; }
 
+    /// Shows studies and measurements where they were at first, and hides the others.
+    void reset();
+
 private:
     QDockWidget *addHistory(QMainWindow &window, Workbench &bench);
     QDockWidget *addSpectrum(QMainWindow &window, Workbench &bench, const Theme &theme);
 
+    QMainWindow &m_window;
     StudyPanel *m_studies;
     MeasurementsPanel *m_measurements;
     QDockWidget *m_study, *m_measured, *m_history, *m_spectrum;

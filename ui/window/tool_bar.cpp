@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QMainWindow>
+#include <QMenu>
 #include <QToolBar>
 #include <QToolButton>
 
@@ -56,11 +57,24 @@ void makeToolBar(QMainWindow &window, Document &document, const Theme &theme, To
     bar->addAction(window.findChild<QAction *>("openFilesAction"));
     bar->addAction(window.findChild<QAction *>("importAction"));
     bar->addSeparator();
+    bar->addAction(window.findChild<QAction *>("undoAction"));
+    bar->addAction(window.findChild<QAction *>("redoAction"));
+    bar->addSeparator();
     sources.tools.addTo(*bar);
     bar->addSeparator();
+    auto *views = new QToolButton;
+    views->setObjectName("viewsButton");
+    views->setText(ToolBarTexts::tr("View"));
+    views->setIcon(themedIcon("cube", theme));
+    views->setToolTip(ToolBarTexts::tr("See the patient from a side, or at an angle"));
+    views->setPopupMode(QToolButton::InstantPopup);
+    views->setToolButtonStyle(bar->toolButtonStyle());
+    auto *sides = new QMenu(views);
+    sides->addActions(sources.views);
+    views->setMenu(sides);
+    bar->addWidget(views);
     bar->addActions(sources.layouts);
     bar->addSeparator();
-    bar->addAction(window.findChild<QAction *>("savePictureAction"));
     bar->addAction(window.findChild<QAction *>("exportPictureAction"));
     auto *space = new QWidget;
     space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);

@@ -19,6 +19,7 @@ class ToolsMenu;
 struct ToolBarSources {
     ToolsMenu &tools;
     QList<QAction *> layouts;
+    QList<QAction *> views;
     QMenu &windowMenu; ///< filled with the entries of the tool bar's window box
 };
 

@@ -110,7 +110,7 @@ void ToolsMenu::addTools(QMenu &menu) {
     for (const auto &t : tools) {
         QAction *action = addCommand(menu, t.text, t.name, QKeySequence(t.key), this,
                                      [this, tool = t.tool] { chooseTool(tool); });
-        action->setToolTip(tr("%1: %2 (%3)").arg(t.text, t.hint, t.key));
+        action->setToolTip(tr("%1: %2").arg(t.text, t.hint));
         action->setCheckable(true);
         action->setActionGroup(m_tools);
     }
@@ -199,7 +199,7 @@ void ToolsMenu::addSlab(QMenu &menu) {
     m_slab = addCommand(*m_slabMenu, tr("&Slab"), "slabAction", QKeySequence("S"), this,
                         [this] { toggleSlab(); });
     m_slab->setCheckable(true);
-    m_slab->setToolTip(tr("Slab: give the planes a thickness (S; [ and ] change it)"));
+    m_slab->setToolTip(tr("Slab: give the planes a thickness; [ and ] change it"));
     m_slabMenu->addSeparator();
     const struct {
         QString text;
@@ -297,8 +297,7 @@ void ToolsMenu::addCine(QMenu &menu) {
     QAction *play = addCommand(menu, tr("Pla&y"), "playAction", QKeySequence(Qt::Key_Space), this,
                                [this] { m_cine->toggle(); });
     play->setCheckable(true);
-    play->setToolTip(
-        tr("Play the slices of the plane, or turn the projection around the patient (Space)"));
+    play->setToolTip(tr("Play the slices of the plane, or turn the projection around the patient"));
     // Elsewhere, Space activates the focused control.
     play->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     m_projection.addAction(play);

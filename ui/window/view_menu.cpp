@@ -86,10 +86,10 @@ void ViewMenu::addStandardViews() {
         {tr("&Superior"), "topViewAction", StandardView::top, QT_TR_NOOP("Keypad 7")},
         {tr("&Inferior"), "bottomViewAction", StandardView::bottom, QT_TR_NOOP("Shift+Keypad 7")}};
     for (const auto &v : views)
-        add(v.text + "\t" + tr(v.hint), v.name, {},
-            [this, view = v.view] { m_viewer.projection->showStandardView(view); });
-    add(tr("C-arm an&gles..."), "anglesAction", QKeySequence("J"),
-        [this] { emit anglesRequested(); });
+        m_views << add(v.text + "\t" + tr(v.hint), v.name, {},
+                       [this, view = v.view] { m_viewer.projection->showStandardView(view); });
+    m_views << add(tr("C-arm an&gles..."), "anglesAction", QKeySequence("J"),
+                   [this] { emit anglesRequested(); });
     add(tr("R&eset views") + "\t" + tr("Keypad 0"), "resetViewsAction", {}, [this] {
         m_viewer.projection->resetView();
         for (MprView *view : m_viewer.planes)

@@ -26,6 +26,8 @@ public:
     ViewMenu(QMenu &menu, QMainWindow &window, const Viewer &viewer, GraphicsCard &card);
 
     QList<QAction *> layouts() const;
+    /// The views from the six sides, and the angles.
+    const QList<QAction *> &standardViews() const { return m_views; }
     /// Adds an entry below the layouts that shows and hides a pane.
     void addPane(QAction &toggle, const QString &text, const char *name, const QKeySequence &key);
     /// Enables the entries for a study beside, which is linked at first.
@@ -56,6 +58,7 @@ private:
     QMenu &m_menu;
     Viewer m_viewer;
     QActionGroup *m_layouts;
+    QList<QAction *> m_views;
     QAction *m_afterPanes = nullptr;
     QAction *m_link = nullptr, *m_closeBeside = nullptr;
     QAction *m_texts = nullptr, *m_crosshair = nullptr, *m_banner = nullptr;

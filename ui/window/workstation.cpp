@@ -20,28 +20,6 @@ namespace {
 
 constexpr int keepingMs = 1500;
 
-// Whether no path of the session names a patient. A series has hundreds of files in one folder, so
-// folders and names are checked once each.
-bool mayStay(const Session &session, const Document &document) {
-    std::set<QString> folders, names;
-    const auto look = [&](const QString &file) {
-        folders.insert(QFileInfo(file).path());
-        names.insert(QFileInfo(file).fileName());
-    };
-    for (const QString &file : session.files)
-        look(file);
-    for (const QString &file : session.segmentations)
-        look(file);
-    for (const dicom::Skipped &skipped : session.leftOut)
-        look(QString::fromStdString(skipped.path.string()));
-    QString all;
-    for (const QString &name : names)
-        all += "/" + name;
-    return mayBeKept(all, document) &&
-           std::all_of(folders.begin(), folders.end(),
-                       [&](const QString &folder) { return mayBeKept(folder, document); });
-}
-
 } // namespace
 
 Workstation::Workstation(std::optional<EngineChoice> engine)
@@ -82,11 +60,8 @@ void Workstation::keepWhatIsOpen(bool hasEnded) {
         return;
     m_hasKept = true;
     session->hasEnded = hasEnded;
-    // Paths that name a patient are kept only while the program runs, for the case of a crash.
-    if (hasEnded && !mayStay(*session, m_bench.study.document))
-        m_bench.session.forget();
-    else
-        m_bench.session.keep(*session);
+    // It may hold paths that name a patient; so does the library, in the same private folder.
+    m_bench.session.keep(*session);
 }
 
 // The texts of the program are English; a text without a translation stays English.
