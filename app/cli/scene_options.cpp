@@ -134,7 +134,8 @@ void addLookOptions(CLI::App &command, SceneOptions &options) {
         .add_option("--bezier-range", options.bezierRange,
                     "LO,HI: the densities, from 0 to 1, that --bezier applies to; beyond, the "
                     "weights are those of its ends")
-        ->check(notEmpty());
+        ->check(notEmpty())
+        ->needs("--bezier");
     command
         .add_option("--class", options.classes,
                     "NAME=WEIGHT[:#rrggbb]: show only the named classes, each with a weight "

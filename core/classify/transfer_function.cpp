@@ -57,13 +57,14 @@ bool TransferFunction::isPlain() const {
 }
 
 void validate(const TransferFunction &function) {
+    constexpr double rounded = 1.0 - 1e-9; // a difference of rounded ends
     const int points = int(function.weights.size());
     if (points < TransferFunction::minPoints || points > TransferFunction::maxPoints)
         throw task::Error(task::ErrorCode::usage,
                           task::because::weightsOutOfRange(TransferFunction::minPoints,
                                                            TransferFunction::maxPoints, points));
     if (!(function.low >= 0.0 && function.high <= 1.0 &&
-          function.high - function.low >= TransferFunction::narrowestRange))
+          function.high - function.low >= rounded * TransferFunction::narrowestRange))
         throw task::Error(task::ErrorCode::usage, task::because::curveRangeInvalid(fmt::format(
                                                       "{:g}", TransferFunction::narrowestRange)));
     for (const double weight : function.weights)

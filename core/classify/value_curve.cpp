@@ -14,7 +14,8 @@ namespace {
 
 // f B(f) between steps of this size differs from its chord by h^2/8 times its second derivative:
 // 1e-6 for sixteen points that alternate between 0 and 2, the steepest possible. Over a narrow
-// range the curve is steeper, and the steps are smaller.
+// range the curve is steeper, and the steps are smaller. In the one step that contains an end of
+// the range, where the curve has a corner, the difference is up to 4e-4.
 constexpr int fewestSteps = 16384;
 
 int stepsFor(double range) {

@@ -41,7 +41,8 @@ struct PetHeader {
     std::string seriesDate, seriesTime, acquisitionDate, acquisitionTime;
     std::string injectionTime, injectionDateTime; ///< RadiopharmaceuticalStart(Date)Time
     double weightKg = 0.0, injectedBq = 0.0, halfLifeS = 0.0;
-    double uptakePerCount = 0.0; ///< Philips' private factor (7053,1000)
+    double uptakePerCount = 0.0;         ///< Philips' private factor (7053,1000)
+    bool isAttenuationCorrected = false; ///< Corrected Image has ATTN
     bool operator==(const PetHeader &) const = default;
 };
 

@@ -131,6 +131,7 @@ template <class A> void pass(A &archive, PetHeader &pet) {
     for (double *const number :
          {&pet.weightKg, &pet.injectedBq, &pet.halfLifeS, &pet.uptakePerCount})
         pass(archive, *number);
+    pass(archive, pet.isAttenuationCorrected);
 }
 
 template <class A> void pass(A &archive, FrameHeader &frame) {

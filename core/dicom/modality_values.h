@@ -13,7 +13,7 @@ namespace pellucid::dicom {
 // Converts stored values to modality values such as HU, by the rescale or the modality table of
 // each file. A volume's samples are of type T, int16 or float.
 
-/// The unit of a volume's values, and what the files' values are multiplied by to get there.
+/// The unit of a volume's values, and the factor that converts the files' values to it.
 struct ValueScale {
     volume::ValueUnit unit = volume::ValueUnit::none;
     double factor = 1.0;

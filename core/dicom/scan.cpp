@@ -91,13 +91,15 @@ std::vector<volume::ValueWindow> windowsOf(const VolumeEntry &entry, const Heade
     return windows;
 }
 
-// Sets the type of the values and the notes, from the first file of an entry.
-void describe(VolumeEntry &entry, const HeadersByPath &headers) {
+// Sets the type of the values and the notes, from the first file of an entry. `pet`: the PET images
+// of its series.
+void describe(VolumeEntry &entry, const HeadersByPath &headers,
+              const std::vector<const InstanceHeader *> &pet) {
     const InstanceHeader &h = *headers.at(entry.frames.front().path);
     entry.notes.title = h.seriesDescription.empty() ? h.modality : h.seriesDescription;
     entry.notes.modality = h.modality;
     entry.notes.bodyPart = h.bodyPart;
-    entry.notes.darkIsHigh = h.photometric == "MONOCHROME1" || h.modality == "PT";
+    entry.notes.darkIsHigh = h.photometric == "MONOCHROME1" || (h.pet && entry.placed);
     entry.notes.placed = entry.placed;
     const FrameReference &front = entry.frames.front();
     entry.notes.isLocalizer = isLocalizer(h.frames.at(std::size_t(front.frame)));
@@ -125,8 +127,8 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
         (h.modality == "CT" && (h.rescaleType.empty() || h.rescaleType == "US"));
     if (hounsfield && entry.placed && h.modality == "CT") {
         entry.unit = volume::ValueUnit::hounsfield;
-    } else if (h.pet) {
-        const UptakeScale scale = uptakeScale(each);
+    } else if (h.pet && entry.placed) {
+        const UptakeScale scale = uptakeScale(pet);
         entry.unit = scale.unit;
         entry.valueFactor = scale.factor;
         if (scale.notUptake)
@@ -389,10 +391,15 @@ Series seriesOf(const std::vector<SeriesFile> &files, std::vector<Skipped> &skip
         headers[file.path] = &file.header;
         studies.insert(file.header.studyUid);
     }
+    // The decay correction refers to the start of the series, also of its later phases.
+    std::vector<const InstanceHeader *> pet;
+    for (const SeriesFile &file : files)
+        if (file.header.pet)
+            pet.push_back(&file.header);
     for (VolumeEntry &volume : series.volumes) {
         if (studies.size() > 1)
             volume.notes.warnings.push_back(because::namesSeveralStudies(studies.size()));
-        describe(volume, headers);
+        describe(volume, headers, pet);
     }
     return series;
 }

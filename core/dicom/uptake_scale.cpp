@@ -20,6 +20,8 @@ constexpr double maxHalfLives = 10.0;
 // A typing error, such as grams in place of kilograms, would give plausible pictures with wrong
 // values.
 constexpr double minWeightKg = 0.5, maxWeightKg = 500.0;
+// Some writers state MBq.
+constexpr double minInjectedBq = 1e5, maxInjectedBq = 1e11;
 
 UptakeScale refused(ValueUnit unit, double factor, const task::Reason &reason) {
     return {unit, factor, reason};
@@ -44,7 +46,9 @@ std::optional<int> digits(const std::string &text, std::size_t at, std::size_t c
 std::vector<double> injectionsOf(const PetHeader &pet, double referenceS) {
     std::vector<double> found;
     std::string time = pet.injectionTime;
-    if (pet.injectionDateTime.size() > 8) {
+    // With an offset from UTC it is in another zone than the times of the series may be.
+    const bool hasZone = pet.injectionDateTime.find_first_of("+-") != std::string::npos;
+    if (pet.injectionDateTime.size() > 8 && !hasZone) {
         const std::string ofDay = pet.injectionDateTime.substr(8);
         if (const auto at = secondsAt(pet.injectionDateTime.substr(0, 8), ofDay))
             found.push_back(*at);
@@ -94,15 +98,20 @@ std::optional<double> secondsAt(const std::string &date, const std::string &time
         return std::nullopt;
     const chr::year_month_day calendar{chr::year(*year), chr::month(unsigned(*month)),
                                        chr::day(unsigned(*day))};
-    const double minute = digits(time, 2, 2).value_or(0), second = digits(time, 4, 2).value_or(0);
-    if (!calendar.ok() || *hour > 23 || minute > 59 || second > 60)
+    const std::size_t whole = std::min(time.size(), time.find('.'));
+    const auto minute = whole >= 4 ? digits(time, 2, 2) : std::optional(0);
+    const auto second = whole >= 6 ? digits(time, 4, 2) : std::optional(0);
+    // Colons of an old form, or anything else, would be taken for missing parts.
+    if ((whole != 2 && whole != 4 && whole != 6) || !minute || !second)
+        return std::nullopt;
+    if (!calendar.ok() || *hour > 23 || *minute > 59 || *second > 60)
         return std::nullopt;
     double fraction = 0.0, place = 0.1;
     if (time.size() > 7 && time[6] == '.')
         for (std::size_t at = 7; at < time.size() && digits(time, at, 1); ++at, place *= 0.1)
             fraction += place * *digits(time, at, 1);
     return double(chr::sys_days(calendar).time_since_epoch().count()) * secondsPerDay +
-           3600.0 * *hour + 60.0 * minute + second + fraction;
+           3600.0 * *hour + 60.0 * *minute + *second + fraction;
 }
 
 UptakeScale uptakeScale(const std::vector<const InstanceHeader *> &files) {
@@ -115,30 +124,33 @@ UptakeScale uptakeScale(const std::vector<const InstanceHeader *> &files) {
                other->pet->weightKg == pet.weightKg && other->pet->injectedBq == pet.injectedBq &&
                other->pet->uptakePerCount == pet.uptakePerCount;
     });
-    if (pet.units == "GML" && isSame) {
+    if (!isSame)
+        return refused(pet.units == "BQML" ? ValueUnit::activity : ValueUnit::none, 1.0,
+                       because::petFilesDiffer);
+    if (pet.units == "GML") {
         if (pet.uptakeType.empty() || pet.uptakeType == "BW")
             return {ValueUnit::uptake, 1.0, std::nullopt};
         return refused(ValueUnit::none, 1.0, because::uptakeIsOfType(pet.uptakeType));
     }
     // Philips writes counts, with the factors in elements of its own.
-    if (pet.units == "CNTS" && isSame && pet.uptakePerCount > 0.0)
+    if (pet.units == "CNTS" && pet.uptakePerCount > 0.0)
         return {ValueUnit::uptake, pet.uptakePerCount, std::nullopt};
     if (pet.units != "BQML")
         return refused(ValueUnit::none, 1.0, because::petUnitIs(pet.units));
-    const auto because = [](const task::Reason &reason) {
+    const auto lacking = [](const task::Reason &reason) {
         return refused(ValueUnit::activity, 1.0, reason);
     };
-    if (!isSame)
-        return because(because::petFilesDiffer);
     if (!(pet.weightKg >= minWeightKg && pet.weightKg <= maxWeightKg))
-        return because(because::noPlausibleWeight);
-    if (!(pet.injectedBq > 0.0))
-        return because(because::noInjectedActivity);
+        return lacking(because::noPlausibleWeight);
+    if (!(pet.injectedBq >= minInjectedBq && pet.injectedBq <= maxInjectedBq))
+        return lacking(because::noInjectedActivity);
+    if (!pet.isAttenuationCorrected)
+        return lacking(because::notAttenuationCorrected);
     if (pet.decayCorrection != "ADMIN" && pet.decayCorrection != "START")
-        return because(because::notDecayCorrected);
+        return lacking(because::notDecayCorrected);
     const auto left = activityLeft(files);
     if (!left)
-        return because(because::noDecayTime);
+        return lacking(because::noDecayTime);
     constexpr double gramsPerKg = 1000.0;
     return {ValueUnit::uptake, pet.weightKg * gramsPerKg / (pet.injectedBq * *left), std::nullopt};
 }

@@ -11,7 +11,7 @@
 
 namespace pellucid::dicom {
 
-/// How the stored values of a PET series become values that a reader compares.
+/// How the stored values of a PET series become SUV.
 struct UptakeScale {
     volume::ValueUnit unit = volume::ValueUnit::none;
     double factor = 1.0; ///< of the values after their rescale
@@ -21,11 +21,11 @@ struct UptakeScale {
 
 /// The standardised uptake value by body weight: activity concentration times weight, divided by
 /// the injected activity, which has decayed to the time that the concentrations refer to.
-/// *Shape*: `files`: at least one. *Source*: PS3.3, C.8.9.1; for the time that a decay correction
-/// to the start refers to, the QIBA profile for FDG-PET/CT, appendix G.
+/// *Shape*: `files`: of the whole series, at least one. *Source*: PS3.3, C.8.9.1; for the time that
+/// a decay correction to the start refers to, QIBA FDG-PET/CT, appendix G.
 UptakeScale uptakeScale(const std::vector<const decoder::InstanceHeader *> &files);
 
-/// Seconds from the start of the year 0 to a date "YYYYMMDD" and a time "HHMMSS.FFF", of which the
+/// Seconds from a fixed day to a date "YYYYMMDD" and a time "HHMMSS.FFF", of which the
 /// end may be missing; none if they cannot be read. Only differences have a meaning.
 std::optional<double> secondsAt(const std::string &date, const std::string &time);
 

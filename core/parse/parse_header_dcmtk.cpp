@@ -108,7 +108,8 @@ double philipsUptakePerCount(DcmDataset &dataset) {
 }
 
 void readPet(DcmDataset &dataset, InstanceHeader &h) {
-    if (h.modality != "PT")
+    // Captures of PET have no units.
+    if (h.modality != "PT" || !dataset.tagExists(DCM_Units))
         return;
     DcmItem *const dose = sequenceItem(&dataset, DCM_RadiopharmaceuticalInformationSequence);
     const auto number = [](DcmItem *item, const DcmTagKey &tag) {
@@ -128,6 +129,10 @@ void readPet(DcmDataset &dataset, InstanceHeader &h) {
     pet.injectedBq = number(dose, DCM_RadionuclideTotalDose);
     pet.halfLifeS = number(dose, DCM_RadionuclideHalfLife);
     pet.uptakePerCount = philipsUptakePerCount(dataset);
+    OFString corrections;
+    pet.isAttenuationCorrected =
+        dataset.findAndGetOFStringArray(DCM_CorrectedImage, corrections).good() &&
+        corrections.find("ATTN") != OFString_npos;
     h.pet = pet;
 }
 

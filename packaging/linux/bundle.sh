@@ -36,6 +36,8 @@ programs | while read -r program; do ldd "$program"; done | sed -nE 's#^\s*(\S+)
         [[ $name =~ $of_machine ]] || cp -L "$path" "$tree/lib/$name"
     done
 chmod 644 "$tree"/lib/*
+# Printers are the machine's own: without its CUPS, Qt does not load this and offers a PDF file.
+install -D -m 644 "$plugins/printsupport/libcupsprintersupport.so" "$tree/plugins/printsupport/libcupsprintersupport.so"
 
 # Where each finds its libraries. DT_RPATH, the old tag, also applies to the dependencies of plugins.
 find "$tree/bin" "$tree/libexec" "$tree/lib" "$tree/plugins" -type f | while read -r file; do

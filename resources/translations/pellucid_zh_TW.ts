@@ -2774,10 +2774,6 @@
         <translation>病患體重缺少或不合理</translation>
     </message>
     <message>
-        <source>the injected activity is missing</source>
-        <translation>缺少注射活度</translation>
-    </message>
-    <message>
         <source>the files are not corrected for decay</source>
         <translation>檔案未作衰變校正</translation>
     </message>
@@ -2796,6 +2792,14 @@
     <message>
         <source>the range of a transfer function must be within 0 to 1 and at least %1 wide</source>
         <translation>轉換函數的範圍必須在 0 至 1 之內，且至少寬 %1</translation>
+    </message>
+    <message>
+        <source>the injected activity is missing or implausible</source>
+        <translation>注射活度缺少或不合理</translation>
+    </message>
+    <message>
+        <source>the files are not corrected for attenuation</source>
+        <translation>檔案未作衰減校正</translation>
     </message>
 </context>
 <context>
@@ -4066,6 +4070,10 @@
         <source>The printer is not available</source>
         <translation>印表機無法使用</translation>
     </message>
+    <message>
+        <source>An export is running: copy and print when it has ended</source>
+        <translation>正在匯出：請於結束後再複製或列印</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::GraphicsCard</name>
@@ -4133,16 +4141,16 @@
         <translation>正在讀取 %1</translation>
     </message>
     <message>
-        <source>The list is not complete: the file has more attributes, or its rest is damaged.</source>
-        <translation>清單不完整：檔案有更多屬性，或其餘部分已損壞。</translation>
-    </message>
-    <message>
         <source>Item %1</source>
         <translation>項目 %1</translation>
     </message>
     <message>
         <source>Nothing found</source>
         <translation>找不到</translation>
+    </message>
+    <message>
+        <source>The list is not complete: the file has more attributes, or the rest of it is damaged.</source>
+        <translation>清單不完整：檔案有更多屬性，或其餘部分已損壞。</translation>
     </message>
 </context>
 <context>
@@ -4200,7 +4208,7 @@
         <translation>要匯入的檔案與資料夾</translation>
     </message>
     <message>
-        <source>Take the selected files and folders off the list (Del)</source>
+        <source>Remove the selected files and folders from the list (Del)</source>
         <translation>將所選的檔案與資料夾移出清單 (Del)</translation>
     </message>
 </context>
@@ -4765,7 +4773,7 @@
         <translation>刪除…</translation>
     </message>
     <message>
-        <source>Delete (built-in presets stay)</source>
+        <source>Delete (built-in presets cannot be deleted)</source>
         <translation>刪除（內建預設集不可刪除）</translation>
     </message>
 </context>
@@ -5707,6 +5715,10 @@
     <message>
         <source>No studies yet. Open one, or import studies into the library; files may also be dropped here.</source>
         <translation>尚無檢查。請開啟檢查，或將檢查匯入資料庫；亦可將檔案拖放至此。</translation>
+    </message>
+    <message>
+        <source>No other study found</source>
+        <translation>沒有其他符合的檢查</translation>
     </message>
 </context>
 <context>

@@ -11,6 +11,7 @@
 #include "core/decoder/read_volume_file.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
+#include "core/dicom/write_series.h"
 #include "core/reference/wide_kernel.h"
 #include "core/scene/scene.h"
 #include "core/volume/nrrd.h"
@@ -214,6 +215,71 @@ TEST_F(Cli, SecondaryCapturesBelongToTheStudy) {
     EXPECT_EQ(value(first.out, "(0020,000e)"), value(second.out, "(0020,000e)"));
     EXPECT_NE(value(first.out, "(0008,0018)"), value(second.out, "(0008,0018)"));
     EXPECT_EQ(value(second.out, "(0020,0013)"), "2");
+}
+
+// Balls at known places in the patient, seen at the angles of a C-arm, against the definition of
+// DICOM's positioner angles (PS3.3, C.8.7.5): computed here from the direction of the detector, and
+// not from the program's own matrices.
+TEST_F(Cli, CArmAnglesShowBallsWhereTheDefinitionPutsThem) {
+    const glm::dvec3 balls[] = {{70, 10, 20}, {-30, 60, -50}, {10, -75, 40}};
+    constexpr double radiusMm = 7.0, stepMm = 1.5;
+    const auto lattice = volume::Lattice::centred({128, 128, 128}, glm::dvec3(stepMm));
+    std::vector<std::int16_t> hu;
+    for (int k = 0; k < 128; ++k)
+        for (int j = 0; j < 128; ++j)
+            for (int i = 0; i < 128; ++i) {
+                const glm::dvec3 at = lattice.patient(volume::VoxelIndex{i, j, k}).mm;
+                double inside = 0.0; // soft over a sample, so that its middle is where it is
+                for (const glm::dvec3 &ball : balls)
+                    inside = std::max(
+                        inside,
+                        std::clamp((radiusMm - glm::distance(at, ball)) / stepMm + 0.5, 0.0, 1.0));
+                hu.push_back(std::int16_t(std::lround(-1000.0 + 2000.0 * inside)));
+            }
+    const fs::path series = folder / "balls", out = folder / "balls.npy";
+    dicom::writeCtSeries(series, {lattice, hu, volume::ValueUnit::hounsfield}, {},
+                         dicom::TransferSyntax::explicitLittle);
+    const struct {
+        const char *text;
+        double lao, cra;
+    } views[] = {{"AP", 0, 0},
+                 {"LAO90", 90, 0},
+                 {"RAO30", -30, 0},
+                 {"LAO30,CRA20", 30, 20},
+                 {"RAO45,CAU35", -45, -35},
+                 {"LAO110,CRA10", 110, 10}};
+    constexpr int side = 220;
+    constexpr double pixelMm = 1.0, radian = 3.14159265358979323846 / 180.0;
+    for (const auto &view : views) {
+        ASSERT_EQ(cli("render " + quoted(series) + " -o " + quoted(out) + " --carm " + view.text +
+                      " --size 220x220 --pixel-mm 1")
+                      .exitCode,
+                  0);
+        int height = 0, width = 0;
+        const auto image = readNpy(out, height, width);
+        ASSERT_EQ(width, side);
+        ASSERT_EQ(height, side);
+        const double a = view.lao * radian, b = view.cra * radian;
+        const glm::dvec3 detector(std::sin(a) * std::cos(b), -std::cos(a) * std::cos(b),
+                                  std::sin(b));
+        const glm::dvec3 right(std::cos(a), std::sin(a), 0.0), up = glm::cross(detector, right);
+        for (const glm::dvec3 &ball : balls) {
+            const double u = glm::dot(ball, right), v = glm::dot(ball, up);
+            const double column = u / pixelMm + 0.5 * (side - 1),
+                         row = -v / pixelMm + 0.5 * (side - 1);
+            double sum = 0.0, columns = 0.0, rows = 0.0;
+            for (int y = int(row) - 11; y <= int(row) + 12; ++y)
+                for (int x = int(column) - 11; x <= int(column) + 12; ++x) {
+                    const double value = image[std::size_t(y) * side + std::size_t(x)];
+                    sum += value;
+                    columns += value * x;
+                    rows += value * y;
+                }
+            // A tenth of a degree moves a ball at 75 mm by 0.13 mm.
+            EXPECT_NEAR(columns / sum, column, 0.1) << view.text;
+            EXPECT_NEAR(rows / sum, row, 0.1) << view.text;
+        }
+    }
 }
 
 TEST_F(Cli, ReadsTheNamedSeries) {

@@ -171,7 +171,7 @@ private slots:
         dragMouse(plane(), Qt::LeftButton, QPoint(300, 300), QPoint(30, 30));
         QVERIFY(measured()[0].measurement == before);
         key(Qt::Key_Z, Qt::ControlModifier); // the window that the drag set
-        // Who measures wants to see it.
+        // Choosing a measuring tool shows annotations again.
         key(Qt::Key_M);
         QVERIFY(find<QAction>("annotationsAction")->isChecked());
         key(Qt::Key_W);

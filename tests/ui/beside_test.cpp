@@ -27,7 +27,8 @@ private slots:
              {&BesideTest::openAPrior, &BesideTest::turnTheProjections, &BesideTest::resizeThePanes,
               &BesideTest::turnAboutTheCrosshairs, &BesideTest::movePlanesAndWindows,
               &BesideTest::chooseALookAndALayout, &BesideTest::matchByHand,
-              &BesideTest::cancelAnotherStudy, &BesideTest::closeThePrior}) {
+              &BesideTest::actOnTheStudyInFocus, &BesideTest::cancelAnotherStudy,
+              &BesideTest::closeThePrior}) {
             (this->*step)();
             if (QTest::currentTestFailed())
                 return;
@@ -148,6 +149,25 @@ private:
         find<QAction>("linkStudiesAction")->trigger();
         turnWheel(find<QWidget>("axialView"), 1);
         QVERIFY(glm::distance(apart(), matched) < 1e-6);
+    }
+
+    // Measures, display windows and the menus of the panes are those of the study in focus.
+    void actOnTheStudyInFocus() {
+        find<QAction>("linkStudiesAction")->trigger();
+        auto *plane = find<ui::MprView>("beside_axialView");
+        plane->setFocus();
+        const auto window = now().displayWindow();
+        QTest::keyClick(plane, Qt::Key_2);
+        QVERIFY(!(prior().displayWindow() == window));
+        QVERIFY(now().displayWindow() == window);
+        QTest::keyClick(plane, Qt::Key_M);
+        dragMouse(plane, Qt::LeftButton, plane->rect().center(), {40, 0});
+        QCOMPARE(prior().measured().size(), std::size_t(1));
+        QVERIFY(now().measured().empty());
+        QVERIFY(std::abs(*prior().measured()[0].result.lengthMm -
+                         40.0 * plane->devicePixelRatioF() * plane->plane().pixelMm) < 1e-6);
+        QTest::keyClick(plane, Qt::Key_W);
+        find<QAction>("linkStudiesAction")->trigger();
     }
 
     // The former study comes back in the pose that the leader has now, and the leader stays as it

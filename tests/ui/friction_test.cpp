@@ -128,7 +128,7 @@ private slots:
         QTest::keyClick(search, Qt::Key_Return);
         auto *message = find<QLabel>("studiesEmpty");
         QVERIFY(message->isVisible());
-        QCOMPARE(message->text(), QString("Nothing found"));
+        QCOMPARE(message->text(), QString("No other study found"));
         QCOMPARE(rows(), QStringList{"Secret Name"}); // which is open
         search->clear();
         QTest::keyClick(search, Qt::Key_Return);
@@ -137,6 +137,11 @@ private slots:
 
     void nothingIsCutInALowWindow() {
         restart({1280, 720});
+        for (const char *name : {"presets", "radiograph", "shading", "quality", "classes"})
+            QVERIFY2(find<QDockWidget>(qPrintable(QString("%1Dock").arg(name)))
+                         ->toggleViewAction()
+                         ->isChecked(),
+                     name);
         open(headPath());
         choosePreset("Bone over soft tissue");
         QVERIFY(mainWindow().minimumSizeHint().width() <= 1280);

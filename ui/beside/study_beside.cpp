@@ -9,6 +9,7 @@
 
 #include "ui/beside/study_projection.h"
 #include "ui/jobs/job_strip.h"
+#include "ui/language/plain_tooltip.h"
 #include "ui/language/reasons.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
@@ -45,7 +46,7 @@ QString bannerText(const StudySource &source) {
 }
 
 StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *parent)
-    : QWidget(parent), m_study(card), m_viewer(makeViewer()),
+    : QWidget(parent), m_study(card), m_measurements(m_study.document), m_viewer(makeViewer()),
       m_link(new StudyLink(leader, m_viewer, this)), m_name(new QLabel), m_linked(new QToolButton) {
     setObjectName("studyBeside");
     auto *layout = new QVBoxLayout(this);
@@ -60,15 +61,9 @@ StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *pare
                 m_viewer.projection->setMessage(translated(what));
                 emit failed(what, path);
             });
+    connect(&m_measurements, &MeasurementStore::failed, this, &StudyBeside::failed);
     // Also if a load is cancelled and the former study comes back. A failed load keeps its name.
-    connect(&document(), &Document::currentSourceChanged, this, [this] {
-        const int current = document().currentSource();
-        if (current < 0)
-            return;
-        const QString text = headingText(document().sources()[std::size_t(current)]);
-        m_name->setText(text);
-        m_name->setToolTip(text);
-    });
+    connect(&document(), &Document::currentSourceChanged, this, &StudyBeside::showName);
     connect(&document(), &Document::volumeChanged, this, [this] {
         if (jobs().isRunning()) { // the volume was loaded
             beginLink();
@@ -79,6 +74,21 @@ StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *pare
         m_link->hold();
         QMetaObject::invokeMethod(this, &StudyBeside::beginLink, Qt::QueuedConnection);
     });
+}
+
+void StudyBeside::setNameShown(bool isShown) {
+    m_showsName = isShown;
+    showName();
+}
+
+void StudyBeside::showName() {
+    const int current = document().currentSource();
+    if (current < 0)
+        return;
+    const StudySource &source = document().sources()[std::size_t(current)];
+    const QString text = m_showsName ? headingText(source) : seriesText(source.volume);
+    m_name->setText(text);
+    m_name->setToolTip(plainToolTip(text));
 }
 
 void StudyBeside::beginLink() {
@@ -152,7 +162,7 @@ void StudyBeside::open(const StudySource &source) {
 }
 
 void StudyBeside::setTool(Tool tool) {
-    const bool edits = measuredBy(tool) || tool == Tool::crop || marksRegions(tool);
+    const bool edits = tool == Tool::crop || marksRegions(tool);
     const Tool here = edits ? Tool::window : tool;
     for (MprView *plane : m_viewer.planes)
         plane->setTool(here);

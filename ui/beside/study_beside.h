@@ -4,6 +4,7 @@
 #include <QWidget>
 
 #include "ui/beside/study_link.h"
+#include "ui/document/measurement_store.h"
 #include "ui/opening/open_study.h"
 #include "ui/views/tools/tool.h"
 
@@ -25,8 +26,10 @@ public:
     JobRunner &jobs() { return m_study.jobs; }
     StudyLink &link() { return *m_link; }
     const Viewer &viewer() const { return m_viewer; }
-    /// Measurements and crop boxes belong to the open study: here their tools set the window.
+    /// Crop boxes and regions belong to the open study: here their tools set the window.
     void setTool(Tool tool);
+    /// Whether the heading names the patient.
+    void setNameShown(bool isShown);
 
 signals:
     void closeRequested();
@@ -41,9 +44,13 @@ private:
     void beginLink();
 
     OpenStudy m_study;
+    MeasurementStore m_measurements;
     Viewer m_viewer;
     StudyLink *m_link;
+    void showName();
+
     QLabel *m_name;
+    bool m_showsName = true;
     QToolButton *m_linked;
 };
 

@@ -27,6 +27,11 @@ StudyLink::StudyLink(const Viewer &leader, const Viewer &follower, QObject *pare
             [this] { passCrosshair(m_follower, m_leader, -1.0); });
     // A pane that is resized keeps its zoom; the scale of both is that of the leader.
     for (const Viewer &resized : {leader, follower})
+        for (std::size_t n = 0; n < resized.planes.size(); ++n)
+            connect(resized.planes[n], &MprView::resized, this, [this, n] {
+                pass([&] { m_follower.planes[n]->adoptScale(*m_leader.planes[n]); });
+            });
+    for (const Viewer &resized : {leader, follower})
         connect(&resized.document, &Document::projectionResized, this,
                 [this] { pass([this] { passCamera(m_leader, m_follower); }); });
     for (const auto changed : {&Document::sceneChanged, &Document::displayWindowChanged})

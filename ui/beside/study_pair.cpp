@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/beside/study_pair.h"
 
+#include <QApplication>
 #include <QLabel>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include "ui/beside/study_beside.h"
 #include "ui/document/document.h"
+#include "ui/language/plain_tooltip.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
@@ -55,6 +57,7 @@ void StudyPair::makeBeside() {
     addWidget(m_beside);
     setSizes({1, 1});
     m_beside->setTool(m_tool);
+    m_beside->setNameShown(m_showsBanner);
     showOverlaysOn(m_beside->viewer(), m_overlays);
     connect(m_beside, &StudyBeside::closeRequested, this, &StudyPair::closeBeside,
             Qt::QueuedConnection); // the button is deleted with its heading
@@ -77,6 +80,16 @@ void StudyPair::toggleLink() {
     m_beside->findChild<QToolButton *>("linkButton")->toggle();
 }
 
+Viewer StudyPair::focused() const {
+    const QWidget *const focus = QApplication::focusWidget();
+    const bool isBeside = m_beside != nullptr && focus != nullptr && m_beside->isAncestorOf(focus);
+    return isBeside ? m_beside->viewer() : m_open;
+}
+
+const Viewer *StudyPair::beside() const {
+    return m_beside != nullptr ? &m_beside->viewer() : nullptr;
+}
+
 void StudyPair::setTool(Tool tool) {
     m_tool = tool;
     if (m_beside != nullptr)
@@ -92,6 +105,8 @@ void StudyPair::setOverlays(const Overlays &overlays) {
 
 void StudyPair::setBannerShown(bool isShown) {
     m_showsBanner = isShown;
+    if (m_beside != nullptr)
+        m_beside->setNameShown(isShown);
     showHeading();
 }
 
@@ -102,8 +117,12 @@ void StudyPair::showHeading() {
     if (open < 0)
         return;
     const StudySource &source = document.sources()[std::size_t(open)];
-    m_heading->setText(m_beside != nullptr ? headingText(source) : bannerText(source));
-    m_heading->setToolTip(bannerText(source));
+    // Two headings say which study is which, also without names.
+    const QString text = !m_showsBanner        ? seriesText(source.volume)
+                         : m_beside != nullptr ? headingText(source)
+                                               : bannerText(source);
+    m_heading->setText(text);
+    m_heading->setToolTip(plainToolTip(m_showsBanner ? bannerText(source) : text));
 }
 
 } // namespace pellucid::ui

@@ -27,8 +27,12 @@ public:
     /// Closes the second study and its link, which refers to the open study.
     void closeBeside();
     void toggleLink();
+    /// The study whose panes have the keyboard's focus: the one beside, or else the open one.
+    Viewer focused() const;
+    /// That of the study beside; null if there is none.
+    const Viewer *beside() const;
     void setTool(Tool tool);
-    /// Of all panes, also of those that come later.
+    /// Applies to all panes, including later ones.
     void setOverlays(const Overlays &overlays);
     /// Names the patient above the panes, also of a single study.
     void setBannerShown(bool isShown);

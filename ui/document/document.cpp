@@ -114,6 +114,7 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
     if (!same) {
         // Edits belong to their study.
         m_undo.clear();
+        m_isWindowSet = false;
         m_exposure.reset();
         m_traits = {presets::regionsNamed(volume.notes().bodyPart, volume.notes().title)};
         m_crosshair = middleSample(volume.lattice());
@@ -139,7 +140,7 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
     }
     // A preview's quantiles are those of the slices that came first; a window that the user has set
     // meanwhile stays.
-    if (!same || (!preview && m_undo.count() == 0))
+    if (!same || (!preview && !m_isWindowSet))
         m_window = initialWindow;
     updateCamera();
     emit volumeChanged();
@@ -261,6 +262,7 @@ QStringList Document::missingSegments(const classify::Look &look) const {
 
 void Document::setDisplayWindow(const volume::ValueWindow &window) {
     m_window = window;
+    m_isWindowSet = true;
     emit displayWindowChanged();
 }
 

@@ -200,6 +200,7 @@ private:
     Pose m_pose;
     QSizeF m_projectionSize{2.0, 2.0};
     volume::ValueWindow m_window{40.0, 400.0, {}}, m_initialWindow{40.0, 400.0, {}};
+    bool m_isWindowSet = false; ///< for this volume, after it was opened
     struct MeasuredExposure {
         scene::Exposure exposure;
         picture::ToneSubject of;

@@ -301,6 +301,9 @@ Pane Panes::current() const {
     for (const Pane pane : {Pane::axial, Pane::coronal, Pane::sagittal})
         if (of(pane)->hasFocus())
             return pane;
+    for (const Pane pane : {Pane::projection, Pane::axial, Pane::coronal, Pane::sagittal})
+        if (of(pane)->isVisible())
+            return pane;
     return Pane::projection;
 }
 

@@ -28,7 +28,8 @@ struct Panes {
     ProjectionView *projection;
 
     QWidget *of(Pane pane) const;
-    /// The one with the keyboard's focus, otherwise the projection.
+    /// The one with the keyboard's focus, otherwise the projection or, if it is hidden, the first
+    /// that is not.
     Pane current() const;
 };
 

@@ -25,7 +25,7 @@ QString joined(const std::vector<task::Reason> &reasons, const char *separator) 
 // Archives name files after UIDs, which say nothing to a reader: the end tells them apart.
 QString withoutUids(QString text) {
     constexpr qsizetype kept = 8;
-    static const QRegularExpression uid("[0-2](?:\\.\\d+){5,}");
+    static const QRegularExpression uid("[0-2](?:\\.\\d+){5,}(?=\\.[A-Za-z]|[^\\s:]*\\.dcm)");
     for (auto found = uid.match(text); found.hasMatch(); found = uid.match(text))
         text.replace(found.capturedStart(), found.capturedLength(),
                      QString::fromUtf8("…") + found.captured().right(kept).remove('.'));

@@ -177,7 +177,11 @@ QStringList recentPaths() {
 void addRecentPaths(const QStringList &paths) {
     QStringList recent = recentPaths();
     for (const QString &path : paths) {
-        recent.removeAll(path);
+        // The label of a private entry may have changed.
+        const QString known = path.startsWith(privatePrefix) ? path.section(':', 0, 1) + ":" : path;
+        recent.removeIf([&](const QString &other) {
+            return other == path || (known != path && other.startsWith(known));
+        });
         recent.prepend(path);
     }
     for (const QString &old : recent.mid(recentCount))

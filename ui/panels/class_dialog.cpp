@@ -12,7 +12,6 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QScreen>
 
 #include "core/task/error.h"
 #include "ui/document/document.h"
@@ -20,6 +19,7 @@
 #include "ui/language/reasons.h"
 #include "ui/panels/class_steps.h"
 #include "ui/panels/limit_box.h"
+#include "ui/theme/dialog_place.h"
 
 namespace pellucid::ui {
 
@@ -120,21 +120,10 @@ void ClassDialog::keyPressEvent(QKeyEvent *event) {
         QDialog::keyPressEvent(event);
 }
 
-// Beside the pictures that it changes.
 void ClassDialog::showEvent(QShowEvent *event) {
     QDialog::showEvent(event);
-    if (event->spontaneous() || parentWidget() == nullptr)
-        return;
-    const QRect window = parentWidget()->window()->frameGeometry();
-    const QRect screen = parentWidget()->screen()->availableGeometry();
-    const QSize size = frameGeometry().size();
-    // Over the panels at the right; on a wide screen, outside the window.
-    const int beside = window.right() + 8;
-    const int x =
-        beside + size.width() <= screen.right() ? beside : window.right() - size.width() - 4;
-    const int y = window.top() + (window.height() - size.height()) / 2;
-    move(std::clamp(x, screen.left(), std::max(screen.left(), screen.right() - size.width())),
-         std::clamp(y, screen.top(), std::max(screen.top(), screen.bottom() - size.height())));
+    if (!event->spontaneous())
+        placeBeside(*this);
 }
 
 void ClassDialog::done(int result) {

@@ -39,9 +39,9 @@ public:
 
 signals:
     /// The user asks for the segments of these files, or to choose one if there are none.
+    void segmentationRequested(const QStringList &paths);
     /// The sizes of the classes are wanted.
     void volumesRequested();
-    void segmentationRequested(const QStringList &paths);
 
 private:
     void showScene();

@@ -23,6 +23,7 @@
 #include <QVBoxLayout>
 
 #include "core/decoder/decoder.h"
+#include "ui/language/plain_tooltip.h"
 #include "ui/language/reasons.h"
 
 namespace pellucid::ui {
@@ -125,9 +126,9 @@ void HeaderDialog::showFile(int file) {
 }
 
 void HeaderDialog::fill(const decoder::AttributeList &list) {
-    m_message->setVisible(!list.isComplete);
-    m_message->setText(tr("The list is not complete: the file has more attributes, or its rest is "
-                          "damaged."));
+    m_warning = list.isComplete ? QString()
+                                : tr("The list is not complete: the file has more attributes, or "
+                                     "the rest of it is damaged.");
     // The same attribute stays in view from file to file.
     const int scrolled = m_tree->verticalScrollBar()->value();
     m_tree->setUpdatesEnabled(false);
@@ -142,7 +143,7 @@ void HeaderDialog::fill(const decoder::AttributeList &list) {
                                         : QString::fromStdString(attribute.name));
         row->setText(typeColumn, QString::fromStdString(attribute.vr));
         row->setText(valueColumn, QString::fromStdString(attribute.value));
-        row->setToolTip(valueColumn, QString::fromStdString(attribute.value).toHtmlEscaped());
+        row->setToolTip(valueColumn, plainToolTip(QString::fromStdString(attribute.value)));
         parents.resize(std::size_t(attribute.depth));
         if (parents.empty())
             top << row;
@@ -181,12 +182,9 @@ void HeaderDialog::search() {
     };
     for (int n = 0; n < m_tree->topLevelItemCount(); ++n)
         show(*m_tree->topLevelItem(n), false);
-    if (shown == 0 && m_tree->topLevelItemCount() > 0) {
-        m_message->setText(tr("Nothing found"));
-        m_message->show();
-    } else if (m_message->text() == tr("Nothing found")) {
-        m_message->hide();
-    }
+    const bool isNothing = shown == 0 && m_tree->topLevelItemCount() > 0;
+    m_message->setText(isNothing ? tr("Nothing found") : m_warning);
+    m_message->setVisible(!m_message->text().isEmpty());
 }
 
 // Tabs separate columns, and spaces show the depth.

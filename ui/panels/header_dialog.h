@@ -38,6 +38,7 @@ private:
     QLineEdit *m_search;
     QLabel *m_name, *m_message;
     QTreeWidget *m_tree;
+    QString m_warning; ///< about the file that is shown; empty if there is none
 };
 
 } // namespace pellucid::ui

@@ -74,7 +74,8 @@ void MeasurementsPanel::showAll() {
     for (std::size_t n = 0; n < all.size(); ++n) {
         const auto &[measurement, result] = all[n];
         QTreeWidgetItem *item = m_list->topLevelItem(int(n));
-        item->setText(0, QString::fromStdString(measurement.name));
+        item->setText(0, measurement.name.empty() ? kindText(measurement)
+                                                  : QString::fromStdString(measurement.name));
         item->setText(1, mainFigure(result, *m_document.volume()));
         item->setToolTip(0, kindText(measurement));
         item->setToolTip(1, allFigures(measurement, result, *m_document.volume()).join('\n'));

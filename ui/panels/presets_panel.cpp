@@ -301,7 +301,7 @@ void PresetsPanel::showCurrent() {
             !isShown(presets::lookFor(entry.preset, window)) ||
             !(entry.preset.shading == scene.shading))
             continue;
-        // Of several with the same look, the one that was chosen or saved last.
+        // If several have the same look, prefer the last chosen or saved.
         const bool isChosen = QString::fromStdString(entry.preset.name) == m_chosen;
         if (found == nullptr || isChosen)
             found = &entry;
@@ -392,10 +392,20 @@ public:
         : QUndoCommand(tr("Delete preset %1").arg(QString::fromStdString(preset.name))),
           m_panel(&panel), m_preset(preset) {}
     void redo() override {
-        change([&](presets::PresetLibrary &library) { library.remove(m_preset.name); });
+        if (m_isRemoved)
+            return;
+        change([&](presets::PresetLibrary &library) {
+            library.remove(m_preset.name);
+            m_isRemoved = true;
+        });
     }
     void undo() override {
-        change([&](presets::PresetLibrary &library) { library.save(m_preset); });
+        change([&](presets::PresetLibrary &library) {
+            if (library.find(m_preset.name) != nullptr) // saved since then: it stays
+                throw task::Error(task::ErrorCode::usage, task::because::existsAlready);
+            library.save(m_preset);
+            m_isRemoved = false;
+        });
     }
 
 private:
@@ -413,6 +423,7 @@ private:
 
     QPointer<PresetsPanel> m_panel;
     const presets::Preset m_preset;
+    bool m_isRemoved = false;
 };
 
 void PresetsPanel::askToRemove(const QString &name) {
@@ -499,7 +510,7 @@ void PresetsPanel::showMenu(const QPoint &at) {
     removal->setObjectName("removePresetAction");
     removal->setEnabled(!entry->isBuiltIn());
     if (entry->isBuiltIn())
-        removal->setText(tr("Delete (built-in presets stay)"));
+        removal->setText(tr("Delete (built-in presets cannot be deleted)"));
     menu->popup(m_gallery->mapToGlobal(at));
 }
 

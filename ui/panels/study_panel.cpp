@@ -14,6 +14,7 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
+#include <QShortcut>
 #include <QToolButton>
 #include <QTreeView>
 #include <QUrl>
@@ -109,6 +110,11 @@ void StudyPanel::connectControls() {
         m_list.setSearch(m_search->text());
         m_tree->setFocus();
     });
+    connect(new QShortcut(Qt::Key_Escape, m_search, nullptr, nullptr, Qt::WidgetShortcut),
+            &QShortcut::activated, this, [this] {
+                m_search->clear();
+                m_tree->setFocus();
+            });
     connect(m_corner, &QPushButton::clicked, this, [this] { emit importRequested({}); });
     connect(&m_list, &QAbstractItemModel::modelReset, this, [this] {
         expandFew();
@@ -157,9 +163,12 @@ void StudyPanel::showEmpty() {
     const bool isSearching = !m_list.search().trimmed().isEmpty();
     const int matching = m_list.matchCount();
     m_empty->setVisible(matching == 0);
-    m_empty->setText(isSearching ? tr("Nothing found")
-                                 : tr("No studies yet. Open one, or import studies into the "
-                                      "library; files may also be dropped here."));
+    // The open study stays in the list, whatever is searched for.
+    if (isSearching)
+        m_empty->setText(m_list.rowCount() > 0 ? tr("No other study found") : tr("Nothing found"));
+    else
+        m_empty->setText(tr("No studies yet. Open one, or import studies into the library; files "
+                            "may also be dropped here."));
 }
 
 void StudyPanel::expandFew() {

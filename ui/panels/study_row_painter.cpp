@@ -49,15 +49,13 @@ QStringList warningLines(const QFont &font, int width, const QStringList &warnin
     QString first = warnings.front();
     if (warnings.size() > 1)
         first += " (+" + QString::number(warnings.size() - 1) + ")";
-    for (const QString &warning : {first}) {
-        QTextLayout layout(warning, font);
-        layout.beginLayout();
-        for (QTextLine line = layout.createLine(); line.isValid(); line = layout.createLine()) {
-            line.setLineWidth(width);
-            lines << warning.mid(line.textStart(), line.textLength()).trimmed();
-        }
-        layout.endLayout();
+    QTextLayout layout(first, font);
+    layout.beginLayout();
+    for (QTextLine line = layout.createLine(); line.isValid(); line = layout.createLine()) {
+        line.setLineWidth(width);
+        lines << first.mid(line.textStart(), line.textLength()).trimmed();
     }
+    layout.endLayout();
     if (lines.size() > maxWarningLines) {
         lines.resize(maxWarningLines);
         lines.back() += QString::fromUtf8("…");

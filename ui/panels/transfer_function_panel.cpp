@@ -162,7 +162,12 @@ void TransferFunctionPanel::setWeight(int index, double weight, DragId drag) {
 }
 
 void TransferFunctionPanel::setRange(double low, double high, DragId drag) {
-    change(classify::withRange(function(), low, high), tr("Range of the curve"), drag);
+    // Always from the curve before the drag: refitted at each step, it would lose its shape.
+    if (drag == noDrag || drag != m_rangeDrag || !(function() == m_lastRanged))
+        m_beforeRange = function();
+    m_rangeDrag = drag;
+    m_lastRanged = classify::withRange(m_beforeRange, low, high);
+    change(m_lastRanged, tr("Range of the curve"), drag);
 }
 
 void TransferFunctionPanel::typeRange() {
@@ -185,6 +190,8 @@ void TransferFunctionPanel::typeRange() {
     if (low != function().low || high != function().high)
         setRange(low, std::min(high, 1.0), noDrag);
     showScene(); // also restores a number that is out of range
+    if (m_low->hasFocus() || m_high->hasFocus())
+        m_editor->setFocus(); // in a field, Undo would be that of its text
 }
 
 void TransferFunctionPanel::copy() {

@@ -51,6 +51,9 @@ private:
     QDoubleSpinBox *m_weight;
     LimitBox *m_low, *m_high; ///< the range of the curve
     volume::Histogram m_histogram;
+    /// The curve before the drag that changes its range, and after its last step.
+    classify::TransferFunction m_beforeRange, m_lastRanged;
+    DragId m_rangeDrag = noDrag;
 };
 
 } // namespace pellucid::ui

@@ -64,13 +64,27 @@ std::vector<ShortcutEntry> shortcutEntries(const QWidget &window) {
     return entries;
 }
 
-void applyShortcuts(const QWidget &window) {
+namespace {
+
+void apply(const std::vector<ShortcutEntry> &entries) {
     const QSettings settings;
-    for (const ShortcutEntry &entry : shortcutEntries(window)) {
+    for (const ShortcutEntry &entry : entries) {
         if (const QVariant chosen = settings.value(settingsKey(entry.name)); chosen.isValid())
             entry.action->setShortcut(QKeySequence(chosen.toString(), QKeySequence::PortableText));
         showKey(*entry.action);
     }
+}
+
+} // namespace
+
+void applyShortcuts(const QWidget &window) {
+    apply(shortcutEntries(window));
+}
+
+void applyShortcuts(const QMenu &menu) {
+    std::vector<ShortcutEntry> entries;
+    add(menu, {}, entries);
+    apply(entries);
 }
 
 void setShortcut(const ShortcutEntry &entry, const QKeySequence &key) {

@@ -7,6 +7,7 @@
 #include <QString>
 
 class QAction;
+class QMenu;
 class QWidget;
 
 namespace pellucid::ui {
@@ -23,6 +24,8 @@ struct ShortcutEntry {
 std::vector<ShortcutEntry> shortcutEntries(const QWidget &window);
 /// Applies the user's keys to the actions of a window, whose tooltips name them.
 void applyShortcuts(const QWidget &window);
+/// The same for one menu, whose actions are made again.
+void applyShortcuts(const QMenu &menu);
 /// Sets and stores the key of an action. The default key is not stored.
 void setShortcut(const ShortcutEntry &entry, const QKeySequence &key);
 

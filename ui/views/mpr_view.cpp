@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/mpr_view.h"
+#include "ui/language/plain_tooltip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +69,7 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
     connect(&document, &Document::volumeChanged, this, [this] {
         const auto &volume = m_document.volume();
         const bool isSameLattice = volume && m_lattice == volume->lattice();
+        dropTextFields(*this); // their texts belong to the former volume
         // A volume that replaces its own preview does not interrupt a drag.
         if (!isSameLattice || !m_wasPreview)
             m_tools.cancel();
@@ -230,8 +232,9 @@ std::function<QImage()> MprView::pictureMaker(int scale) const {
 }
 
 void MprView::paintOver(QPainter &painter, Names names) const {
-    m_tools.paintPlain(painter, surface());
-    paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, TextsFor::person, names);
+    m_tools.paintPlain(painter, surface(), names);
+    paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, TextsFor::picture,
+                    names);
     const OverlayColors colors = overlayColors(colorRole(m_orientation));
     const int line = painter.fontMetrics().height() + 3;
     drawText(painter, rect().adjusted(8, 8 + line, -8, -8), Qt::AlignLeft | Qt::AlignTop,
@@ -240,7 +243,7 @@ void MprView::paintOver(QPainter &painter, Names names) const {
 
 void MprView::resizeEvent(QResizeEvent *) {
     m_imageValid = false;
-    emit viewMoved();
+    emit resized();
 }
 
 void MprView::mousePressEvent(QMouseEvent *event) {
@@ -374,9 +377,10 @@ bool MprView::event(QEvent *event) {
         if (m_overlays.texts &&
             warningMarkRect(rect()).adjusted(0, -20, 0, 0).contains(help->pos()) &&
             !notes.warnings.empty()) {
-            QToolTip::showText(help->globalPos(),
-                               warningLines(notes, Names::shown, notes.warnings.size()).join('\n'),
-                               this);
+            QToolTip::showText(
+                help->globalPos(),
+                plainToolTip(warningLines(notes, Names::shown, notes.warnings.size()).join('\n')),
+                this);
             return true;
         }
     }

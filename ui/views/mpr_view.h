@@ -56,8 +56,9 @@ public:
     void setOverlays(const Overlays &overlays);
 
 signals:
-    /// Zoomed, panned or resized.
+    /// Zoomed or panned.
     void viewMoved();
+    void resized();
     /// `measurement`: the one under the mouse, or -1.
     void menuRequested(QWidget *pane, const QPoint &globalAt, int measurement);
     void maximizeRequested(QWidget *pane);

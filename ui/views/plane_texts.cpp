@@ -182,7 +182,7 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
         drawWarningMark(painter, notes.lossy ? area.adjusted(0, 0, 0, -line) : area,
                         notes.warnings.size(), colors);
     if (const QStringList warnings = warningLines(notes, names, 1);
-        reader == TextsFor::person && !warnings.isEmpty())
+        reader == TextsFor::picture && !warnings.isEmpty())
         drawText(painter, inner.adjusted(0, 0, 0, -16), Qt::AlignRight | Qt::AlignBottom,
                  painter.fontMetrics().elidedText(warnings.front(), Qt::ElideRight,
                                                   area.width() / 2 - 16),

@@ -21,10 +21,10 @@ QString planeTitle(mpr::Orientation orientation);
 QString valueText(const volume::Volume &volume, volume::PatientPoint at,
                   mpr::Interpolation interpolation);
 
-/// Where texts over a plane are read.
+/// What texts over a plane are for.
 enum class TextsFor {
-    pane,  ///< warnings are a mark
-    person ///< in an exported picture: with the words of its warnings, as far as names allow
+    pane,   ///< warnings are a mark
+    picture ///< an exported one: with the words of its warnings, as far as names allow
 };
 
 /// Paints the texts over a plane: name, position, slice, window, slab, orientation letters, scale

@@ -93,7 +93,7 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping, Mar
         painter.drawText(inner.adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,
                          m_texts.message);
     };
-    if (marks != Marks::plain && !m_overlays.texts) {
+    if (marks > Marks::plain && !m_overlays.texts) {
         paintMessage();
         return;
     }
@@ -116,7 +116,7 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping, Mar
     // Warnings about the geometry belong on every picture; in the window, a mark does.
     QRect warning = second.adjusted(0, line, -width() / 2 - 24, 0);
     const volume::VolumeNotes &notes = m_document.volume()->notes();
-    const bool areWords = marks == Marks::plain;
+    const bool areWords = marks <= Marks::plain;
     if (!areWords && !notes.warnings.empty())
         drawWarningMark(painter, markArea(), notes.warnings.size(), colors);
     for (const QString &w : warningLines(notes, names, areWords ? notes.warnings.size() : 0)) {
@@ -184,7 +184,7 @@ void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mappi
                       width() - 40 -
                           2 * metrics.horizontalAdvance(
                                   QCoreApplication::translate("ProjectionView", "Projection"));
-    if (marks != Marks::plain && fits)
+    if (marks > Marks::plain && fits)
         drawText(painter, rect().adjusted(10, 8, -10, -8), Qt::AlignRight | Qt::AlignTop,
                  m_texts.figures, colors.text);
     const mpr::Axes &seen = mapping.plane.axes;
@@ -200,7 +200,7 @@ void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mappi
                  width() - barLeft - 60, colors);
     if (!m_comparison.isNull())
         return; // two pictures have no common positions
-    if (m_showsCrosshair && m_overlays.crosshair && marks != Marks::plain)
+    if (m_showsCrosshair && m_overlays.crosshair && marks > Marks::plain)
         paintCrosshair(painter, mapping);
     m_tools.paint(painter, {mapping, rect(), colors}, marks);
 }

@@ -62,6 +62,11 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         if (m_orbitsCrosshair)
             m_overlay->update();
     });
+    // The points of a figure belong to one view.
+    connect(&document, &Document::poseChanged, this, [this] {
+        if (m_tools.isMeasuring() && m_document.scene().camera.orientation != m_measuredFrom)
+            m_tools.cancel();
+    });
     for (const auto changed : {&Document::poseChanged, &Document::projectionResized})
         connect(&document, changed, this, [this] {
             m_overlay->setMapping(mapping());
@@ -392,7 +397,8 @@ std::function<picture::ProjectionImage(const scene::Camera &)> ProjectionView::p
 
 void ProjectionView::paintAnnotations(QPainter &painter, const scene::Camera &camera,
                                       Names names) const {
-    m_overlay->paint(painter, mappingOf(camera), Marks::plain, names);
+    m_overlay->paint(painter, mappingOf(camera),
+                     names == Names::shown ? Marks::plain : Marks::nameless, names);
 }
 
 scene::Camera ProjectionView::turnedAroundPatient(const scene::Camera &camera,

@@ -184,7 +184,8 @@ private:
     bool m_isMoving = false; ///< while moveTo sets the pose
     bool m_pending = false;
     bool m_isComparing = false;
-    std::optional<QPointF> m_menuPress; ///< of the right button
+    glm::dquat m_measuredFrom{1.0, 0.0, 0.0, 0.0}; ///< the view of an unfinished figure
+    std::optional<QPointF> m_menuPress;            ///< of the right button
     PlanState m_planState = PlanState::holds;
     std::uint64_t m_requested = 0, m_generation = 0;
 };

@@ -11,6 +11,7 @@
 
 #include "core/scene/positioner_angles.h"
 #include "ui/document/document.h"
+#include "ui/language/plain_tooltip.h"
 #include "ui/views/camera_moves.h"
 #include "ui/views/projection_overlay.h"
 #include "ui/views/projection_view.h"
@@ -44,6 +45,8 @@ void ProjectionView::mousePressEvent(QMouseEvent *event) {
     }
     if (event->button() == Qt::LeftButton && !m_tools.isMarking() && pressOnCube(event->position()))
         return;
+    if (!m_tools.isMarking())
+        m_measuredFrom = m_document.scene().camera.orientation;
     m_tools.press(event->button(), event->position());
     if (m_tools.isMarking())
         m_overlay->update();
@@ -149,9 +152,10 @@ bool ProjectionView::event(QEvent *event) {
         const auto *const help = static_cast<QHelpEvent *>(event);
         const volume::VolumeNotes &notes = m_document.volume()->notes();
         if (!notes.warnings.empty() && m_overlay->isOnWarnings(help->pos())) {
-            QToolTip::showText(help->globalPos(),
-                               warningLines(notes, Names::shown, notes.warnings.size()).join('\n'),
-                               this);
+            QToolTip::showText(
+                help->globalPos(),
+                plainToolTip(warningLines(notes, Names::shown, notes.warnings.size()).join('\n')),
+                this);
             return true;
         }
     }

@@ -74,10 +74,11 @@ AngleDialog::AngleDialog(const Document &document, ProjectionView &projection, Q
     m_secondary->setObjectName("secondaryAngleBox");
     m_secondary->setToolTip(tr("Tilt of the detector toward the head (CRA) or the feet (CAU)"));
     m_common->setObjectName("commonAnglesList");
+    m_common->setProperty("role", "plain");
     m_common->setAccessibleName(tr("Common angulations"));
     for (const scene::NamedAngles &named : scene::commonAngles) {
-        auto *item = new QListWidgetItem(
-            tr("%1: %2").arg(translatedName(named.name), anglesText(named.angles)));
+        const QString name = translatedName(named.name), angles = anglesText(named.angles);
+        auto *item = new QListWidgetItem(name == angles ? name : tr("%1: %2").arg(name, angles));
         item->setData(Qt::UserRole, named.angles.primaryDeg);
         item->setData(Qt::UserRole + 1, named.angles.secondaryDeg);
         m_common->addItem(item);

@@ -74,7 +74,6 @@ ClassVolumesDialog::ClassVolumesDialog(const Document &document, QWidget *parent
     m_table->horizontalHeader()->setSectionResizeMode(nameColumn, QHeaderView::Stretch);
     m_message->setProperty("role", "muted");
     m_message->setWordWrap(true);
-    m_message->setText(tr("Samples that belong at least half to a class, after its steps."));
     m_copy->setObjectName("copyVolumesButton");
     m_save->setObjectName("saveVolumesButton");
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close);
@@ -92,13 +91,21 @@ ClassVolumesDialog::ClassVolumesDialog(const Document &document, QWidget *parent
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
     // The table is of this look and this volume.
     connect(&document, &Document::volumeChanged, this, &QDialog::close);
-    connect(&document, &Document::sceneChanged, this, &ClassVolumesDialog::measure);
+    connect(&document, &Document::sceneChanged, this, [this] {
+        if (!(m_document.scene().look.classes == m_measured))
+            measure();
+    });
+    connect(&document, &Document::segmentsChanged, this, &ClassVolumesDialog::measure);
     measure();
 }
 
 ClassVolumesDialog::~ClassVolumesDialog() = default;
 
 void ClassVolumesDialog::measure() {
+    if (!m_document.volume())
+        return;
+    m_measured = m_document.scene().look.classes;
+    m_message->setText(tr("Samples that belong at least half to a class, after its steps."));
     classify::Look look = m_document.scene().look;
     for (classify::TissueClass &tissue : look.classes) // hidden ones, too
         tissue.weight = std::max(tissue.weight, 1.0);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <QDialog>
 
+#include "core/classify/tissue_class.h"
 #include "core/measure/measurement.h"
 #include "ui/jobs/job_runner.h"
 
@@ -43,6 +45,7 @@ private:
     void save();
 
     const Document &m_document;
+    std::vector<classify::TissueClass> m_measured; ///< what the table shows
     QTableWidget *m_table;
     QLabel *m_message;
     QPushButton *m_copy, *m_save;

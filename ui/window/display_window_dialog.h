@@ -24,7 +24,7 @@ public:
     ~DisplayWindowDialog() override;
 
 signals:
-    /// The stored list is a different one.
+    /// The stored list has changed.
     void presetsChanged();
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/file_menu.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -175,6 +176,17 @@ void FileMenu::exportPicture() {
     dialog->show();
 }
 
+const Document &FileMenu::focusedDocument() const {
+    return m_focused ? m_focused().document : m_bench.study.document;
+}
+
+Panes FileMenu::focusedPanes() const {
+    if (!m_focused)
+        return m_panes;
+    const Viewer viewer = m_focused();
+    return {viewer.planes, viewer.projection};
+}
+
 void FileMenu::copyPicture() {
     withPicture(1, tr("Copying the picture"), [this](const QImage &picture) {
         QGuiApplication::clipboard()->setImage(picture);
@@ -183,17 +195,18 @@ void FileMenu::copyPicture() {
 }
 
 void FileMenu::printPicture() {
+    const Document &document = focusedDocument();
+    const int open = document.currentSource();
+    if (open < 0)
+        return;
+    // Of the study that the picture is of: another may be open when it is done.
+    const StudySource &source = document.sources()[std::size_t(open)];
+    const QString heading = patientText(source.study) + ", " + studyText(source.study) + ", " +
+                            seriesText(source.volume);
     // Enough pixels for a page of paper.
-    withPicture(2, tr("Making the picture"), [this](const QImage &picture) {
-        const Document &document = m_bench.study.document;
-        const int open = document.currentSource();
-        if (open < 0)
-            return;
-        const StudySource &source = document.sources()[std::size_t(open)];
+    withPicture(2, tr("Making the picture"), [this, heading](const QImage &picture) {
         const PrintedPage page{
-            picture,
-            patientText(source.study) + ", " + studyText(source.study) + ", " +
-                seriesText(source.volume),
+            picture, heading,
             tr("Pellucid, printed %1. Not for diagnostic use.")
                 .arg(QLocale().toString(QDateTime::currentDateTime(), QLocale::ShortFormat))};
         auto printer = std::make_shared<QPrinter>(QPrinter::HighResolution);
@@ -217,12 +230,17 @@ void FileMenu::printPicture() {
 void FileMenu::withPicture(int scale, const QString &title,
                            const std::function<void(const QImage &)> &use) {
     PictureExport what;
-    what.pane = m_panes.current();
+    const Panes panes = focusedPanes();
+    what.pane = panes.current();
     what.scale = scale;
+    if (m_bench.exports.isRunning()) { // another job would cancel it
+        emit messageShown(tr("An export is running: copy and print when it has ended"));
+        return;
+    }
     attempt([&] {
         m_bench.exports.start(
             title,
-            [make = pictureMaker(what, m_panes, m_bench.study.document), use](const Job &job) {
+            [make = pictureMaker(what, panes, focusedDocument()), use](const Job &job) {
                 const QImage picture = make(job.progress());
                 job.deliver([picture, use] { use(picture); });
             },
@@ -235,7 +253,7 @@ void FileMenu::withPicture(int scale, const QString &title,
 
 // In the order of the slices, if every file is a slice.
 QStringList FileMenu::headerFiles() const {
-    const Document &document = m_bench.study.document;
+    const Document &document = focusedDocument();
     const int open = document.currentSource();
     if (open < 0 || !document.volume())
         return {};
@@ -250,9 +268,11 @@ void FileMenu::showHeader() {
     const QStringList files = headerFiles();
     if (files.isEmpty())
         return;
-    const Document &document = m_bench.study.document;
+    const Document &document = focusedDocument();
+    const QStringList &slices = document.sources()[std::size_t(document.currentSource())].slices;
     const double slice = document.volume()->lattice().voxel(document.crosshair()).v.z;
-    auto *dialog = new HeaderDialog(files, int(std::lround(slice)), &m_window);
+    const auto file = files.indexOf(slices.value(int(std::lround(slice))));
+    auto *dialog = new HeaderDialog(files, int(std::max<qsizetype>(0, file)), &m_window);
     dialog->show();
 }
 

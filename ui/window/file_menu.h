@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 #include <QObject>
 #include <QStringList>
@@ -9,6 +10,7 @@
 #include "core/task/reason.h"
 #include "ui/export/picture_export.h"
 #include "ui/studies/study_source.h"
+#include "ui/views/viewer.h"
 
 class QMenu;
 class QWidget;
@@ -23,6 +25,8 @@ class FileMenu : public QObject {
 public:
     FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &panes);
 
+    /// The study that copying, printing and the header are for, if it is not always the open one.
+    void setFocused(std::function<Viewer()> focused) { m_focused = std::move(focused); }
     void chooseFiles();
     void chooseFolder();
     void chooseSegmentations();
@@ -59,9 +63,13 @@ private:
     /// Runs `what` and reports a task::Error that it throws.
     void attempt(const std::function<void()> &what);
 
+    const Document &focusedDocument() const;
+    Panes focusedPanes() const;
+
     QWidget &m_window;
     Workbench &m_bench;
     Panes m_panes;
+    std::function<Viewer()> m_focused;
 };
 
 } // namespace pellucid::ui

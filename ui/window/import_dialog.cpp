@@ -41,7 +41,7 @@ ImportDialog::ImportDialog(const QStringList &paths, QWidget *parent)
     m_list->setTextElideMode(Qt::ElideMiddle);
     m_list->setFixedHeight(listHeight);
     m_remove->setObjectName("importRemoveButton");
-    m_remove->setToolTip(tr("Take the selected files and folders off the list (Del)"));
+    m_remove->setToolTip(tr("Remove the selected files and folders from the list (Del)"));
     m_list->installEventFilter(this);
     connect(m_remove, &QPushButton::clicked, this, &ImportDialog::removeSelected);
     connect(m_list, &QListWidget::itemSelectionChanged, this, &ImportDialog::showPaths);

@@ -26,7 +26,7 @@ namespace {
 
 constexpr int panelWidth = 300;
 // In a lower window, the panels would not fit below each other.
-constexpr int lowWindow = 900, tabsHeight = 300;
+constexpr int lowWindow = 960, tabsHeight = 300;
 
 // Lets a panel scroll, so that all docks fit in a height of 720 pixels.
 QWidget *scrolling(QWidget *panel) {
@@ -61,8 +61,10 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
     window.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
     for (QDockWidget *dock : m_docks) {
         const auto moved = [this] {
-            if (!m_isArranging)
-                m_areMoved = true;
+            if (m_isArranging)
+                return;
+            m_areMoved = true;
+            showHeadings();
         };
         connect(dock, &QDockWidget::topLevelChanged, this, moved);
         connect(dock, &QDockWidget::dockLocationChanged, this, moved);
@@ -86,6 +88,12 @@ void LookDocks::unfold(QWidget &panel) {
         }
 }
 
+// A tab names its dock.
+void LookDocks::showHeadings() {
+    for (QDockWidget *dock : m_docks)
+        showHeading(*dock, dock->isFloating() || m_window.tabifiedDockWidgets(dock).isEmpty());
+}
+
 bool LookDocks::areTabs() const {
     return !m_window.tabifiedDockWidgets(m_docks.front()).isEmpty();
 }
@@ -94,6 +102,7 @@ void LookDocks::fit(int windowHeight) {
     const bool asTabs = windowHeight < lowWindow;
     if (!m_areMoved && asTabs != areTabs())
         arrange(asTabs);
+    showHeadings(); // also of a layout that was restored
 }
 
 void LookDocks::reset(int windowHeight) {
@@ -110,7 +119,10 @@ void LookDocks::arrange(bool asTabs) {
     const QScopedValueRollback arranging(m_isArranging, true);
     QList<QDockWidget *> shown;
     for (QDockWidget *dock : m_docks) {
-        if (dock->toggleViewAction()->isChecked())
+        // Before the window is shown, docks that nobody has hidden count as hidden, too.
+        const bool isClosed =
+            dock->testAttribute(Qt::WA_WState_ExplicitShowHide) && dock->isHidden();
+        if (!isClosed)
             shown << dock;
         m_window.removeDockWidget(dock);
     }
@@ -128,10 +140,10 @@ void LookDocks::arrange(bool asTabs) {
             rows << dock;
             heights << (isTab ? tabsHeight : m_heights[n]);
         }
-        showHeading(*dock, !isTab);
         dock->setVisible(shown.contains(dock));
     }
     m_docks.front()->raise();
+    showHeadings();
     m_window.resizeDocks(rows, heights, Qt::Vertical);
 }
 

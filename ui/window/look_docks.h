@@ -54,6 +54,7 @@ private:
 
     bool areTabs() const;
     void arrange(bool asTabs);
+    void showHeadings();
 
     QMainWindow &m_window;
     LookPreviewer m_previewer;

@@ -34,6 +34,7 @@
 #include "ui/panels/start_page.h"
 #include "ui/panels/study_panel.h"
 #include "ui/settings/shortcuts.h"
+#include "ui/theme/dialog_place.h"
 #include "ui/theme/icons.h"
 #include "ui/theme/wheel_guard.h"
 #include "ui/views/mpr_view.h"
@@ -55,6 +56,7 @@
 #include "ui/window/tool_bar.h"
 #include "ui/window/tools_menu.h"
 #include "ui/window/view_menu.h"
+#include "ui/window/window_chooser.h"
 
 namespace pellucid::ui {
 
@@ -90,11 +92,20 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     connect(m_tools, &ToolsMenu::classVolumesRequested, this, &MainWindow::showClassVolumes);
     connect(&m_look->classes(), &ClassesPanel::volumesRequested, this,
             &MainWindow::showClassVolumes);
-    new PaneMenus(*this, {m_bench.study.document, m_mpr, m_projection, m_panes}, *m_tools);
+    auto *menus =
+        new PaneMenus(*this, {m_bench.study.document, m_mpr, m_projection, m_panes}, *m_tools);
+    connect(m_pair, &StudyPair::besideChanged, menus, [this, menus](bool isThere) {
+        if (isThere)
+            menus->addBeside(*m_pair->beside());
+    });
     createHelpMenu();
     setActionIcons(*this, m_theme);
-    makeToolBar(*this, m_bench.study.document, m_theme, m_preferences.toolBar,
-                {*m_tools, m_view->layouts(), m_view->standardViews(), lookMenu->windowMenu()});
+    const auto focusedDocument = [this]() -> Document & { return m_pair->focused().document; };
+    WindowChooser *chooser =
+        makeToolBar(*this, m_bench.study.document, m_theme, m_preferences.toolBar,
+                    {*m_tools, m_view->layouts(), m_view->standardViews(), lookMenu->windowMenu()});
+    chooser->setTarget(focusedDocument);
+    m_file->setFocused([this] { return m_pair->focused(); });
     createStatusBar();
     applyShortcuts(*this);
     connectBench();
@@ -406,6 +417,7 @@ void MainWindow::showAngles() {
     if (dialog == nullptr)
         dialog = new AngleDialog(m_bench.study.document, *m_projection, this);
     dialog->show();
+    placeBeside(*dialog);
     dialog->raise();
     dialog->activateWindow();
 }

@@ -6,6 +6,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QScreen>
 #include <QScrollBar>
 #include <QShortcut>
 #include <QSignalBlocker>
@@ -60,7 +61,7 @@ ManualWindow::ManualWindow(const QUrl &page)
     auto *row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
     row->addWidget(parts);
-    resize(1040, 800);
+    resize(QSize(1040, 800).boundedTo(screen()->availableGeometry().size() - QSize(16, 44)));
     listContents();
     connect(m_contents, &QTreeWidget::itemClicked, this,
             [this](const QTreeWidgetItem *item) { goTo(item->data(0, positionRole).toInt()); });
@@ -73,7 +74,12 @@ ManualWindow::ManualWindow(const QUrl &page)
         &QShortcut::activated, this, [this] { findNext(-1); });
     connect(new QShortcut(QKeySequence::Find, this), &QShortcut::activated, m_search,
             qOverload<>(&QWidget::setFocus));
-    connect(new QShortcut(Qt::Key_Escape, this), &QShortcut::activated, this, &QWidget::close);
+    connect(new QShortcut(Qt::Key_Escape, this), &QShortcut::activated, this, [this] {
+        if (m_search->text().isEmpty())
+            close();
+        else
+            m_search->clear();
+    });
     connect(m_text->verticalScrollBar(), &QScrollBar::valueChanged, this,
             &ManualWindow::followScrolling);
     m_search->setFocus();
@@ -110,7 +116,7 @@ void ManualWindow::search() {
     m_shown = -1;
     QList<QTextEdit::ExtraSelection> marks;
     const QString wanted = m_search->text().trimmed();
-    // A letter of East Asia is a word.
+    // A single East Asian character can be a word.
     const bool isLong = wanted.size() >= shortestSearch ||
                         (!wanted.isEmpty() && wanted.front().unicode() >= 0x2E80);
     for (QTextCursor at(m_text->document()); isLong;) {

@@ -18,37 +18,51 @@ namespace pellucid::ui {
 
 PaneMenus::PaneMenus(QMainWindow &window, const Viewer &viewer, const ToolsMenu &tools)
     : QObject(&window), m_window(window), m_viewer(viewer), m_tools(tools) {
-    for (MprView *const plane : viewer.planes)
-        connect(plane, &MprView::menuRequested, this, &PaneMenus::open);
-    connect(viewer.projection, &ProjectionView::menuRequested, this, &PaneMenus::open);
+    watch(viewer);
 }
 
-void PaneMenus::open(QWidget *pane, const QPoint &globalAt, int measurement) {
-    if (!m_viewer.document.volume())
+void PaneMenus::addBeside(const Viewer &viewer) {
+    watch(viewer);
+}
+
+void PaneMenus::watch(const Viewer &viewer) {
+    const auto show = [this, viewer](QWidget *pane, const QPoint &globalAt, int measurement) {
+        open(viewer, pane, globalAt, measurement);
+    };
+    for (MprView *const plane : viewer.planes)
+        connect(plane, &MprView::menuRequested, this, show);
+    connect(viewer.projection, &ProjectionView::menuRequested, this, show);
+}
+
+void PaneMenus::open(const Viewer &viewer, QWidget *pane, const QPoint &globalAt, int measurement) {
+    if (!viewer.document.volume())
         return;
     auto *const opened = new QMenu(pane);
     QMenu &menu = *opened;
     menu.setObjectName("paneMenu");
     menu.setAttribute(Qt::WA_DeleteOnClose);
     if (measurement >= 0)
-        addMeasurement(menu, measurement);
+        addMeasurement(menu, viewer.document, measurement);
     QMenu *const tools = menu.addMenu(tr("&Tool"));
     m_tools.addToolsTo(*tools);
-    if (pane == m_viewer.projection)
+    if (viewer.area != m_viewer.area)
+        menu.addSeparator();
+    else if (pane == viewer.projection)
         addProjection(menu);
     else
         addPlane(menu, pane);
     menu.addSeparator();
-    menu.addAction(m_viewer.area->isMaximized() ? tr("Show &all panes") : tr("&Maximize"), this,
-                   [this, pane] { m_viewer.area->toggleMaximized(pane); });
+    menu.addAction(viewer.area->isMaximized() ? tr("Show &all panes") : tr("&Maximize"), this,
+                   [area = viewer.area, pane] { area->toggleMaximized(pane); });
     addNamed(menu, {"annotationsAction", "crosshairAction"});
     menu.addSeparator();
-    addNamed(menu, {"copyPictureAction", "exportPictureAction", "printAction"});
+    addNamed(menu, {"copyPictureAction", "printAction"});
+    if (viewer.area == m_viewer.area)
+        addNamed(menu, {"exportPictureAction"});
     menu.popup(globalAt);
 }
 
-void PaneMenus::addMeasurement(QMenu &menu, int measurement) {
-    Document &document = m_viewer.document;
+void PaneMenus::addMeasurement(QMenu &menu, Document &document, int measurement) {
     const auto &measured = document.measured();
     if (measurement >= int(measured.size()))
         return;

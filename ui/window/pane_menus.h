@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <functional>
+#include <initializer_list>
 
 #include <QObject>
 #include <QPoint>
@@ -22,10 +22,13 @@ class PaneMenus : public QObject {
     Q_OBJECT
 public:
     PaneMenus(QMainWindow &window, const Viewer &viewer, const ToolsMenu &tools);
+    /// The panes of a study beside have a shorter menu: most entries act on the open study.
+    void addBeside(const Viewer &viewer);
 
 private:
-    void open(QWidget *pane, const QPoint &globalAt, int measurement);
-    void addMeasurement(QMenu &menu, int measurement);
+    void open(const Viewer &viewer, QWidget *pane, const QPoint &globalAt, int measurement);
+    void addMeasurement(QMenu &menu, Document &document, int measurement);
+    void watch(const Viewer &viewer);
     void addPlane(QMenu &menu, QWidget *pane);
     void addProjection(QMenu &menu);
     void addNamed(QMenu &menu, std::initializer_list<const char *> actions);

@@ -77,6 +77,9 @@ void Reopening::openRecent(const QString &entry) {
     if (!study) {
         if (const QString path = pathOf(entry); !path.isEmpty())
             m_bench.study.opener.openPaths({path});
+        else
+            forgetRecentPath(entry);
+        show();
         return;
     }
     const auto volumes = m_bench.library.volumes(*study);

@@ -47,8 +47,8 @@ QComboBox *makeWindowBox() {
 
 } // namespace
 
-void makeToolBar(QMainWindow &window, Document &document, const Theme &theme, ToolBarStyle style,
-                 const ToolBarSources &sources) {
+WindowChooser *makeToolBar(QMainWindow &window, Document &document, const Theme &theme,
+                           ToolBarStyle style, const ToolBarSources &sources) {
     QToolBar *bar = window.addToolBar(ToolBarTexts::tr("Tools"));
     bar->setObjectName("toolBar");
     bar->setMovable(false);
@@ -81,13 +81,14 @@ void makeToolBar(QMainWindow &window, Document &document, const Theme &theme, To
     bar->addWidget(space);
     QComboBox *windowBox = makeWindowBox();
     bar->addWidget(windowBox);
-    new WindowChooser(document, sources.windowMenu, *windowBox);
+    auto *chooser = new WindowChooser(document, sources.windowMenu, *windowBox);
     // Qt draws the overflow arrow in the colors of its own style.
     if (auto *more = bar->findChild<QToolButton *>("qt_toolbar_ext_button")) {
         more->setIcon(themedIcon("down", theme));
         more->setToolTip(ToolBarTexts::tr("More"));
         more->setAccessibleName(ToolBarTexts::tr("More"));
     }
+    return chooser;
 }
 
 } // namespace pellucid::ui

@@ -14,6 +14,7 @@ namespace pellucid::ui {
 class Document;
 class Theme;
 class ToolsMenu;
+class WindowChooser;
 
 /// What the tool bar takes from the menus, which must exist before it.
 struct ToolBarSources {
@@ -24,8 +25,8 @@ struct ToolBarSources {
 };
 
 /// Adds the tool bar to a window: opening, tools, layouts, export, and the window box of the
-/// planes.
-void makeToolBar(QMainWindow &window, Document &document, const Theme &theme, ToolBarStyle style,
-                 const ToolBarSources &sources);
+/// planes. Returns the chooser of that box.
+WindowChooser *makeToolBar(QMainWindow &window, Document &document, const Theme &theme,
+                           ToolBarStyle style, const ToolBarSources &sources);
 
 } // namespace pellucid::ui

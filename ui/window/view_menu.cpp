@@ -114,13 +114,11 @@ void ViewMenu::addOverlays() {
                      [this] { showOverlays(); });
     m_crosshair = addOne(tr("Cross&hair"), "crosshairAction", QKeySequence("Shift+H"),
                          [this] { showOverlays(); });
-    QAction *banner = addOne(tr("Patient &banner"), "bannerAction", QKeySequence("Shift+B"), {});
-    banner->setChecked(QSettings().value(bannerKey, true).toBool());
-    connect(banner, &QAction::toggled, this, [this](bool isShown) {
-        QSettings().setValue(bannerKey, isShown);
-        emit bannerToggled(isShown);
+    m_banner = addOne(tr("Patient &banner"), "bannerAction", QKeySequence("Shift+B"), [this] {
+        QSettings().setValue(bannerKey, m_banner->isChecked());
+        emit bannerToggled(m_banner->isChecked());
     });
-    m_banner = banner;
+    m_banner->setChecked(QSettings().value(bannerKey, true).toBool());
     m_menu.addSeparator();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/window_chooser.h"
 
+#include <algorithm>
+
 #include <QAction>
 #include <QComboBox>
 #include <QMenu>
@@ -11,7 +13,9 @@
 #include "ui/document/document.h"
 #include "ui/language/names.h"
 #include "ui/language/number_text.h"
+#include "ui/settings/shortcuts.h"
 #include "ui/studies/window_presets.h"
+#include "ui/theme/dialog_place.h"
 #include "ui/window/display_window_dialog.h"
 
 namespace pellucid::ui {
@@ -46,17 +50,23 @@ WindowChooser::WindowChooser(Document &document, QMenu &menu, QComboBox &box)
 
 // A different window is shown as the present one is: inverted or not.
 void WindowChooser::choose(volume::ValueWindow window) {
-    if (!m_document.volume())
+    Document &shown = target();
+    if (!shown.volume())
         return;
-    window.isInverted = m_document.displayWindow().isInverted;
-    if (!(m_document.displayWindow() == window))
-        m_document.undoStack()->push(new EditDisplayWindow(m_document, window));
+    window.isInverted = shown.displayWindow().isInverted;
+    if (!(shown.displayWindow() == window))
+        shown.undoStack()->push(new EditDisplayWindow(shown, window));
 }
 
 void WindowChooser::add(const volume::ValueWindow &window, const QKeySequence &key) {
     QAction *action = m_menu.addAction(windowLabel(window));
     action->setShortcut(key);
-    connect(action, &QAction::triggered, this, [this, window] { choose(window); });
+    connect(action, &QAction::triggered, this, [this, window] {
+        // The list is for the unit of the open study.
+        const auto &volume = target().volume();
+        if (volume && m_document.volume() && volume->unit() == m_document.volume()->unit())
+            choose(window);
+    });
     m_rows << action;
     m_box.addItem(windowLabel(window));
 }
@@ -65,8 +75,8 @@ void WindowChooser::add(const volume::ValueWindow &window, const QKeySequence &k
 void WindowChooser::addAutomatic() {
     QAction *const action =
         addCommand(m_menu, translatedName("Auto"), "autoWindowAction", keyOf(0), this, [this] {
-            if (m_document.volume())
-                choose(automaticWindow(*m_document.volume()));
+            if (target().volume())
+                choose(automaticWindow(*target().volume()));
         });
     m_rows << action;
     m_box.addItem(action->text());
@@ -76,9 +86,10 @@ void WindowChooser::addDialog() {
     m_menu.addSeparator();
     QAction *inverted = addCommand(
         m_menu, tr("&Inverted grey"), "invertedPlanesAction", QKeySequence("N"), this, [this] {
-            volume::ValueWindow window = m_document.displayWindow();
+            Document &shown = target();
+            volume::ValueWindow window = shown.displayWindow();
             window.isInverted = !window.isInverted;
-            m_document.undoStack()->push(new EditDisplayWindow(m_document, window));
+            shown.undoStack()->push(new EditDisplayWindow(shown, window));
         });
     inverted->setCheckable(true);
     inverted->setChecked(m_document.displayWindow().isInverted);
@@ -98,24 +109,29 @@ void WindowChooser::showWindows() {
     if (!volume)
         return;
     addAutomatic();
-    const volume::ValueWindow &initial = m_document.initialWindow();
     std::vector<WindowPreset> presets = windowPresets();
     std::erase_if(presets, [&](const WindowPreset &p) { return p.unit != volume->unit(); });
-    const auto isListed = [&](const volume::ValueWindow &window) {
-        return std::any_of(presets.begin(), presets.end(), [&](const WindowPreset &p) {
-            return p.window.center == window.center && p.window.width == window.width;
-        });
-    };
+    const std::vector<volume::ValueWindow> &ofFile = volume->notes().windows;
+    for (std::size_t n = 0; n < ofFile.size(); ++n) {
+        volume::ValueWindow window = ofFile[n];
+        if (n == 0 && window.name.empty())
+            window.name = "File";
+        add(window, n == 0 ? keyOf(fileKey) : QKeySequence());
+    }
     // The window that the study opened with is always there.
-    if (initial.name != "Auto" && (!volume->notes().windows.empty() || !isListed(initial)))
-        add(initial, keyOf(fileKey));
-    for (const volume::ValueWindow &window : volume->notes().windows)
-        if (window.center != initial.center || window.width != initial.width)
-            add(window, {});
+    const volume::ValueWindow &initial = m_document.initialWindow();
+    const bool isListed =
+        initial.name == "Auto" || !ofFile.empty() ||
+        std::any_of(presets.begin(), presets.end(), [&](const WindowPreset &p) {
+            return p.window.center == initial.center && p.window.width == initial.width;
+        });
+    if (!isListed)
+        add(initial, {});
     int digit = 0;
     for (const WindowPreset &preset : presets)
         add(preset.window, ++digit <= lastPresetKey ? keyOf(digit) : QKeySequence());
     addDialog();
+    applyShortcuts(m_menu); // the user's keys for the entries with names
     showCurrent();
 }
 
@@ -142,6 +158,7 @@ void WindowChooser::openDialog() {
         connect(dialog, &DisplayWindowDialog::presetsChanged, this, &WindowChooser::showWindows);
     }
     dialog->show();
+    placeBeside(*dialog);
     dialog->raise();
     dialog->activateWindow();
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include <QList>
@@ -25,6 +27,8 @@ class WindowChooser : public QObject {
 public:
     /// Fills a menu and a box, which it does not own.
     WindowChooser(Document &document, QMenu &menu, QComboBox &box);
+    /// The study that keys and menu act on, if it is not always `document`.
+    void setTarget(std::function<Document &()> target) { m_target = std::move(target); }
 
 private:
     void showWindows();
@@ -38,6 +42,9 @@ private:
     Document &m_document;
     QMenu &m_menu;
     QComboBox &m_box;
+    Document &target() const { return m_target ? m_target() : m_document; }
+
+    std::function<Document &()> m_target;
     QList<QAction *> m_rows; ///< of the box, in order
 };
 

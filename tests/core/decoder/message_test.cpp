@@ -71,10 +71,10 @@ auto fieldsOf(IsA<InstanceHeader> auto &h) {
 auto fieldsOf(IsA<PetHeader> auto &p) {
     auto &[units, uptakeType, decayCorrection, seriesDate, seriesTime, acquisitionDate,
            acquisitionTime, injectionTime, injectionDateTime, weightKg, injectedBq, halfLifeS,
-           uptakePerCount] = p;
+           uptakePerCount, isAttenuationCorrected] = p;
     return std::tie(units, uptakeType, decayCorrection, seriesDate, seriesTime, acquisitionDate,
                     acquisitionTime, injectionTime, injectionDateTime, weightKg, injectedBq,
-                    halfLifeS, uptakePerCount);
+                    halfLifeS, uptakePerCount, isAttenuationCorrected);
 }
 auto fieldsOf(IsA<VolumeLayout> auto &l) {
     auto &[size, volumes, originMm, stepsMm, scalar, slope, intercept, isDeflated, isSwapped,

@@ -30,6 +30,7 @@ PetHeader fdg() {
     pet.weightKg = 70.0;
     pet.injectedBq = 3.7e8;
     pet.halfLifeS = 6586.2;
+    pet.isAttenuationCorrected = true;
     return pet;
 }
 
@@ -108,6 +109,15 @@ TEST(UptakeScale, SaysWhatIsMissing) {
     EXPECT_TRUE(reason([](PetHeader &p) { p.weightKg = 0.0; }).is(because::noPlausibleWeight));
     EXPECT_TRUE(reason([](PetHeader &p) { p.weightKg = 70000.0; }).is(because::noPlausibleWeight));
     EXPECT_TRUE(reason([](PetHeader &p) { p.injectedBq = 0.0; }).is(because::noInjectedActivity));
+    EXPECT_TRUE(reason([](PetHeader &p) { p.injectedBq = 370.0; }).is(because::noInjectedActivity));
+    EXPECT_TRUE(reason([](PetHeader &p) {
+                    p.isAttenuationCorrected = false;
+                }).is(because::notAttenuationCorrected));
+    // In another time zone, perhaps.
+    EXPECT_TRUE(reason([](PetHeader &p) {
+                    p.injectionTime.clear();
+                    p.injectionDateTime = "20260115093000.00+0000";
+                }).is(because::noDecayTime));
     EXPECT_TRUE(
         reason([](PetHeader &p) { p.decayCorrection = "NONE"; }).is(because::notDecayCorrected));
     EXPECT_TRUE(reason([](PetHeader &p) { p.halfLifeS = 0.0; }).is(because::noDecayTime));
@@ -130,7 +140,7 @@ TEST(UptakeScale, ReadsDicomTimes) {
                 0.25, 1e-5);
     for (const char *const bad : {"", "2024", "20241301", "20240230", "abcdefgh"})
         EXPECT_FALSE(dicom::secondsAt(bad, "12")) << bad;
-    for (const char *const bad : {"", "1", "24", "ab"})
+    for (const char *const bad : {"", "1", "24", "ab", "10:45", "10:45:00", "104", "10450"})
         EXPECT_FALSE(dicom::secondsAt("20240301", bad)) << bad;
 }
 
@@ -149,6 +159,7 @@ test::SeriesKnobs petSeries() {
         w.putNumbers({0x0010, 0x1030}, {70.0});
         w.put({0x0054, 0x1001}, "CS", std::string("BQML"));
         w.put({0x0054, 0x1102}, "CS", std::string("START"));
+        w.put({0x0028, 0x0051}, "CS", std::string("DECY\\ATTN\\SCAT"));
         w.putNumbers({0x0028, 0x1052}, {0.0});
         w.putNumbers({0x0028, 0x1053}, {0.5 + 0.25 * k});
         test::DicomWriter dose;
@@ -191,6 +202,28 @@ TEST(UptakeScale, ASeriesWithoutAWeightIsAnActivityAndSaysWhy) {
     EXPECT_EQ(entry.notes.warnings.front().english(),
               "the values are not SUV: the patient's weight is missing or implausible");
     EXPECT_NEAR(dicom::loadVolume(entry).volume.value({0, 0, 1}), 2000.0 * 0.75, 1e-3);
+}
+
+// Two phases, and a series time of the reconstruction: START means the first acquisition of all.
+TEST(UptakeScale, LaterPhasesReferToTheStartOfTheirSeries) {
+    const test::TemporaryFolder folder;
+    test::SeriesKnobs knobs = petSeries();
+    knobs.value = [](int, int, int) { return 1000; };
+    knobs.change = [change = knobs.change](test::DicomWriter &w, int k) {
+        change(w, k);
+        w.put({0x0008, 0x0031}, "TM", std::string("180000"));
+        w.put({0x0008, 0x0032}, "TM", std::string(k < 3 ? "103000" : "113000"));
+        w.put({0x0020, 0x0100}, "IS", std::string(k < 3 ? "1" : "2"));
+        w.putNumbers({0x0020, 0x0032}, {-5.0, 7.0, 2.0 * (k % 3)});
+        w.putNumbers({0x0028, 0x1053}, {1.0});
+    };
+    test::writeSeries(folder.path(), knobs);
+    const auto catalogue = dicom::scan({folder.path()});
+    const auto all = dicom::selections(catalogue);
+    ASSERT_EQ(all.size(), 2U);
+    const double factor = factorAtInjection * std::exp2(3600.0 / 6586.2);
+    for (const dicom::Selection &s : all)
+        EXPECT_NEAR(s.volume->valueFactor, factor, 1e-6 * factor);
 }
 
 TEST(Windows, OfSlicesThatDisagreeAreNotThoseOfTheSeries) {

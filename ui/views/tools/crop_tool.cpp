@@ -111,7 +111,7 @@ void CropTool::release(const QPointF & /*at*/) {
 
 void CropTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks) const {
     const bool isWhole = shown().isWhole();
-    if (marks == Marks::plain || (isWhole && marks != Marks::chosen))
+    if (marks <= Marks::plain || (isWhole && marks != Marks::chosen))
         return;
     const auto edges = outline(surface.mapping);
     painter.save();

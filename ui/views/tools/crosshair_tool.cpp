@@ -59,7 +59,7 @@ void CrosshairTool::turnTo(const QPoint &to) {
 }
 
 void CrosshairTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks) const {
-    if (marks == Marks::plain)
+    if (marks <= Marks::plain)
         return;
     painter.save();
     painter.setClipRegion(QRegion(surface.area) - upperAndLowerLetters(surface.area));

@@ -115,7 +115,7 @@ void GrowTool::cancel() {
 }
 
 void GrowTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks) const {
-    if (!m_isDragging || marks == Marks::plain)
+    if (!m_isDragging || marks <= Marks::plain)
         return;
     constexpr double radius = 5.0;
     const QPointF at = surface.mapping.positionOf(m_point);

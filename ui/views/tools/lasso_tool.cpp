@@ -63,7 +63,7 @@ void LassoTool::release(const QPointF &at) {
 }
 
 void LassoTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks) const {
-    if (!isBusy() || marks == Marks::plain)
+    if (!isBusy() || marks <= Marks::plain)
         return;
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);

@@ -28,6 +28,10 @@ struct MeasureToolTexts {
     Q_DECLARE_TR_FUNCTIONS(MeasureToolTexts)
 };
 
+QString nameOf(const Measurement &m) {
+    return m.name.empty() ? kindText(m) : QString::fromStdString(m.name);
+}
+
 } // namespace
 
 MeasureTool::MeasureTool(Document &document, ToolPane &pane, Figures figures)
@@ -148,13 +152,13 @@ void MeasureTool::moveTo(const QPointF &at) {
         moveGrip(m_current, m_point, mm);
         if (measure::isRegion(m_current.kind))
             m_point = 2; // the dragged corner is now the second point
-        edit(MeasureToolTexts::tr("Change %1").arg(QString::fromStdString(m_current.name)));
+        edit(MeasureToolTexts::tr("Change %1").arg(nameOf(m_current)));
         break;
     case Grip::whole:
         for (glm::dvec3 &p : m_current.pointsMm)
             p += mm - m_lastMm;
         m_lastMm = mm;
-        edit(MeasureToolTexts::tr("Move %1").arg(QString::fromStdString(m_current.name)));
+        edit(MeasureToolTexts::tr("Move %1").arg(nameOf(m_current)));
         break;
     }
 }
@@ -268,9 +272,11 @@ void MeasureTool::paint(QPainter &painter, const ToolSurface &surface, Marks mar
     std::vector<DrawnMeasurement> drawn;
     const std::vector<Measured> &all = m_document.measured();
     for (std::size_t n = 0; n < all.size(); ++n)
-        if (isShown(all[n].measurement, surface.mapping.plane))
+        // What the user has typed may name the patient.
+        if (isShown(all[n].measurement, surface.mapping.plane) &&
+            !(marks == Marks::nameless && measure::isAnnotation(all[n].measurement.kind)))
             drawn.push_back(
-                {all[n], marks != Marks::plain && int(n) == m_document.selectedMeasurement()});
+                {all[n], marks > Marks::plain && int(n) == m_document.selectedMeasurement()});
     if (!drawn.empty())
         paintMeasurements(painter, surface, drawn, *m_document.volume());
     if (m_grip == Grip::making || m_grip == Grip::nextPoint || m_grip == Grip::nextLine)

@@ -22,8 +22,9 @@ struct MouseMove {
 
 /// How much a tool draws.
 enum class Marks {
-    plain, ///< for an exported picture: without handles
-    shown, ///< on the pane, while a different tool is selected
+    nameless, ///< for an exported picture without identity: also without typed texts
+    plain,    ///< for an exported picture: without handles
+    shown,    ///< on the pane, while a different tool is selected
     chosen
 };
 

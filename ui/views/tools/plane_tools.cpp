@@ -98,7 +98,7 @@ void PlaneTools::release(Qt::MouseButton button, const QPointF &at) {
 }
 
 bool PlaneTools::doublePress(const QPointF &at) {
-    return m_measure->doublePress(at);
+    return (m_showsMeasurements || m_measure->isBusy()) && m_measure->doublePress(at);
 }
 
 bool PlaneTools::finishFigure() {
@@ -144,9 +144,9 @@ void PlaneTools::paint(QPainter &painter, const ToolSurface &surface, const Over
     }
 }
 
-void PlaneTools::paintPlain(QPainter &painter, const ToolSurface &surface) const {
+void PlaneTools::paintPlain(QPainter &painter, const ToolSurface &surface, Names names) const {
     for (const auto &[tool, paneTool] : m_tools)
-        paneTool->paint(painter, surface, Marks::plain);
+        paneTool->paint(painter, surface, names == Names::shown ? Marks::plain : Marks::nameless);
 }
 
 } // namespace pellucid::ui

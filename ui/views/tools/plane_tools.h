@@ -58,7 +58,7 @@ public:
     /// Draws the tools' marks on the pane.
     void paint(QPainter &painter, const ToolSurface &surface, const Overlays &shown) const;
     /// Draws the marks for an exported picture.
-    void paintPlain(QPainter &painter, const ToolSurface &surface) const;
+    void paintPlain(QPainter &painter, const ToolSurface &surface, Names names) const;
 
 private:
     void add(Tool tool, std::unique_ptr<PaneTool> made);

@@ -105,7 +105,8 @@ bool ProjectionTools::isMarking() const {
 }
 
 bool ProjectionTools::doublePress(const QPointF &at) {
-    return m_pane.showsPicture() && m_measure.doublePress(at);
+    return m_pane.showsPicture() && (m_showsMeasurements || m_measure.isBusy()) &&
+           m_measure.doublePress(at);
 }
 
 bool ProjectionTools::finishFigure() {
@@ -124,7 +125,7 @@ void ProjectionTools::cancel() {
 
 void ProjectionTools::paint(QPainter &painter, const ToolSurface &surface, Marks marks) const {
     m_measure.paint(painter, surface, marks);
-    if (m_region != nullptr && marks != Marks::plain)
+    if (m_region != nullptr && marks > Marks::plain)
         m_region->paint(painter, surface, Marks::chosen);
 }
 

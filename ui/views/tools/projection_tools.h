@@ -48,6 +48,7 @@ public:
     bool marksRegions() const { return m_region != nullptr; }
     /// Whether the left button marks something that is unfinished.
     bool isMarking() const;
+    bool isMeasuring() const { return m_measure.isBusy(); }
     /// Drops what is unfinished.
     void cancel();
 

@@ -68,4 +68,9 @@ void TextField::end(bool isTaken) {
         take(text().trimmed());
 }
 
+void dropTextFields(QWidget &pane) {
+    for (TextField *const field : pane.findChildren<TextField *>())
+        field->end(false);
+}
+
 } // namespace pellucid::ui

@@ -22,9 +22,13 @@ protected:
     void focusOutEvent(QFocusEvent *event) override;
 
 private:
+    friend void dropTextFields(QWidget &pane);
     void end(bool isTaken);
 
     std::function<void(const QString &)> m_take;
 };
+
+/// Drops the fields of a pane with what was typed.
+void dropTextFields(QWidget &pane);
 
 } // namespace pellucid::ui
