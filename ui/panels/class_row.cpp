@@ -65,7 +65,7 @@ ClassRow::ClassRow(int index, QWidget *parent)
     m_name->setMinimumWidth(20);
     m_name->setTextFormat(Qt::PlainText);
     m_range->setTextFormat(Qt::PlainText);
-    m_range->setMinimumWidth(20);
+    m_range->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // cut to what there is
     m_weight->setFixedWidth(134);
     auto *grid = new QGridLayout(this);
     grid->setContentsMargins(2, 2, 2, 2);
@@ -73,8 +73,8 @@ ClassRow::ClassRow(int index, QWidget *parent)
     grid->setVerticalSpacing(0);
     grid->addWidget(m_dot, 0, 0, 2, 1);
     grid->addWidget(m_name, 0, 1);
-    grid->addWidget(m_range, 1, 1);
-    grid->addWidget(m_weight, 0, 2, 2, 1);
+    grid->addWidget(m_weight, 0, 2);
+    grid->addWidget(m_range, 1, 1, 1, 2);
     grid->setColumnStretch(1, 1);
 
     connect(m_dot, &QToolButton::clicked, this, [this] { emit toggled(m_index); });
@@ -90,12 +90,22 @@ void ClassRow::show(const classify::TissueClass &tissue, const segment::Segment 
     m_dot->setAccessibleName(tr("Show %1").arg(name));
     m_weight->setNames(tr("Weight of %1").arg(name), tr("Weight; double-click sets it to 1"));
     m_name->setText(name);
-    const QString range = rangeText(tissue, segment);
-    m_range->setText(m_range->fontMetrics().elidedText(range, Qt::ElideRight, 118));
-    m_range->setToolTip(range);
+    m_range->setToolTip(rangeText(tissue, segment));
+    cutRange();
     m_weight->setValue(tissue.weight);
     setProperty("selected", isSelected);
     style()->polish(this);
+}
+
+void ClassRow::cutRange() {
+    m_range->setText(
+        m_range->fontMetrics().elidedText(m_range->toolTip(), Qt::ElideRight, m_range->width()));
+}
+
+void ClassRow::resizeEvent(QResizeEvent *event) {
+    QWidget::resizeEvent(event);
+    layout()->activate(); // the label has its width
+    cutRange();
 }
 
 void ClassRow::mousePressEvent(QMouseEvent *event) {

@@ -32,11 +32,14 @@ signals:
     void menuRequested(int index, const QPoint &globalAt);
 
 protected:
+    void resizeEvent(QResizeEvent *event) override;
     void mousePressEvent(QMouseEvent *event) override;
     void mouseDoubleClickEvent(QMouseEvent *event) override;
     void contextMenuEvent(QContextMenuEvent *event) override;
 
 private:
+    void cutRange();
+
     int m_index;
     QToolButton *m_dot;
     QLabel *m_name, *m_range;
