@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is drawn over the planes: angles of spines, polylines, arrows and texts, what hides them,
+// Annotations of the planes (Cobb angles, polylines, arrows, texts), the commands that hide them,
 // and the menus of the panes.
 #include "tests/ui/workstation.h"
 
@@ -166,7 +166,7 @@ private slots:
         key(Qt::Key_H);
         const QImage bare = grab("axialView");
         QVERIFY(changed(withoutCrosshair, bare) > 0.001);
-        // Nothing but the picture: the corners are black.
+        // Without annotations, the corners are black.
         QVERIFY(meanGrey(bare.copy(10, 10, 120, 40)) < 1.0);
         // A hidden measurement is not dragged by accident.
         const auto before = measured()[0].measurement;

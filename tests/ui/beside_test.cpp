@@ -2,12 +2,14 @@
 // Two studies side by side: they move together and can be matched by hand.
 #include "tests/ui/studies_window.h"
 
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QToolButton>
 
 #include "ui/beside/study_beside.h"
+#include "ui/window/display_window_dialog.h"
 
 namespace pellucid {
 
@@ -160,6 +162,14 @@ private:
         QTest::keyClick(plane, Qt::Key_2);
         QVERIFY(!(prior().displayWindow() == window));
         QVERIFY(now().displayWindow() == window);
+        QTest::keyClick(plane, Qt::Key_W, Qt::ShiftModifier);
+        auto *dialog = find<ui::DisplayWindowDialog>("displayWindowDialog");
+        QVERIFY(&dialog->document() == &prior());
+        dialog->findChild<QDoubleSpinBox *>("windowWidthBox")->setValue(777.0);
+        QCOMPARE(prior().displayWindow().width, 777.0);
+        QVERIFY(now().displayWindow() == window);
+        dialog->close();
+        plane->setFocus();
         QTest::keyClick(plane, Qt::Key_M);
         dragMouse(plane, Qt::LeftButton, plane->rect().center(), {40, 0});
         QCOMPARE(prior().measured().size(), std::size_t(1));
@@ -192,6 +202,7 @@ private:
     void closeThePrior() {
         QTest::mouseClick(find<QToolButton>("closeBesideButton"), Qt::LeftButton);
         QTRY_VERIFY(mainWindow().findChild<ui::StudyBeside *>("studyBeside") == nullptr);
+        QVERIFY(mainWindow().findChild<ui::DisplayWindowDialog *>() == nullptr);
         QVERIFY(
             find<QLabel>("studyHeading")->text().contains(QString::fromUtf8("·"))); // the banner
         dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {60, 20});

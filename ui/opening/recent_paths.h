@@ -12,15 +12,15 @@ namespace pellucid::ui {
 class Document;
 class StudyLibrary;
 
-/// What was opened last, newest first, from the user's settings: paths, and studies of the library
-/// by number and digest, without a name.
+/// The entries for what was opened recently, newest first, from the user's settings: paths, and
+/// studies of the library by number and digest, without a name.
 QStringList recentPaths();
-/// A study of the library as such an entry; the study that an entry means, if it is one and there.
+/// Makes such an entry for a study of the library; finds the study of an entry, if it still exists.
 QString recentEntry(const StudyFacts &study);
 std::optional<StudyFacts> recentStudy(const QString &entry, StudyLibrary &library);
 /// A path that may name a patient, as an entry with a label: "2026-01-01 CT". The path itself is
 /// kept in the user's data folder, as the paths of the library are, and not in the settings.
-/// Nothing if it cannot be kept there.
+/// Returns nothing if the file cannot be written.
 std::optional<QString> privateEntry(const QString &path, const QString &label);
 /// The label of such an entry; empty for others.
 QString privateLabel(const QString &entry);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/mpr_view.h"
-#include "ui/language/plain_tooltip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +18,7 @@
 
 #include "core/mpr/reslice.h"
 #include "ui/document/document.h"
+#include "ui/language/plain_tooltip.h"
 #include "ui/theme/theme.h"
 #include "ui/views/crosshair.h"
 #include "ui/views/overlay.h"
@@ -282,7 +282,7 @@ void MprView::mouseReleaseEvent(QMouseEvent *event) {
     else
         m_tools.cancel();
     update();
-    // A drag with the right button is no click.
+    // A drag with the right button opens no menu.
     if (event->button() == Qt::RightButton && m_menuPress &&
         QLineF(*m_menuPress, event->position()).length() < QApplication::startDragDistance())
         emit menuRequested(this, event->globalPosition().toPoint(),
@@ -354,7 +354,7 @@ void MprView::resetView() {
     moveView({});
 }
 
-// The pixels of both panes are of one size, and the crosshair is at the same place in both.
+// Both panes show a mm at the same size, and the crosshair at the same place.
 void MprView::adoptScale(const MprView &other) {
     if (!showsVolume() || !other.showsVolume())
         return;
@@ -363,13 +363,13 @@ void MprView::adoptScale(const MprView &other) {
         const glm::dvec3 mm = document.crosshair().mm - plane.center.mm;
         return glm::dvec2(glm::dot(mm, plane.axes.right), glm::dot(mm, plane.axes.up));
     };
-    // A pixel of the screen is as many mm, also on a screen of another density.
+    // The two panes may be on screens of different density.
     const double wantedMm = theirs.pixelMm * other.devicePixelRatioF() / devicePixelRatioF();
     moveView({m_view.zoom * own.pixelMm / wantedMm,
               m_view.panMm + offset(own, m_document) - offset(theirs, other.m_document)});
 }
 
-// The marks have no room for words.
+// The warning mark has no room for text; its tooltip has it.
 bool MprView::event(QEvent *event) {
     if (event->type() == QEvent::ToolTip && m_document.volume()) {
         const auto *const help = static_cast<QHelpEvent *>(event);

@@ -51,7 +51,8 @@ public:
     };
     const View &view() const { return m_view; }
     void moveView(const View &view);
-    /// Shows mm as large as another pane of the same plane does, with the crosshair at its place.
+    /// Adopts the scale of a different pane of the same plane, with the crosshair at its place
+    /// there.
     void adoptScale(const MprView &other);
     void setOverlays(const Overlays &overlays);
 

@@ -31,7 +31,7 @@ OverlayColors filmColors(const QString &planeRole);
 /// Whether texts may contain names: file names and names of looks can identify a patient.
 enum class Names { shown, hidden };
 
-/// What is drawn over the pictures of a pane.
+/// Which annotations a pane shows over its picture.
 struct Overlays {
     bool texts = true; ///< and letters, scale, measurements, warnings
     bool crosshair = true;

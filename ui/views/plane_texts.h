@@ -21,7 +21,7 @@ QString planeTitle(mpr::Orientation orientation);
 QString valueText(const volume::Volume &volume, volume::PatientPoint at,
                   mpr::Interpolation interpolation);
 
-/// What texts over a plane are for.
+/// The place where the texts of a plane appear.
 enum class TextsFor {
     pane,   ///< warnings are a mark
     picture ///< an exported one: with the words of its warnings, as far as names allow

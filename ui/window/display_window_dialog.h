@@ -23,6 +23,8 @@ public:
     DisplayWindowDialog(Document &document, QWidget *parent);
     ~DisplayWindowDialog() override;
 
+    const Document &document() const { return m_document; }
+
 signals:
     /// The stored list has changed.
     void presetsChanged();

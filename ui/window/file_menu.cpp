@@ -199,7 +199,7 @@ void FileMenu::printPicture() {
     const int open = document.currentSource();
     if (open < 0)
         return;
-    // Of the study that the picture is of: another may be open when it is done.
+    // Take the heading now: a different study may be open when the picture is ready.
     const StudySource &source = document.sources()[std::size_t(open)];
     const QString heading = patientText(source.study) + ", " + studyText(source.study) + ", " +
                             seriesText(source.volume);

@@ -90,6 +90,7 @@ void WindowChooser::addDialog() {
             volume::ValueWindow window = shown.displayWindow();
             window.isInverted = !window.isInverted;
             shown.undoStack()->push(new EditDisplayWindow(shown, window));
+            showCurrent(); // the mark in the menu is that of the open study
         });
     inverted->setCheckable(true);
     inverted->setChecked(m_document.displayWindow().isInverted);
@@ -153,8 +154,15 @@ void WindowChooser::showCurrent() {
 void WindowChooser::openDialog() {
     QWidget *const window = m_box.window();
     auto *dialog = window->findChild<DisplayWindowDialog *>();
+    Document &shown = target();
+    if (dialog != nullptr && &dialog->document() != &shown) {
+        delete dialog;
+        dialog = nullptr;
+    }
     if (dialog == nullptr) {
-        dialog = new DisplayWindowDialog(m_document, window);
+        dialog = new DisplayWindowDialog(shown, window);
+        // A study beside may be closed before the dialog.
+        connect(&shown, &QObject::destroyed, dialog, [dialog] { delete dialog; });
         connect(dialog, &DisplayWindowDialog::presetsChanged, this, &WindowChooser::showWindows);
     }
     dialog->show();

@@ -272,7 +272,7 @@ void MeasureTool::paint(QPainter &painter, const ToolSurface &surface, Marks mar
     std::vector<DrawnMeasurement> drawn;
     const std::vector<Measured> &all = m_document.measured();
     for (std::size_t n = 0; n < all.size(); ++n)
-        // What the user has typed may name the patient.
+        // The user may have typed the name of the patient.
         if (isShown(all[n].measurement, surface.mapping.plane) &&
             !(marks == Marks::nameless && measure::isAnnotation(all[n].measurement.kind)))
             drawn.push_back(

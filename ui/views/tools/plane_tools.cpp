@@ -136,7 +136,7 @@ void PlaneTools::moveCrosshair(const QPointF &at) {
 void PlaneTools::paint(QPainter &painter, const ToolSurface &surface, const Overlays &shown) const {
     for (const auto &[tool, paneTool] : m_tools) {
         const bool isChosen = paneTool.get() == m_chosen;
-        // What the user works with is visible.
+        // A tool in use shows its own marks.
         const bool isHidden = (paneTool.get() == m_measure && !shown.texts) ||
                               (paneTool.get() == m_crosshair && !shown.crosshair);
         if (isChosen || !isHidden)
