@@ -19,6 +19,10 @@ constexpr int exitCode(task::ErrorCode code) {
         return 4;
     case task::ErrorCode::noSuchDevice:
         return 5;
+    case task::ErrorCode::unreachable:
+        return 6;
+    case task::ErrorCode::incomplete:
+        return 7;
     }
     return 1;
 }

@@ -143,7 +143,8 @@ Trial trialOf(const Candidate &candidate, PictureKind pictures) {
     if (pictures == PictureKind::amplified) {
         scene::ImageDefinition &image = trial.scene.image;
         image.detail = genes.between(0.2, scene::maxDetail);
-        image.detailMm = lattice.shortestStepMm() * std::pow(10.0, genes.between(-0.5, 0.9));
+        image.detailMm = std::min(lattice.radiusMm(), lattice.shortestStepMm() *
+                                                          std::pow(10.0, genes.between(-0.5, 0.9)));
         more += fmt::format(", detail {:.2g} at {:.2g} mm", image.detail, image.detailMm);
     }
     trial.fieldName = fmt::format("{}, {}x{}x{}", fieldKindName(kind), size.i, size.j, size.k);

@@ -22,5 +22,12 @@ void addVolumeCommand(CLI::App &app, const Context &context);
 void addSegmentCommand(CLI::App &app, const Context &context);
 void addPresetCommand(CLI::App &app, const Context &context);
 void addPhantomCommand(CLI::App &app, const Context &context);
+/// Both 'server' and 'echo'.
+void addServerCommand(CLI::App &app, const Context &context);
+void addFindCommand(CLI::App &app, const Context &context);
+/// Both 'get' and 'transfers'.
+void addGetCommand(CLI::App &app, const Context &context);
+void addSendCommand(CLI::App &app, const Context &context);
+void addListenCommand(CLI::App &app, const Context &context);
 
 } // namespace pellucid::cli

@@ -69,6 +69,11 @@ int run(int argc, char **argv) {
     cli::addSegmentCommand(app, context);
     cli::addPresetCommand(app, context);
     cli::addPhantomCommand(app, context);
+    cli::addServerCommand(app, context);
+    cli::addFindCommand(app, context);
+    cli::addGetCommand(app, context);
+    cli::addSendCommand(app, context);
+    cli::addListenCommand(app, context);
     // CLI11 itself would only report that a subcommand is missing.
     const auto commands = app.get_subcommands([](const CLI::App *) { return true; });
     const auto known = [&](const std::string &word) {
@@ -77,9 +82,11 @@ int run(int argc, char **argv) {
                            [&](const CLI::App *c) { return c->get_name() == word; });
     };
     if (argc > 1 && !known(argv[1]))
-        return report(std::string("unknown command '") + argv[1] +
-                          "': use info, render, volume, segment, preset or phantom",
-                      exitCode(task::ErrorCode::usage));
+        return report(
+            std::string("unknown command '") + argv[1] +
+                "': use info, render, volume, segment, preset, phantom, server, echo, find, "
+                "get, transfers, send or listen",
+            exitCode(task::ErrorCode::usage));
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success &success) {

@@ -161,10 +161,10 @@ void addLookOptions(CLI::App &command, SceneOptions &options) {
 
 void addDisplayOptions(CLI::App &command, SceneOptions &options) {
     command
-        .add_option(
-            "--detail", options.detail,
-            "A or A,MM: amplify structures finer than MM (default 2) by up to 1 + A, A from "
-            "0 to 4; a linear filter, of values too")
+        .add_option("--detail", options.detail,
+                    "A or A,MM: amplify structures finer than MM (default 2; less for a volume "
+                    "smaller than 16 mm) by up to 1 + A, A from "
+                    "0 to 4; a linear filter, of values too")
         ->check(notEmpty());
     command
         .add_option("--contrast", options.contrast,
@@ -245,6 +245,7 @@ scene::Scene startingScene(const SceneOptions &o, const CLI::App &command,
         scene.camera = scene::defaultCamera(lattice);
     scene.camera.orientation = scene::viewOrientation(scene::StandardView::front);
     scene.camera.pixelMm = lattice.shortestStepMm();
+    scene.image.detailMm = scene::defaultDetailMm(lattice.radiusMm());
     return scene;
 }
 

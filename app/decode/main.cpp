@@ -6,7 +6,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
-#include "core/decoder/channel.h"
+#include "core/helper/process.h"
 #include "core/parse/serve.h"
 
 int main() {
@@ -15,16 +15,16 @@ int main() {
     // every 4 KB, which took five times as long as decoding a plain slice.
     ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
     ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
-    if (::fcntl(decoder::socketDescriptor, F_GETFD) < 0 ||
-        ::fcntl(decoder::arenaDescriptor, F_GETFD) < 0) {
+    if (::fcntl(helper::socketDescriptor, F_GETFD) < 0 ||
+        ::fcntl(helper::fileDescriptor, F_GETFD) < 0) {
         std::fputs("pellucid-decode reads files for Pellucid and is started by it.\n", stderr);
         return 2;
     }
     // Close every other file that the parent left open.
-    ::close_range(decoder::arenaDescriptor + 1, ~0U, 0);
+    ::close_range(helper::fileDescriptor + 1, ~0U, 0);
     try {
         parse::prepareToServe();
-        return parse::serve(decoder::socketDescriptor, decoder::arenaDescriptor, parse::confine());
+        return parse::serve(helper::socketDescriptor, helper::fileDescriptor, parse::confine());
     } catch (const std::exception &error) {
         std::fprintf(stderr, "pellucid-decode: %s\n", error.what());
         return 1;

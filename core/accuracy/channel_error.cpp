@@ -24,7 +24,7 @@ namespace {
 // 1304, 1401 to 1403, 1501, 1701), which can therefore no longer test them; those of coarse pixels,
 // points and tails also to counterexamples and to seeds 9001, 9101, 9301 and 777001.
 constexpr double coherentMargin = 2.7, ///< aliases, block by block
-    sampleMargin = 1.3,                ///< narrower kernels, of which a sample is known
+    sampleMargin = 1.5,                ///< narrower kernels, of which a sample is known
     detailMargin = 2.4,                ///< aliases of detail finer than the blocks
     coarsePixelMargin = 2.5,           ///< aliases in pixels larger than the blocks
     restMargin = 1.1,                  ///< rounding of cells other than the central ones

@@ -7,13 +7,11 @@
 
 #include "core/decoder/message.h"
 #include "core/files/descriptor.h"
+#include "core/helper/packet.h"
 
 namespace pellucid::decoder {
 
 using files::Descriptor;
-
-/// The descriptors that a decoder starts with.
-inline constexpr int socketDescriptor = 3, arenaDescriptor = 4;
 
 /// Sends a message, and a descriptor unless it is -1; never blocks. False if the other end is
 /// closed or does not read.
@@ -24,7 +22,7 @@ struct Received {
     Message message;
     Descriptor descriptor;
 };
-enum class Takes { descriptor, noDescriptors };
+using helper::Takes;
 std::optional<Received> receive(int socket, Takes takes);
 
 /// Part of a file or of an arena in memory. *Throws* Error{outOfMemory}.

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
-#include <sys/types.h>
 
 #include "core/decoder/channel.h"
+#include "core/helper/process.h"
 #include "core/task/progress.h"
 
 namespace pellucid::decoder {
@@ -52,8 +52,8 @@ private:
     bool grow(std::uint64_t bytes);
     Answer take(const Message &message);
 
-    pid_t m_pid = -1;
-    Descriptor m_socket, m_arena;
+    helper::Process m_process;
+    Descriptor m_arena;
     Mapping m_mapped;
     std::uint64_t m_arenaBytes = 0, m_grantedBytes = 0;
     std::string m_body;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <sys/stat.h>
 #include <thread>
@@ -13,7 +12,7 @@
 #include <glm/gtx/component_wise.hpp>
 
 #include "core/decoder/child.h"
-#include "core/files/user_folders.h"
+#include "core/helper/process.h"
 #include "core/task/naming.h"
 
 namespace pellucid::decoder {
@@ -25,8 +24,6 @@ namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 using task::naming;
-
-constexpr const char *programName = "pellucid-decode";
 
 struct OpenFile {
     Descriptor descriptor;
@@ -75,17 +72,6 @@ std::uint64_t sampleCount(const InstanceHeader &h) {
     return samples;
 }
 
-fs::path findProgram() {
-    if (const char *const named = std::getenv("PELLUCID_DECODER"))
-        return named;
-    const fs::path own = files::programFolder();
-    std::error_code ignored;
-    for (const char *const place : {".", "../libexec/pellucid", "../lib/pellucid", "../bin"})
-        if (const fs::path program = own / place / programName; fs::exists(program, ignored))
-            return program;
-    return own / programName; // reported as missing when it is needed
-}
-
 } // namespace
 
 bool looksLikeDicom(std::span<const std::byte> start) {
@@ -115,7 +101,7 @@ Decoder::Decoder(fs::path program) : m_program(std::move(program)) {}
 Decoder::~Decoder() = default;
 
 Decoder &Decoder::shared() {
-    static Decoder decoder(findProgram());
+    static Decoder decoder(helper::findProgram("pellucid-decode", "PELLUCID_DECODER"));
     return decoder;
 }
 

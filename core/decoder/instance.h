@@ -40,7 +40,12 @@ struct PetHeader {
     std::string decayCorrection; ///< NONE, START or ADMIN
     std::string seriesDate, seriesTime, acquisitionDate, acquisitionTime;
     std::string injectionTime, injectionDateTime; ///< RadiopharmaceuticalStart(Date)Time
+    std::string timezone;                         ///< TimezoneOffsetFromUTC of the file's times
+    std::string radionuclide;                     ///< the meaning of its code
     double weightKg = 0.0, injectedBq = 0.0, halfLifeS = 0.0;
+    /// FrameReferenceTime, from the start that a decay correction refers to; ActualFrameDuration.
+    double frameReferenceS = 0.0, frameDurationS = 0.0;
+    int injections = 0; ///< items of the sequence that describes them
     double uptakePerCount = 0.0;         ///< Philips' private factor (7053,1000)
     bool isAttenuationCorrected = false; ///< Corrected Image has ATTN
     bool operator==(const PetHeader &) const = default;

@@ -3,119 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
-#include <cstring>
 #include <set>
-#include <type_traits>
 
 #include <glm/geometric.hpp>
 #include <glm/gtx/component_wise.hpp>
 
+#include "core/helper/packing.h"
 #include "core/task/error.h"
 
-namespace pellucid::decoder {
+// In the archives' namespace, where the templates of packing.h find them.
+namespace pellucid::helper {
 
-namespace {
-
-// The parser truncates longer ones.
-constexpr std::uint64_t longestString = 1 << 16;
-constexpr std::uint64_t maxElements = 1'000'000;
-constexpr std::size_t longestReason = 2000; // a text of a header has up to 1024 bytes
-
-[[noreturn]] void fail() {
-    throw task::Error(task::ErrorCode::unusable, task::because::decodedToNonsense);
-}
-
-// Writer and reader visit the same fields in the same order.
-class Writer {
-public:
-    static constexpr bool isReading = false;
-
-    template <class T>
-    requires std::is_arithmetic_v<T>
-    void number(T &value) {
-        const std::size_t at = bytes.size();
-        bytes.resize(at + sizeof(T));
-        std::memcpy(bytes.data() + at, &value, sizeof(T));
-    }
-    void text(std::string &value) {
-        std::uint64_t size = std::min<std::uint64_t>(value.size(), longestString);
-        number(size);
-        bytes.append(value, 0, size);
-    }
-    std::uint64_t count(std::uint64_t size) {
-        number(size);
-        return size;
-    }
-
-    std::string bytes;
-};
-
-class Reader {
-public:
-    static constexpr bool isReading = true;
-
-    explicit Reader(std::span<const std::byte> bytes) : m_rest(bytes) {}
-
-    template <class T>
-    requires std::is_arithmetic_v<T>
-    void number(T &value) {
-        if constexpr (std::same_as<T, bool>) { // any other byte is not a valid bool
-            unsigned char byte = 0;
-            number(byte);
-            value = byte != 0;
-        } else {
-            if (m_rest.size() < sizeof(T))
-                fail();
-            std::memcpy(&value, m_rest.data(), sizeof(T));
-            m_rest = m_rest.subspan(sizeof(T));
-            if constexpr (std::is_floating_point_v<T>)
-                if (!std::isfinite(value))
-                    fail();
-        }
-    }
-    void text(std::string &value) {
-        const std::uint64_t size = count(0);
-        if (size > std::min<std::uint64_t>(longestString, m_rest.size()))
-            fail();
-        value.assign(reinterpret_cast<const char *>(m_rest.data()), size);
-        m_rest = m_rest.subspan(size);
-    }
-    // Nothing is reserved: elements are created only as their bytes are present.
-    std::uint64_t count(std::uint64_t) {
-        std::uint64_t size = 0;
-        number(size);
-        if (size > std::min<std::uint64_t>(maxElements, m_rest.size()))
-            fail();
-        return size;
-    }
-    void end() const {
-        if (!m_rest.empty())
-            fail();
-    }
-
-private:
-    std::span<const std::byte> m_rest;
-};
-
-template <class A, class T>
-requires std::is_arithmetic_v<T>
-void pass(A &archive, T &value) {
-    archive.number(value);
-}
-
-template <class A> void pass(A &archive, std::string &value) {
-    archive.text(value);
-}
+using namespace decoder;
 
 template <class A, glm::length_t N> void pass(A &archive, glm::vec<N, double> &value) {
     for (glm::length_t n = 0; n < N; ++n)
         archive.number(value[n]);
 }
-
-template <class A, class T> void pass(A &archive, std::optional<T> &value);
-template <class A, class T> void pass(A &archive, std::vector<T> &values);
-template <class A, class K, class V> void pass(A &archive, std::map<K, V> &values);
 
 template <class A> void pass(A &archive, volume::ValueWindow &window) {
     pass(archive, window.center);
@@ -126,11 +30,13 @@ template <class A> void pass(A &archive, volume::ValueWindow &window) {
 template <class A> void pass(A &archive, PetHeader &pet) {
     for (std::string *const text :
          {&pet.units, &pet.uptakeType, &pet.decayCorrection, &pet.seriesDate, &pet.seriesTime,
-          &pet.acquisitionDate, &pet.acquisitionTime, &pet.injectionTime, &pet.injectionDateTime})
+          &pet.acquisitionDate, &pet.acquisitionTime, &pet.injectionTime, &pet.injectionDateTime, &pet.timezone, &pet.radionuclide})
         pass(archive, *text);
     for (double *const number :
-         {&pet.weightKg, &pet.injectedBq, &pet.halfLifeS, &pet.uptakePerCount})
+         {&pet.weightKg, &pet.injectedBq, &pet.halfLifeS, &pet.uptakePerCount, &pet.frameReferenceS,
+          &pet.frameDurationS})
         pass(archive, *number);
+    pass(archive, pet.injections);
     pass(archive, pet.isAttenuationCorrected);
 }
 
@@ -255,59 +161,21 @@ template <class A> void pass(A &archive, StructureSetHeader &header) {
     pass(archive, header.structures);
 }
 
-template <class A, class T> void pass(A &archive, std::optional<T> &value) {
-    bool isThere = value.has_value();
-    pass(archive, isThere);
-    if constexpr (A::isReading)
-        value = isThere ? std::optional(T()) : std::nullopt;
-    if (isThere)
-        pass(archive, *value);
-}
+} // namespace pellucid::helper
 
-template <class A, class T> void pass(A &archive, std::vector<T> &values) {
-    const std::uint64_t size = archive.count(values.size());
-    for (std::uint64_t n = 0; n < size; ++n) {
-        if constexpr (A::isReading)
-            values.emplace_back();
-        pass(archive, values[n]);
-    }
-}
+namespace pellucid::decoder {
 
-template <class A, class K, class V> void pass(A &archive, std::map<K, V> &values) {
-    const std::uint64_t size = archive.count(values.size());
-    if constexpr (A::isReading) {
-        for (std::uint64_t n = 0; n < size; ++n) {
-            K key;
-            pass(archive, key);
-            pass(archive, values[key]);
-        }
-    } else {
-        for (auto &[key, value] : values) {
-            K copy = key;
-            pass(archive, copy);
-            pass(archive, value);
-        }
-    }
-}
+namespace {
 
-template <class T> std::string packed(const T &value) {
-    Writer writer;
-    T copy = value; // a reader assigns to the fields
-    pass(writer, copy);
-    return std::move(writer.bytes);
+using helper::packed;
+
+[[noreturn]] void fail() {
+    throw task::Error(task::ErrorCode::unusable, task::because::decodedToNonsense);
 }
 
 template <class T> T unpacked(std::span<const std::byte> body) {
-    Reader reader(body);
-    T value;
-    pass(reader, value);
-    reader.end();
-    return value;
+    return helper::unpacked<T>(body, task::because::decodedToNonsense);
 }
-
-} // namespace
-
-namespace {
 
 void requireValid(const InstanceHeader &header) {
     // Ranges that all other code relies on.
@@ -422,8 +290,7 @@ AttributeList unpackAttributes(std::span<const std::byte> body) {
             fail();
         above = attribute.depth;
         for (std::string *const text : {&attribute.vr, &attribute.name, &attribute.value})
-            std::replace_if(
-                text->begin(), text->end(), [](char c) { return (unsigned char)(c) < 0x20; }, ' ');
+            helper::makeOneLine(*text);
     }
     return list;
 }
@@ -472,16 +339,7 @@ VolumeLayout unpackLayout(std::span<const std::byte> body) {
 }
 
 task::Reason unpackReason(std::span<const std::byte> body) {
-    if (body.size() > longestReason)
-        fail();
-    std::string text(reinterpret_cast<const char *>(body.data()), body.size());
-    // The encoding has no such bytes itself, and counts those of the texts.
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return (unsigned char)(c) < 0x20; }, ' ');
-    auto reason = task::Reason::decoded(text);
-    if (!reason)
-        fail();
-    return *std::move(reason);
+    return helper::unpackedReason(body, task::because::decodedToNonsense);
 }
 
 } // namespace pellucid::decoder

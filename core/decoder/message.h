@@ -33,7 +33,7 @@ struct Message {
         structureSet, ///< an RT structure set
         attributes,   ///< all attributes of a DICOM file
         // sent by the decoder
-        ready = 100, ///< it is confined, see `Confinement`, in `code`
+        ready = 100, ///< it is confined, see helper::Confinement, in `code`
         need,        ///< `size`: of the arena
         part,        ///< `size` bytes of body, then `dataBytes`; of an archive with bits of
                      ///< `ArchiveFlag` in `code`
@@ -49,9 +49,6 @@ struct Message {
 
 /// `Message::code` of a `done` without an answer.
 enum Refusal : std::int32_t { isUnusable = 1, needsMemory = 2 };
-
-/// Bits of `Message::code` of `ready`.
-enum Confinement : std::int32_t { limitsHold = 1, callsAreFiltered = 2 };
 
 /// Bits of `Message::code` of `part`. The body of an announcement is a list of files, that of other
 /// parts the file that the data belong to.

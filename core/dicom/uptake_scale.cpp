@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <tuple>
 
 namespace pellucid::dicom {
 
@@ -20,8 +21,12 @@ constexpr double maxHalfLives = 10.0;
 // A typing error, such as grams in place of kilograms, would give plausible pictures with wrong
 // values.
 constexpr double minWeightKg = 0.5, maxWeightKg = 500.0;
-// Some writers state MBq.
-constexpr double minInjectedBq = 1e5, maxInjectedBq = 1e11;
+// Some writers state MBq or kBq. Animals get less than humans.
+constexpr double minInjectedBq = 1e5, minHumanBq = 1e6, humanKg = 20.0, maxInjectedBq = 1e11;
+// The date of an injection that is further away has been changed by an anonymiser.
+constexpr double maxStatedDays = 60.0;
+// With a longer half-life, an injection without a date may have been days before.
+constexpr double longestWithoutDateS = 4.0 * 3600.0;
 
 UptakeScale refused(ValueUnit unit, double factor, const task::Reason &reason) {
     return {unit, factor, reason};
@@ -40,37 +45,95 @@ std::optional<int> digits(const std::string &text, std::size_t at, std::size_t c
     return number;
 }
 
-// When the radiopharmaceutical may have been injected, the best statement first. A time without a
-// date belongs to the day of the series or, if it is later than `referenceS`, to the day before.
-// Anonymisers shift some dates and forget others, but keep the times of day.
-std::vector<double> injectionsOf(const PetHeader &pet, double referenceS) {
-    std::vector<double> found;
-    std::string time = pet.injectionTime;
-    // With an offset from UTC it is in another zone than the times of the series may be.
-    const bool hasZone = pet.injectionDateTime.find_first_of("+-") != std::string::npos;
-    if (pet.injectionDateTime.size() > 8 && !hasZone) {
-        const std::string ofDay = pet.injectionDateTime.substr(8);
-        if (const auto at = secondsAt(pet.injectionDateTime.substr(0, 8), ofDay))
-            found.push_back(*at);
-        if (time.empty())
-            time = ofDay;
+// Seconds east of UTC of "+HHMM" or "-HHMM" at the end of a text; nothing if there is none.
+std::optional<double> zoneOf(const std::string &text) {
+    const auto sign = text.find_first_of("+-");
+    if (sign == std::string::npos)
+        return std::nullopt;
+    const auto hours = digits(text, sign + 1, 2), minutes = digits(text, sign + 3, 2);
+    if (!hours || !minutes)
+        return std::nullopt;
+    return (text[sign] == '-' ? -1.0 : 1.0) * (3600.0 * *hours + 60.0 * *minutes);
+}
+
+// The injection as its date and time state it, in the zone of the other times.
+std::optional<double> statedInjection(const PetHeader &pet) {
+    if (pet.injectionDateTime.size() <= 8)
+        return std::nullopt;
+    const std::string local =
+        pet.injectionDateTime.substr(0, pet.injectionDateTime.find_first_of("+-"));
+    auto at = secondsAt(local.substr(0, 8), local.substr(8));
+    const auto zone = zoneOf(pet.injectionDateTime), zoneOfFile = zoneOf(pet.timezone);
+    if (at && zone && zoneOfFile)
+        *at += *zoneOfFile - *zone;
+    return at;
+}
+
+// The difference of two times of day, from -12 to 12 hours.
+double betweenTimesOfDay(double a, double b) {
+    return std::remainder(a - b, secondsPerDay);
+}
+
+// Half-lives from the injection to `referenceS`, a few less than 0 if the scan began before the
+// injection; nothing if the times do not tell.
+std::optional<double> halfLivesSince(const PetHeader &pet, double referenceS) {
+    constexpr double mostBeforeS = 1800.0; // of a dynamic scan that begins before the injection
+    constexpr double sameS = 60.0;
+    const auto accepted = [&](double at) -> std::optional<double> {
+        const double halfLives = (referenceS - at) / pet.halfLifeS;
+        if (referenceS - at >= -mostBeforeS && halfLives <= maxHalfLives)
+            return halfLives;
+        return std::nullopt;
+    };
+    const auto stated = statedInjection(pet);
+    auto ofDay = secondsAt(pet.seriesDate, pet.injectionTime);
+    if (stated && std::abs(referenceS - *stated) < maxStatedDays * secondsPerDay) {
+        if (ofDay && std::abs(betweenTimesOfDay(*stated, *ofDay)) > sameS)
+            return std::nullopt; // two statements, one of which is wrong
+        return accepted(*stated);
     }
-    if (const auto at = secondsAt(pet.seriesDate, time))
-        found.push_back(*at > referenceS ? *at - secondsPerDay : *at);
-    return found;
+    // Anonymisers shift some dates and forget others, but keep the times of day. Such a time
+    // belongs to the day of the series or to the night before; which one is clear for short
+    // half-lives only.
+    if (pet.halfLifeS > longestWithoutDateS)
+        return std::nullopt;
+    if (!ofDay && stated)
+        ofDay = referenceS + betweenTimesOfDay(*stated, referenceS);
+    if (!ofDay)
+        return std::nullopt;
+    return accepted(*ofDay > referenceS + mostBeforeS ? *ofDay - secondsPerDay : *ofDay);
+}
+
+// When the scan of an image began, to which the values are decay-corrected: the image refers to a
+// moment of its frame at which the activity is the frame's mean.
+double scanBegin(const PetHeader &pet, double acquisitionS) {
+    double meanS = 0.0;
+    if (pet.frameDurationS > 0.0 && pet.halfLifeS > 0.0) {
+        const double decay = std::log(2.0) * pet.frameDurationS / pet.halfLifeS;
+        meanS = pet.frameDurationS / decay * std::log(decay / -std::expm1(-decay));
+    }
+    return pet.frameReferenceS > meanS ? acquisitionS - pet.frameReferenceS + meanS : acquisitionS;
 }
 
 // The time that the values' decay correction refers to. A series that was reconstructed later
-// carries the time of that reconstruction; its acquisitions then began earlier.
+// carries the time of that reconstruction; its scan then began earlier. Nothing if the times
+// contradict each other, as dates that do not change at midnight do.
 std::optional<double> decayReference(const std::vector<const InstanceHeader *> &files) {
+    constexpr double longestScanS = 12.0 * 3600.0;
     const auto series = secondsAt(files.front()->pet->seriesDate, files.front()->pet->seriesTime);
-    std::optional<double> first;
+    std::optional<double> first, last, begin;
     for (const InstanceHeader *const h : files)
-        if (const auto at = secondsAt(h->pet->acquisitionDate, h->pet->acquisitionTime))
+        if (const auto at = secondsAt(h->pet->acquisitionDate, h->pet->acquisitionTime)) {
             first = first ? std::min(*first, *at) : at;
-    if (series && first)
-        return std::min(*series, *first);
-    return series ? series : first;
+            last = last ? std::max(*last, *at) : at;
+            const double scan = scanBegin(*h->pet, *at);
+            begin = begin ? std::min(*begin, scan) : scan;
+        }
+    if (!first)
+        return series;
+    if (*last - *first > longestScanS)
+        return std::nullopt;
+    return series && *series <= *first ? series : begin;
 }
 
 // The share of the injected activity that is left at the time which the values refer to.
@@ -81,11 +144,40 @@ std::optional<double> activityLeft(const std::vector<const InstanceHeader *> &fi
     const auto reference = decayReference(files);
     if (!reference || !(pet.halfLifeS > 0.0))
         return std::nullopt;
-    for (const double injection : injectionsOf(pet, *reference))
-        if (const double halfLives = (*reference - injection) / pet.halfLifeS;
-            halfLives >= 0.0 && halfLives <= maxHalfLives)
-            return std::exp2(-halfLives);
-    return std::nullopt;
+    const auto halfLives = halfLivesSince(pet, *reference);
+    return halfLives ? std::optional(std::exp2(-*halfLives)) : std::nullopt;
+}
+
+// Half-lives of the nuclides of PET. *Source*: Evaluated Nuclear Structure Data File.
+struct Nuclide {
+    const char *element, *mass;
+    double halfLifeS;
+};
+constexpr Nuclide nuclides[]{
+    {"luorine", "18", 6586.2}, {"arbon", "11", 1221.8},      {"itrogen", "13", 597.9},
+    {"xygen", "15", 122.2},    {"allium", "68", 4062.6},     {"ubidium", "82", 75.5},
+    {"opper", "64", 45724.0},  {"irconium", "89", 282276.0}, {"odine", "124", 360806.0},
+};
+
+// Some writers state minutes.
+bool isHalfLifePlausible(const PetHeader &pet) {
+    constexpr double tolerance = 0.05;
+    for (const Nuclide &nuclide : nuclides)
+        if (pet.radionuclide.find(nuclide.element) != std::string::npos &&
+            pet.radionuclide.find(nuclide.mass) != std::string::npos)
+            return std::abs(pet.halfLifeS / nuclide.halfLifeS - 1.0) < tolerance;
+    return true; // not known here
+}
+
+// Whether everything that the scale depends on, except times of acquisition, is the same.
+bool isSameScale(const PetHeader &a, const PetHeader &b) {
+    const auto of = [](const PetHeader &pet) {
+        return std::tie(pet.units, pet.uptakeType, pet.decayCorrection, pet.injectionTime,
+                        pet.injectionDateTime, pet.radionuclide, pet.weightKg, pet.injectedBq,
+                        pet.halfLifeS, pet.uptakePerCount, pet.injections,
+                        pet.isAttenuationCorrected);
+    };
+    return of(a) == of(b);
 }
 
 } // namespace
@@ -120,34 +212,39 @@ UptakeScale uptakeScale(const std::vector<const InstanceHeader *> &files) {
         return {};
     const PetHeader &pet = *h.pet;
     const bool isSame = std::all_of(files.begin(), files.end(), [&](const InstanceHeader *other) {
-        return other->pet && other->pet->units == pet.units &&
-               other->pet->weightKg == pet.weightKg && other->pet->injectedBq == pet.injectedBq &&
-               other->pet->uptakePerCount == pet.uptakePerCount;
+        return other->pet && isSameScale(*other->pet, pet);
     });
     if (!isSame)
         return refused(pet.units == "BQML" ? ValueUnit::activity : ValueUnit::none, 1.0,
                        because::petFilesDiffer);
-    if (pet.units == "GML") {
-        if (pet.uptakeType.empty() || pet.uptakeType == "BW")
-            return {ValueUnit::uptake, 1.0, std::nullopt};
-        return refused(ValueUnit::none, 1.0, because::uptakeIsOfType(pet.uptakeType));
-    }
-    // Philips writes counts, with the factors in elements of its own.
-    if (pet.units == "CNTS" && pet.uptakePerCount > 0.0)
-        return {ValueUnit::uptake, pet.uptakePerCount, std::nullopt};
-    if (pet.units != "BQML")
-        return refused(ValueUnit::none, 1.0, because::petUnitIs(pet.units));
-    const auto lacking = [](const task::Reason &reason) {
-        return refused(ValueUnit::activity, 1.0, reason);
+    const bool isActivity = pet.units == "BQML";
+    const auto lacking = [&](const task::Reason &reason) {
+        return refused(isActivity ? ValueUnit::activity : ValueUnit::none, 1.0, reason);
     };
-    if (!(pet.weightKg >= minWeightKg && pet.weightKg <= maxWeightKg))
-        return lacking(because::noPlausibleWeight);
-    if (!(pet.injectedBq >= minInjectedBq && pet.injectedBq <= maxInjectedBq))
-        return lacking(because::noInjectedActivity);
+    const bool isUptake = pet.units == "GML";
+    // Philips writes counts, with the factors in elements of its own.
+    const bool isCounts = pet.units == "CNTS" && pet.uptakePerCount > 0.0;
+    if (!isActivity && !isUptake && !isCounts)
+        return lacking(because::petUnitIs(pet.units));
     if (!pet.isAttenuationCorrected)
         return lacking(because::notAttenuationCorrected);
+    if (isUptake)
+        return pet.uptakeType.empty() || pet.uptakeType == "BW"
+                   ? UptakeScale{ValueUnit::uptake, 1.0, std::nullopt}
+                   : lacking(because::uptakeIsOfType(pet.uptakeType));
     if (pet.decayCorrection != "ADMIN" && pet.decayCorrection != "START")
         return lacking(because::notDecayCorrected);
+    if (isCounts)
+        return {ValueUnit::uptake, pet.uptakePerCount, std::nullopt};
+    if (pet.injections > 1)
+        return lacking(because::severalInjections);
+    if (!(pet.weightKg >= minWeightKg && pet.weightKg <= maxWeightKg))
+        return lacking(because::noPlausibleWeight);
+    const double leastBq = pet.weightKg >= humanKg ? minHumanBq : minInjectedBq;
+    if (!(pet.injectedBq >= leastBq && pet.injectedBq <= maxInjectedBq))
+        return lacking(because::noInjectedActivity);
+    if (!isHalfLifePlausible(pet))
+        return lacking(because::halfLifeIsWrong);
     const auto left = activityLeft(files);
     if (!left)
         return lacking(because::noDecayTime);

@@ -138,11 +138,15 @@ std::string AtomicFile::copyTo(std::string name) {
     return name;
 }
 
-void AtomicFile::commit() {
-    if (std::fflush(m_file) != 0 || fsync(fileno(m_file)) != 0)
+int AtomicFile::descriptor() const {
+    return fileno(m_file);
+}
+
+void AtomicFile::commit(Bytes bytes) {
+    if (std::fflush(m_file) != 0 || (bytes == Bytes::flushed && fsync(fileno(m_file)) != 0))
         fail(errno);
-    // All bytes are on the disk. A network share may refuse to rename an open file; a nameless file
-    // is lost when it is closed.
+    // All bytes are on the disk, or will be with the folder. A network share may refuse to rename
+    // an open file; a nameless file is lost when it is closed.
     if (m_temporary.empty())
         linkToPath();
     std::fclose(m_file);

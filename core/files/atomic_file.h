@@ -29,8 +29,14 @@ public:
     /// *Throws* Error{output}, for example if the disk is full.
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+    /// The open file, for another process that writes it.
+    int descriptor() const;
+    /// Chooses a different path before the file appears, on the same file system.
+    void moveTo(const std::filesystem::path &path) { m_path = targetOf(path); }
+    /// `unflushed`: many files are flushed together, by `flush` of their folder.
+    enum class Bytes { flushed, unflushed };
     /// *Throws* Error{output}; an existing file of that name is then unchanged.
-    void commit();
+    void commit(Bytes bytes = Bytes::flushed);
 
 private:
     [[noreturn]] void fail(int error) const;

@@ -108,8 +108,9 @@ double philipsUptakePerCount(DcmDataset &dataset) {
 }
 
 void readPet(DcmDataset &dataset, InstanceHeader &h) {
-    // Captures of PET have no units.
-    if (h.modality != "PT" || !dataset.tagExists(DCM_Units))
+    // Captures of PET have no units; enhanced objects describe the injection in another way.
+    if (h.modality != "PT" || !dataset.tagExists(DCM_Units) ||
+        h.sopClassUid == UID_EnhancedPETImageStorage)
         return;
     DcmItem *const dose = sequenceItem(&dataset, DCM_RadiopharmaceuticalInformationSequence);
     const auto number = [](DcmItem *item, const DcmTagKey &tag) {
@@ -126,6 +127,14 @@ void readPet(DcmDataset &dataset, InstanceHeader &h) {
     pet.weightKg = number(&dataset, DCM_PatientWeight);
     pet.injectionTime = readText(dose, DCM_RadiopharmaceuticalStartTime);
     pet.injectionDateTime = readText(dose, DCM_RadiopharmaceuticalStartDateTime);
+    pet.timezone = readText(&dataset, DCM_TimezoneOffsetFromUTC);
+    pet.radionuclide = readText(sequenceItem(dose, DCM_RadionuclideCodeSequence), DCM_CodeMeaning);
+    constexpr double perSecond = 1000.0;
+    pet.frameReferenceS = number(&dataset, DCM_FrameReferenceTime) / perSecond;
+    pet.frameDurationS = number(&dataset, DCM_ActualFrameDuration) / perSecond;
+    if (DcmSequenceOfItems *all = nullptr;
+        dataset.findAndGetSequence(DCM_RadiopharmaceuticalInformationSequence, all).good())
+        pet.injections = int(all->card());
     pet.injectedBq = number(dose, DCM_RadionuclideTotalDose);
     pet.halfLifeS = number(dose, DCM_RadionuclideHalfLife);
     pet.uptakePerCount = philipsUptakePerCount(dataset);

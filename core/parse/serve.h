@@ -4,7 +4,7 @@
 namespace pellucid::parse {
 
 /// Gives up for good whatever decoding does not need: memory above what is free, files, processes,
-/// the network, debuggers. *Shape*: the bits of decoder::Confinement that are in force.
+/// the network, debuggers. *Shape*: the bits of helper::Confinement that are in force.
 int confine();
 
 /// Loads everything that decoding opens files for: dictionary, codecs, character tables. Call it

@@ -68,13 +68,15 @@ struct Measured {
     // The level at the left and the right of what is seen. If it is not much lower than the body,
     // it is the body, which the volume cuts off.
     double airBeside(double limit, double bright) const {
-        constexpr double quarter = 0.25, mostOfBright = 0.5;
-        int first = picture.width, last = -1;
+        constexpr double quarter = 0.25, mostOfBright = 0.5, mostOfAColumn = 0.6;
+        int first = picture.width, last = -1, top = picture.height, bottom = -1;
         for (int r = 0; r < picture.height; ++r)
             for (int c = 0; c < picture.width; ++c)
                 if (double(at(r, c)) > limit) {
                     first = std::min(first, c);
                     last = std::max(last, c);
+                    top = std::min(top, r);
+                    bottom = r;
                 }
         // The outermost columns also contain the edge of the volume.
         const int inward = std::max(3, (last - first) / 20);
@@ -85,7 +87,8 @@ struct Measured {
             for (const int c : {first + inward, last - inward})
                 if (double(at(r, c)) > limit)
                     beside.push_back(at(r, c));
-        if (beside.empty())
+        // Air fills the volume from top to bottom; the flank of a body without air does not.
+        if (beside.empty() || double(beside.size()) < mostOfAColumn * 2.0 * (bottom - top + 1))
             return 0.0;
         // Where the volume is cut off, its interpolation overshoots.
         constexpr double overshoot = 1.1;

@@ -380,6 +380,10 @@ RenderPlan planWithoutDetail(const scene::Scene &scene, std::span<const FieldSum
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields,
                       const Composition &composition, const Budget &budget) {
     scene::validate(scene);
+    // The filter would need room around the projection many times its size.
+    for (const FieldSummary &field : fields)
+        if (scene.image.detail > 0.0 && scene.image.detailMm > field.lattice.radiusMm())
+            throw task::Error(task::ErrorCode::usage, task::because::detailIsLargerThanTheVolume);
     scene::Scene plain = scene;
     plain.tolerance /= scene::detailGain(scene.image);
     return withDetail(planWithoutDetail(plain, fields, composition, budget), scene.image);

@@ -31,8 +31,10 @@ constexpr double couchRadiusMm = 4.0;
 constexpr double longestThinPartMm = 130.0, roughnessMm = 2.0;
 constexpr double airBelowHu = -400.0;
 // The shell of a head rest is denser than an ear that is pressed against it, and longer than an ear
-// or a row of teeth. Around it, values mix.
-constexpr double shellHu = 250.0, shortestShellMm = 90.0, shellRimMm = 1.5;
+// or a row of teeth. Around it, values mix, over at least a sample.
+constexpr double shellHu = 250.0, shortestShellMm = 90.0, leastRimMm = 1.5;
+// Soft tissue, where it mixes with a shell that it touches.
+constexpr double tissueBesideHu = 150.0;
 
 double airThreshold(const volume::Volume &volume) {
     if (volume.unit() == volume::ValueUnit::hounsfield)
@@ -79,17 +81,11 @@ double diagonalMm(const volume::VoxelBox &box, const volume::Lattice &lattice) {
                                   size.k * lattice.spacingMm(2)));
 }
 
-// The dense shells of head rests and couches, with the rim in which their values mix with those
-// around: dense parts that are long, and mostly too thin for the core. Empty: there are none. For
-// values in HU.
-Mask shellsOf(const volume::Volume &volume, const Mask &core, const task::Progress &progress) {
-    const volume::Lattice &lattice = volume.lattice();
-    Mask dense(core.size());
-    volume.visit([&](auto samples) {
-        for (std::size_t n = 0; n < dense.size(); ++n)
-            dense[n] = double(samples[n]) > shellHu;
-    });
-    const Parts parts = partsOf(lattice, dense, "body", progress.part(0.0, 0.5));
+// The dense shells of head rests and couches: dense parts that are long, and mostly too thin for
+// the core. Empty: there are none.
+Mask shellsAmong(const volume::Lattice &lattice, Mask dense, const Mask &core,
+                 const task::Progress &progress) {
+    const Parts parts = partsOf(lattice, dense, "body", progress);
     const auto boxes = boxesOf(parts, lattice.size());
     std::vector<std::size_t> counts(parts.count + 1), inCore(parts.count + 1);
     for (std::size_t n = 0; n < dense.size(); ++n) {
@@ -107,7 +103,7 @@ Mask shellsOf(const volume::Volume &volume, const Mask &core, const task::Progre
         return {};
     for (std::size_t n = 0; n < dense.size(); ++n)
         dense[n] = isShell[parts.labels[n]];
-    return dilated(lattice, dense, shellRimMm, progress.part(0.5, 1.0));
+    return dense;
 }
 
 // The core with thin, short parts of the tissue that touch it: an ear, but not a couch.
@@ -233,9 +229,10 @@ Mask tissueOf(const volume::Volume &volume) {
     return tissue;
 }
 
-// A mask of means, on the samples.
-Mask onSamples(const Mask &coarse, const volume::GridSize &blocks, const std::array<int, 3> &block,
-               const volume::GridSize &size) {
+// Which mean each sample belongs to: calls `visit(sample, mean)` for all samples in order.
+template <class F>
+void eachSample(const volume::GridSize &blocks, const std::array<int, 3> &block,
+                const volume::GridSize &size, F &&visit) {
     std::array<std::vector<std::size_t>, 3> at;
     for (int d = 0; d < 3; ++d) {
         const double first = 0.5 * (size[d] - 1) - 0.5 * (blocks[d] - 1) * block[std::size_t(d)];
@@ -243,18 +240,42 @@ Mask onSamples(const Mask &coarse, const volume::GridSize &blocks, const std::ar
             at[std::size_t(d)].push_back(std::size_t(std::clamp(
                 int(std::floor((n - first) / block[std::size_t(d)] + 0.5)), 0, blocks[d] - 1)));
     }
-    Mask mask(size.count());
     std::size_t n = 0;
     for (const std::size_t k : at[2])
         for (const std::size_t j : at[1]) {
             const std::size_t row = (k * std::size_t(blocks.j) + j) * std::size_t(blocks.i);
             for (const std::size_t i : at[0])
-                mask[n++] = coarse[row + i];
+                visit(n++, row + i);
         }
+}
+
+// A mask of means, on the samples.
+Mask onSamples(const Mask &coarse, const volume::GridSize &blocks, const std::array<int, 3> &block,
+               const volume::GridSize &size) {
+    Mask mask(size.count());
+    eachSample(blocks, block, size,
+               [&](std::size_t sample, std::size_t mean) { mask[sample] = coarse[mean]; });
     return mask;
 }
 
-// The patient without a margin, and the shells around.
+// The means that have a sample as dense as a shell, which itself may be thinner than a mean. Empty
+// for values that are not in HU.
+Mask denseMeans(const volume::Volume &volume, const volume::GridSize &blocks,
+                const std::array<int, 3> &block) {
+    if (volume.unit() != volume::ValueUnit::hounsfield)
+        return {};
+    Mask dense(blocks.count());
+    volume.visit([&](auto samples) {
+        eachSample(blocks, block, volume.lattice().size(),
+                   [&](std::size_t sample, std::size_t mean) {
+                       if (double(samples[sample]) > shellHu)
+                           dense[mean] = 1;
+                   });
+    });
+    return dense;
+}
+
+// The patient without a margin, and the dense shells around, without their rims.
 struct Patient {
     Mask inside, shells;
 
@@ -267,22 +288,37 @@ struct Patient {
     }
 };
 
-Patient patientOf(const volume::Volume &volume, const task::Progress &progress) {
+// `dense`: see `denseMeans`, of the volume itself.
+Patient patientOf(const volume::Volume &volume, Mask dense, const task::Progress &progress) {
     const volume::Lattice &lattice = volume.lattice();
     Mask tissue = tissueOf(volume);
     // Slices are filled first, because an opening would connect the lungs to the surrounding air.
     const Mask opened = opening(lattice, filledSlices(lattice, tissue, progress.part(0.0, 0.2)),
                                 couchRadiusMm, progress.part(0.2, 0.6));
     Mask core = thickPartsOfPatient(lattice, opened, tissue, progress.part(0.6, 0.7));
-    Mask shells = volume.unit() == volume::ValueUnit::hounsfield
-                      ? shellsOf(volume, core, progress.part(0.7, 0.72))
-                      : Mask();
-    remove(shells, tissue);
-    remove(shells, core);
-    Mask patient = dilated(lattice, core, roughnessMm, progress.part(0.72, 0.75));
+    Mask shells = dense.empty()
+                      ? Mask()
+                      : shellsAmong(lattice, std::move(dense), core, progress.part(0.7, 0.71));
+    // Without its rim, an ear that touches a shell would be a part of it.
+    const double rimMm = std::max({leastRimMm, 1.01 * lattice.spacingMm(0),
+                                   1.01 * lattice.spacingMm(1), 1.01 * lattice.spacingMm(2)});
+    Mask apart = tissue;
+    if (!shells.empty()) {
+        const Mask rim = dilated(lattice, shells, rimMm, progress.part(0.71, 0.72));
+        remove(rim, apart);
+        remove(rim, core);
+    }
+    Mask patient = dilated(lattice, core, roughnessMm, progress.part(0.72, 0.74));
     for (std::size_t n = 0; n < patient.size(); ++n)
-        patient[n] = std::uint8_t((patient[n] & tissue[n]) | core[n]);
-    patient = withShortParts(lattice, std::move(patient), tissue, progress.part(0.75, 0.8));
+        patient[n] = std::uint8_t((patient[n] & apart[n]) | core[n]);
+    patient = withShortParts(lattice, std::move(patient), apart, progress.part(0.74, 0.78));
+    if (!shells.empty()) {
+        // The patient's own share of the rim.
+        remove(shells, tissue);
+        const Mask near = dilated(lattice, patient, rimMm, progress.part(0.78, 0.8));
+        for (std::size_t n = 0; n < patient.size(); ++n)
+            patient[n] = std::uint8_t(patient[n] | (near[n] & tissue[n]));
+    }
     return {filledSlices(lattice, patient, progress.part(0.8, 1.0)), std::move(shells)};
 }
 
@@ -292,24 +328,44 @@ Mask body(const volume::Volume &volume, double marginMm, const task::Progress &p
     constexpr double largestMeanMm = 2.0;
     const auto block = classify::blocksWithin(volume.lattice(), largestMeanMm);
     if (block == std::array{1, 1, 1}) {
-        const Patient patient = patientOf(volume, progress.part(0.0, 0.9));
+        const Patient patient = patientOf(
+            volume, denseMeans(volume, volume.lattice().size(), block), progress.part(0.0, 0.9));
         return patient.withMargin(volume.lattice(), marginMm, progress.part(0.9, 1.0));
     }
     const volume::Volume coarse = classify::coarseVolume(volume, block);
-    const Patient patient = patientOf(coarse, progress.part(0.0, 0.8));
+    const Patient patient = patientOf(coarse, denseMeans(volume, coarse.lattice().size(), block),
+                                      progress.part(0.0, 0.8));
     // Half a mean, so that its rounding cuts off nothing.
     double halfMm = 0.0;
     for (int d = 0; d < 3; ++d)
         if (block[std::size_t(d)] > 1)
             halfMm = std::max(halfMm, 0.5 * coarse.lattice().spacingMm(d));
-    return onSamples(
+    const volume::GridSize blocks = coarse.lattice().size();
+    Mask mask = onSamples(
         patient.withMargin(coarse.lattice(), std::max(marginMm, halfMm), progress.part(0.8, 0.9)),
-        coarse.lattice().size(), block, volume.lattice().size());
+        blocks, block, volume.lattice().size());
+    if (!patient.shells.empty()) {
+        // A mean that touches the patient may have samples of both.
+        Mask mixed = dilated(coarse.lattice(), patient.inside, 2.0 * halfMm + leastRimMm,
+                             progress.part(0.9, 1.0));
+        for (std::size_t n = 0; n < mixed.size(); ++n)
+            mixed[n] &= patient.shells[n];
+        volume.visit([&](auto samples) {
+            eachSample(blocks, block, volume.lattice().size(),
+                       [&](std::size_t sample, std::size_t mean) {
+                           const auto value = double(samples[sample]);
+                           if (mixed[mean] != 0 && value > airBelowHu && value < tissueBesideHu)
+                               mask[sample] = 1;
+                       });
+        });
+    }
+    return mask;
 }
 
 Mask skin(const volume::Volume &volume, double depthMm, double marginMm,
           const task::Progress &progress) {
-    const Patient patient = patientOf(volume, progress.part(0.0, 0.7));
+    const Patient patient = patientOf(
+        volume, denseMeans(volume, volume.lattice().size(), {1, 1, 1}), progress.part(0.0, 0.7));
     // At least one sample deep, because coarse volumes would otherwise have no skin.
     const double depth = std::max(depthMm, 1.01 * volume.lattice().shortestStepMm());
     const Mask deep = eroded(volume.lattice(), patient.inside, depth, progress.part(0.7, 0.85));

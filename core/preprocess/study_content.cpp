@@ -2,6 +2,7 @@
 #include "core/preprocess/study_content.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -84,25 +85,63 @@ std::set<BodyRegion> regionsSeen(const volume::Volume &volume, const Mask &body)
     return regions;
 }
 
-// The marrow of vertebrae has the same values as vessels, but is enclosed by denser bone.
+// The standard deviation within a distance of a sample.
+double deviationAround(const volume::Volume &volume, const volume::VoxelIndex &center, double mm) {
+    const volume::Lattice &lattice = volume.lattice();
+    const volume::GridSize size = lattice.size();
+    double sum = 0.0, squares = 0.0;
+    int count = 0;
+    std::array<int, 3> reach{};
+    for (int d = 0; d < 3; ++d)
+        reach[std::size_t(d)] = int(mm / lattice.spacingMm(d));
+    for (int k = -reach[2]; k <= reach[2]; ++k)
+        for (int j = -reach[1]; j <= reach[1]; ++j)
+            for (int i = -reach[0]; i <= reach[0]; ++i) {
+                const volume::VoxelIndex at{center.i + i, center.j + j, center.k + k};
+                if (at.i < 0 || at.j < 0 || at.k < 0 || at.i >= size.i || at.j >= size.j ||
+                    at.k >= size.k)
+                    continue;
+                const double value = volume.value(at);
+                sum += value;
+                squares += value * value;
+                ++count;
+            }
+    const double mean = sum / count;
+    return std::sqrt(std::max(0.0, squares / count - mean * mean));
+}
+
+// The marrow of bones has the same values as vessels, but is enclosed by denser bone, or varies
+// more than blood does.
 bool hasContrastMedium(const volume::Volume &volume, const Mask &body,
                        const task::Progress &progress) {
     constexpr double low = 150.0, high = 600.0, dense = 450.0, ballMm = 4.0, besideMm = 6.0;
     constexpr double leastMl = 8.0, maxBesideBone = 0.35;
+    // Of the spine of a chest without contrast medium, 7 % are as even; of an aorta 30 %.
+    constexpr double evenMm = 3.0, evenHu = 16.0, leastEven = 0.15;
     const volume::Lattice &lattice = volume.lattice();
     const Mask filled =
         opening(lattice, between(volume, low, high, body), ballMm, progress.part(0.0, 0.4));
     const Mask nearBone =
         dilated(lattice, between(volume, dense, 1e9, body), besideMm, progress.part(0.4, 0.7));
     const Parts parts = partsOf(lattice, filled, "contrast", progress.part(0.7, 1.0));
-    std::vector<std::size_t> counts(parts.count + 1), beside(parts.count + 1);
-    for (std::size_t n = 0; n < filled.size(); ++n) {
-        ++counts[parts.labels[n]];
-        beside[parts.labels[n]] += nearBone[n];
-    }
+    std::vector<std::size_t> counts(parts.count + 1), beside(parts.count + 1),
+        even(parts.count + 1);
+    const volume::GridSize size = lattice.size();
+    std::size_t n = 0;
+    for (int k = 0; k < size.k; ++k)
+        for (int j = 0; j < size.j; ++j)
+            for (int i = 0; i < size.i; ++i, ++n) {
+                const std::uint32_t label = parts.labels[n];
+                if (label == 0)
+                    continue;
+                ++counts[label];
+                beside[label] += nearBone[n];
+                even[label] += deviationAround(volume, {i, j, k}, evenMm) < evenHu ? 1 : 0;
+            }
     double ml = 0.0;
     for (std::size_t label = 1; label < counts.size(); ++label)
-        if (double(beside[label]) < maxBesideBone * double(counts[label]))
+        if (double(beside[label]) < maxBesideBone * double(counts[label]) &&
+            double(even[label]) > leastEven * double(counts[label]))
             ml += double(counts[label]) * lattice.cellVolumeMm3() / 1000.0;
     return ml >= leastMl;
 }

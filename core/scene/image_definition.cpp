@@ -30,6 +30,11 @@ double detailFactor(const ImageDefinition &definition, double perMm) {
     return 1.0 + definition.detail * u / (1.0 + u);
 }
 
+double defaultDetailMm(double radiusMm) {
+    constexpr double humanMm = 2.0, leastMm = 0.01, radiusShare = 1.0 / 8.0;
+    return std::clamp(radiusShare * radiusMm, leastMm, humanMm);
+}
+
 double detailGain(const ImageDefinition &definition) {
     return 1.0 + definition.detail;
 }

@@ -25,6 +25,8 @@ struct ImageDefinition {
 };
 
 inline constexpr double maxDetail = 4.0;
+/// The size of detail for a volume of this radius: 2 mm, or less for a small one.
+double defaultDetailMm(double radiusMm);
 
 /// H = 1 + A u/(1 + u), u = (2 pi r |s|)^2: the image plus A times its difference from a smoothed
 /// one. From 1 for large structures to 1 + A for fine ones. *Units*: r (`detailMm`): mm, |s|

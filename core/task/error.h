@@ -18,6 +18,8 @@ enum class ErrorCode {
     unusable,     ///< a path is missing, empty, or has nothing usable
     outOfMemory,  ///< the request needs more memory than is available or allowed
     noSuchDevice, ///< the requested engine does not exist on this machine
+    unreachable,  ///< a server cannot be reached
+    incomplete,   ///< part of what was requested is missing
 };
 
 /// An external failure: a file, a device, a limit. `what()` is one line of English with the path,

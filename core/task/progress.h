@@ -26,6 +26,7 @@ public:
     /// Throws Cancelled if asked to stop.
     void check() const;
     bool stopRequested() const { return m_stop.stop_requested(); }
+    const std::stop_token &stopToken() const { return m_stop; }
     /// The same task, with fractions mapped to [from, to] of this one.
     Progress part(double from, double to) const;
 

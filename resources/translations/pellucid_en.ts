@@ -70,6 +70,16 @@
     </message>
 </context>
 <context>
+    <name>pellucid::ui::StudyList</name>
+    <message numerus="yes">
+        <source>%1: %n images</source>
+        <translation>
+            <numerusform>%1: %n image</numerusform>
+            <numerusform>%1: %n images</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>pellucid::ui::StudyPanel</name>
     <message numerus="yes">
         <source>%n files that were copied into the library are deleted.</source>
@@ -83,6 +93,16 @@
         <translation>
             <numerusform>%n file elsewhere stays where it is.</numerusform>
             <numerusform>%n files elsewhere stay where they are.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::TransfersPanel</name>
+    <message numerus="yes">
+        <source>%n images</source>
+        <translation>
+            <numerusform>%n image</numerusform>
+            <numerusform>%n images</numerusform>
         </translation>
     </message>
 </context>

@@ -2766,10 +2766,6 @@
         <translation>數值以「%1」標準化，而非體重</translation>
     </message>
     <message>
-        <source>the files state different units, weights or injected activities</source>
-        <translation>各檔案的單位、體重或注射活度不一致</translation>
-    </message>
-    <message>
         <source>the patient&apos;s weight is missing or implausible</source>
         <translation>病患體重缺少或不合理</translation>
     </message>
@@ -2800,6 +2796,350 @@
     <message>
         <source>the files are not corrected for attenuation</source>
         <translation>檔案未作衰減校正</translation>
+    </message>
+    <message>
+        <source>the network helper sent implausible data</source>
+        <translation>網路輔助程式傳來不合理的資料</translation>
+    </message>
+    <message>
+        <source>the network helper cannot be started: %1</source>
+        <translation>無法啟動網路輔助程式：%1</translation>
+    </message>
+    <message>
+        <source>the network helper crashed</source>
+        <translation>網路輔助程式當掉</translation>
+    </message>
+    <message>
+        <source>the server made the network helper attempt a forbidden system call</source>
+        <translation>伺服器使網路輔助程式嘗試被禁止的系統呼叫</translation>
+    </message>
+    <message>
+        <source>the network helper does not answer</source>
+        <translation>網路輔助程式沒有回應</translation>
+    </message>
+    <message>
+        <source>the network cannot be set up</source>
+        <translation>無法設定網路</translation>
+    </message>
+    <message>
+        <source>there is no host named &apos;%1&apos;; check the name, and the connection to the network</source>
+        <translation>沒有名為「%1」的主機；請檢查名稱與網路連線</translation>
+    </message>
+    <message>
+        <source>the host does not answer; check address and port, and any firewall</source>
+        <translation>主機沒有回應；請檢查位址、連接埠與防火牆</translation>
+    </message>
+    <message>
+        <source>the host refuses connections to this port; check the port, and that the server runs</source>
+        <translation>主機拒絕連線至此連接埠；請檢查連接埠，並確認伺服器正在執行</translation>
+    </message>
+    <message>
+        <source>cannot connect: %1</source>
+        <translation>無法連線：%1</translation>
+    </message>
+    <message>
+        <source>is not a usable file in PEM format: %1</source>
+        <translation>不是可用的 PEM 格式檔案：%1</translation>
+    </message>
+    <message>
+        <source>is not the private key of the certificate</source>
+        <translation>不是該憑證的私密金鑰</translation>
+    </message>
+    <message>
+        <source>the other side&apos;s certificate is not accepted: %1</source>
+        <translation>不接受對方的憑證：%1</translation>
+    </message>
+    <message>
+        <source>TLS fails: %1</source>
+        <translation>TLS 失敗：%1</translation>
+    </message>
+    <message>
+        <source>the other side does not speak TLS on this port</source>
+        <translation>對方在此連接埠不使用 TLS</translation>
+    </message>
+    <message>
+        <source>the server accepts the connection, but does not answer</source>
+        <translation>伺服器接受連線，但沒有回應</translation>
+    </message>
+    <message>
+        <source>the server does not agree to a DICOM association: %1</source>
+        <translation>伺服器不同意建立 DICOM 連結：%1</translation>
+    </message>
+    <message>
+        <source>the server does not know this program; register its AE title at the server</source>
+        <translation>伺服器不認得本程式；請在伺服器登錄其 AE 名稱</translation>
+    </message>
+    <message>
+        <source>the server has another AE title</source>
+        <translation>伺服器的 AE 名稱不同</translation>
+    </message>
+    <message>
+        <source>the server is busy</source>
+        <translation>伺服器忙碌中</translation>
+    </message>
+    <message>
+        <source>the server does not accept more connections</source>
+        <translation>伺服器不接受更多連線</translation>
+    </message>
+    <message>
+        <source>the server rejects the association</source>
+        <translation>伺服器拒絕連結</translation>
+    </message>
+    <message>
+        <source>the server does not offer this service</source>
+        <translation>伺服器不提供此服務</translation>
+    </message>
+    <message>
+        <source>the server has sent nothing for %1 s</source>
+        <translation>伺服器已有 %1 秒沒有傳送任何資料</translation>
+    </message>
+    <message>
+        <source>the other side closed the connection</source>
+        <translation>對方關閉了連線</translation>
+    </message>
+    <message>
+        <source>the connection fails: %1</source>
+        <translation>連線失敗：%1</translation>
+    </message>
+    <message>
+        <source>the server sent an answer that does not belong to the question</source>
+        <translation>伺服器傳來與問題不符的回應</translation>
+    </message>
+    <message>
+        <source>the sender asked for something other than storing</source>
+        <translation>傳送端要求儲存以外的服務</translation>
+    </message>
+    <message>
+        <source>the sender %1 is not known</source>
+        <translation>不認得傳送端 %1</translation>
+    </message>
+    <message>
+        <source>the sender %1 wants to reach %2</source>
+        <translation>傳送端 %1 要連至 %2</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1（%2）</translation>
+    </message>
+    <message>
+        <source>%1 (%2: %3)</source>
+        <translation>%1（%2：%3）</translation>
+    </message>
+    <message>
+        <source>the server had a failure</source>
+        <translation>伺服器發生錯誤</translation>
+    </message>
+    <message>
+        <source>the server does not accept the object</source>
+        <translation>伺服器不接受此物件</translation>
+    </message>
+    <message>
+        <source>the server does not support this kind of object or service</source>
+        <translation>伺服器不支援此種物件或服務</translation>
+    </message>
+    <message>
+        <source>the server does not allow it</source>
+        <translation>伺服器不允許</translation>
+    </message>
+    <message>
+        <source>the server does not know the operation</source>
+        <translation>伺服器不認得此操作</translation>
+    </message>
+    <message>
+        <source>the server is out of resources</source>
+        <translation>伺服器資源不足</translation>
+    </message>
+    <message>
+        <source>the server is out of resources to count the objects</source>
+        <translation>伺服器資源不足，無法計算物件數</translation>
+    </message>
+    <message>
+        <source>the server is out of resources to send the objects</source>
+        <translation>伺服器資源不足，無法傳送物件</translation>
+    </message>
+    <message>
+        <source>the server does not know where to send; register the AE title, address and port of this program at the server</source>
+        <translation>伺服器不知道傳送的目的地；請在伺服器登錄本程式的 AE 名稱、位址與連接埠</translation>
+    </message>
+    <message>
+        <source>the server could not send all objects</source>
+        <translation>伺服器無法傳送所有物件</translation>
+    </message>
+    <message>
+        <source>the server reports that the data do not match the kind of object</source>
+        <translation>伺服器回報資料與物件種類不符</translation>
+    </message>
+    <message>
+        <source>the server cannot process the request</source>
+        <translation>伺服器無法處理此要求</translation>
+    </message>
+    <message>
+        <source>the server does not accept the encoding %1</source>
+        <translation>伺服器不接受編碼 %1</translation>
+    </message>
+    <message>
+        <source>the server&apos;s answer is not DICOM JSON; check the path of the service</source>
+        <translation>伺服器的回應不是 DICOM JSON；請檢查服務的路徑</translation>
+    </message>
+    <message>
+        <source>the server does not accept the user name, password or token</source>
+        <translation>伺服器不接受使用者名稱、密碼或權杖</translation>
+    </message>
+    <message>
+        <source>the server has nothing at this address; check the path of the service</source>
+        <translation>伺服器在此位址沒有內容；請檢查服務的路徑</translation>
+    </message>
+    <message>
+        <source>the server answers with HTTP status %1</source>
+        <translation>伺服器回應 HTTP 狀態 %1</translation>
+    </message>
+    <message>
+        <source>the server points to another server, which is not asked</source>
+        <translation>伺服器指向另一個伺服器，程式不會詢問</translation>
+    </message>
+    <message>
+        <source>the server does not confirm that it stored the object</source>
+        <translation>伺服器沒有確認已儲存物件</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a port; use 1 to 65535</source>
+        <translation>「%1」不是連接埠；請用 1 至 65535</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not an AE title; use 1 to 16 letters and digits</source>
+        <translation>「%1」不是 AE 名稱；請用 1 至 16 個字母與數字</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not the address of a DICOM server; use AET@HOST:PORT</source>
+        <translation>「%1」不是 DICOM 伺服器的位址；請用 AET@HOST:PORT</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not the address of a DICOMweb service; use https://HOST:PORT/PATH</source>
+        <translation>「%1」不是 DICOMweb 服務的位址；請用 https://HOST:PORT/PATH</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a name for a server</source>
+        <translation>「%1」不能作為伺服器的名稱</translation>
+    </message>
+    <message>
+        <source>use 1 to %1 connections</source>
+        <translation>請用 1 至 %1 條連線</translation>
+    </message>
+    <message>
+        <source>a certificate needs its private key, and a key its certificate</source>
+        <translation>憑證需要其私密金鑰，金鑰亦需要其憑證</translation>
+    </message>
+    <message>
+        <source>there is no server &apos;%1&apos;</source>
+        <translation>沒有伺服器「%1」</translation>
+    </message>
+    <message>
+        <source>there is no folder for the user&apos;s data</source>
+        <translation>沒有存放使用者資料的資料夾</translation>
+    </message>
+    <message>
+        <source>is from a newer version of the program</source>
+        <translation>來自較新版本的程式</translation>
+    </message>
+    <message>
+        <source>the server has no such study or series</source>
+        <translation>伺服器沒有此檢查或序列</translation>
+    </message>
+    <message>
+        <source>the server could not send it</source>
+        <translation>伺服器無法傳送</translation>
+    </message>
+    <message>
+        <source>the server did not send it, and gave no reason</source>
+        <translation>伺服器沒有傳送，也未說明原因</translation>
+    </message>
+    <message>
+        <source>is not the object that the server announced</source>
+        <translation>不是伺服器所宣告的物件</translation>
+    </message>
+    <message>
+        <source>has no valid unique identifiers</source>
+        <translation>沒有有效的唯一識別碼</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; cannot be searched for: it contains a backslash or a control character</source>
+        <translation>無法搜尋「%1」：其中含有反斜線或控制字元</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a date or a range of dates; use YYYYMMDD or YYYYMMDD-YYYYMMDD</source>
+        <translation>「%1」不是日期或日期範圍；請用 YYYYMMDD 或 YYYYMMDD-YYYYMMDD</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a unique identifier</source>
+        <translation>「%1」不是唯一識別碼</translation>
+    </message>
+    <message>
+        <source>series and images are searched for within a study: name its UID</source>
+        <translation>序列與影像須在檢查中搜尋：請指定其 UID</translation>
+    </message>
+    <message>
+        <source>images are searched for within a series: name its UID</source>
+        <translation>影像須在序列中搜尋：請指定其 UID</translation>
+    </message>
+    <message>
+        <source>port %1 cannot be used: %2</source>
+        <translation>無法使用連接埠 %1：%2</translation>
+    </message>
+    <message>
+        <source>the list of transfers cannot be used: %1</source>
+        <translation>無法使用傳輸清單：%1</translation>
+    </message>
+    <message>
+        <source>there is no transfer %1</source>
+        <translation>沒有傳輸 %1</translation>
+    </message>
+    <message>
+        <source>%1 objects were not received: %2</source>
+        <translation>%1 個物件未收到：%2</translation>
+    </message>
+    <message>
+        <source>%1 files were not sent: %2</source>
+        <translation>%1 個檔案未傳送：%2</translation>
+    </message>
+    <message>
+        <source>not all servers answered</source>
+        <translation>並非所有伺服器皆有回應</translation>
+    </message>
+    <message>
+        <source>no DICOM server is in the list that could send; add one, or use --any</source>
+        <translation>清單中沒有可傳送的 DICOM 伺服器；請加入一個，或使用 --any</translation>
+    </message>
+    <message>
+        <source>a password is needed, and there is no terminal to ask for it</source>
+        <translation>需要密碼，但沒有可詢問的終端機</translation>
+    </message>
+    <message>
+        <source>another program is working on this transfer</source>
+        <translation>另一個程式正在處理此傳輸</translation>
+    </message>
+    <message>
+        <source>was cancelled</source>
+        <translation>已取消</translation>
+    </message>
+    <message>
+        <source>the files describe several injections</source>
+        <translation>檔案記載多次注射</translation>
+    </message>
+    <message>
+        <source>the half-life is not that of the radionuclide</source>
+        <translation>半衰期與放射性核種不符</translation>
+    </message>
+    <message>
+        <source>the files state different units, weights, injections or corrections</source>
+        <translation>各檔案的單位、體重、注射或校正不同</translation>
+    </message>
+    <message>
+        <source>the size of detail is larger than the radius of the volume</source>
+        <translation>細節的大小超過體積的半徑</translation>
+    </message>
+    <message>
+        <source>The projection is not prepared; F5 prepares it</source>
+        <translation>投影尚未準備；F5 可重新準備</translation>
     </message>
 </context>
 <context>
@@ -4074,6 +4414,10 @@
         <source>An export is running: copy and print when it has ended</source>
         <translation>正在匯出：請於結束後再複製或列印</translation>
     </message>
+    <message>
+        <source>Ser&amp;vers...</source>
+        <translation>伺服器(&amp;V)…</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::GraphicsCard</name>
@@ -4352,6 +4696,10 @@
     <message>
         <source>Preparing the projection</source>
         <translation>正在準備投影</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
     </message>
 </context>
 <context>
@@ -5283,6 +5631,262 @@
     </message>
 </context>
 <context>
+    <name>pellucid::ui::ServerBook</name>
+    <message>
+        <source>Password of %1 at %2</source>
+        <translation>%1 在 %2 的密碼</translation>
+    </message>
+    <message>
+        <source>Token for %1</source>
+        <translation>%1 的權杖</translation>
+    </message>
+    <message>
+        <source>Password of the private key for %1</source>
+        <translation>%1 的私密金鑰密碼</translation>
+    </message>
+    <message>
+        <source>Server</source>
+        <translation>伺服器</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ServerCommands</name>
+    <message>
+        <source>A study has arrived</source>
+        <translation>檢查已到達</translation>
+    </message>
+    <message>
+        <source>Another export is running</source>
+        <translation>另一項匯出正在執行</translation>
+    </message>
+    <message>
+        <source>Sending to %1</source>
+        <translation>正在傳送至 %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2 sent to %3</source>
+        <translation>已傳送 %1／%2 至 %3</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ServerSearch</name>
+    <message>
+        <source>Searching servers</source>
+        <translation>正在搜尋伺服器</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ServersDialog</name>
+    <message>
+        <source>&amp;Test</source>
+        <translation>測試(&amp;T)</translation>
+    </message>
+    <message>
+        <source>&amp;Save</source>
+        <translation>儲存(&amp;S)</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>移除(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Servers</source>
+        <translation>伺服器</translation>
+    </message>
+    <message>
+        <source>&amp;New server</source>
+        <translation>新增伺服器(&amp;N)</translation>
+    </message>
+    <message>
+        <source>Connect step by step, and show the step that fails</source>
+        <translation>逐步連線，並顯示失敗的步驟</translation>
+    </message>
+    <message>
+        <source>The name under which the server is listed</source>
+        <translation>伺服器在清單中的名稱</translation>
+    </message>
+    <message>
+        <source>DICOM</source>
+        <translation>DICOM</translation>
+    </message>
+    <message>
+        <source>DICOMweb</source>
+        <translation>DICOMweb</translation>
+    </message>
+    <message>
+        <source>The server&apos;s AE title</source>
+        <translation>伺服器的 AE 名稱</translation>
+    </message>
+    <message>
+        <source>Name or address of the server</source>
+        <translation>伺服器的名稱或位址</translation>
+    </message>
+    <message>
+        <source>The server&apos;s port; usually 104 or 11112</source>
+        <translation>伺服器的連接埠；通常為 104 或 11112</translation>
+    </message>
+    <message>
+        <source>For example https://pacs.example.org/dicom-web</source>
+        <translation>例如 https://pacs.example.org/dicom-web</translation>
+    </message>
+    <message>
+        <source>This program&apos;s AE title, which the server must know</source>
+        <translation>本程式的 AE 名稱，伺服器必須認得</translation>
+    </message>
+    <message>
+        <source>C-GET brings images on the same connection. With C-MOVE, the server sends them to this program&apos;s port 11112</source>
+        <translation>C-GET 在同一連線上取回影像。使用 C-MOVE 時，伺服器將影像傳送至本程式的連接埠 11112</translation>
+    </message>
+    <message>
+        <source>Automatic</source>
+        <translation>自動</translation>
+    </message>
+    <message>
+        <source>Connections at the same time while retrieving</source>
+        <translation>取回時的同時連線數</translation>
+    </message>
+    <message>
+        <source>Most answers to a search; 0: no limit</source>
+        <translation>搜尋的最多回應數；0：不限</translation>
+    </message>
+    <message>
+        <source>Character set of answers that name none, such as ISO_IR 100</source>
+        <translation>未註明字元集之回應所用的字元集，例如 ISO_IR 100</translation>
+    </message>
+    <message>
+        <source>&amp;Encrypt the connection (TLS)</source>
+        <translation>將連線加密（TLS）(&amp;E)</translation>
+    </message>
+    <message>
+        <source>None</source>
+        <translation>無</translation>
+    </message>
+    <message>
+        <source>User and password</source>
+        <translation>使用者與密碼</translation>
+    </message>
+    <message>
+        <source>Token</source>
+        <translation>權杖</translation>
+    </message>
+    <message>
+        <source>User name at the server</source>
+        <translation>在伺服器的使用者名稱</translation>
+    </message>
+    <message>
+        <source>Kept in the desktop&apos;s keychain, or for this run of the program</source>
+        <translation>保存於桌面的金鑰圈，或僅供本次執行</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名稱</translation>
+    </message>
+    <message>
+        <source>Protocol</source>
+        <translation>通訊協定</translation>
+    </message>
+    <message>
+        <source>AE title</source>
+        <translation>AE 名稱</translation>
+    </message>
+    <message>
+        <source>Host</source>
+        <translation>主機</translation>
+    </message>
+    <message>
+        <source>Port</source>
+        <translation>連接埠</translation>
+    </message>
+    <message>
+        <source>URL</source>
+        <translation>網址</translation>
+    </message>
+    <message>
+        <source>Our AE title</source>
+        <translation>本程式的 AE 名稱</translation>
+    </message>
+    <message>
+        <source>Retrieve</source>
+        <translation>取回</translation>
+    </message>
+    <message>
+        <source>Connections</source>
+        <translation>連線數</translation>
+    </message>
+    <message>
+        <source>Answers</source>
+        <translation>回應數</translation>
+    </message>
+    <message>
+        <source>Character set</source>
+        <translation>字元集</translation>
+    </message>
+    <message>
+        <source>Authorities</source>
+        <translation>憑證機構</translation>
+    </message>
+    <message>
+        <source>Certificates that are trusted (PEM); empty: those of the system</source>
+        <translation>信任的憑證（PEM）；留空：系統的憑證</translation>
+    </message>
+    <message>
+        <source>Certificate</source>
+        <translation>憑證</translation>
+    </message>
+    <message>
+        <source>Certificate that this program shows (PEM); empty: none</source>
+        <translation>本程式出示的憑證（PEM）；留空：無</translation>
+    </message>
+    <message>
+        <source>Private key</source>
+        <translation>私密金鑰</translation>
+    </message>
+    <message>
+        <source>Private key of the certificate (PEM)</source>
+        <translation>憑證的私密金鑰（PEM）</translation>
+    </message>
+    <message>
+        <source>Key password</source>
+        <translation>金鑰密碼</translation>
+    </message>
+    <message>
+        <source>Login</source>
+        <translation>登入</translation>
+    </message>
+    <message>
+        <source>User</source>
+        <translation>使用者</translation>
+    </message>
+    <message>
+        <source>Password or token</source>
+        <translation>密碼或權杖</translation>
+    </message>
+    <message>
+        <source>unchanged</source>
+        <translation>不變</translation>
+    </message>
+    <message>
+        <source>Saved</source>
+        <translation>已儲存</translation>
+    </message>
+    <message>
+        <source>Connecting...</source>
+        <translation>連線中…</translation>
+    </message>
+    <message>
+        <source>Association</source>
+        <translation>連結</translation>
+    </message>
+    <message>
+        <source>Offers</source>
+        <translation>提供</translation>
+    </message>
+    <message>
+        <source>Testing %1</source>
+        <translation>正在測試 %1</translation>
+    </message>
+</context>
+<context>
     <name>pellucid::ui::ShadingPanel</name>
     <message>
         <source>Reset</source>
@@ -5579,6 +6183,10 @@
         <source>SPECTRUM</source>
         <translation>頻譜</translation>
     </message>
+    <message>
+        <source>TRANSFERS</source>
+        <translation>傳輸</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::StudyLibrary</name>
@@ -5593,6 +6201,19 @@
     <message>
         <source>Tidying up the study library</source>
         <translation>正在整理檢查資料庫</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::StudyList</name>
+    <message numerus="yes">
+        <source>%1: %n images</source>
+        <translation>
+            <numerusform>%1：%n 張影像</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1: %2 of %3 here</source>
+        <translation>%1：本機有 %2／%3</translation>
     </message>
 </context>
 <context>
@@ -5719,6 +6340,22 @@
     <message>
         <source>No other study found</source>
         <translation>沒有其他符合的檢查</translation>
+    </message>
+    <message>
+        <source>%1: searching</source>
+        <translation>%1：搜尋中</translation>
+    </message>
+    <message>
+        <source>%1: more than listed</source>
+        <translation>%1：尚有未列出者</translation>
+    </message>
+    <message>
+        <source>Retrieve from %1</source>
+        <translation>自 %1 取回</translation>
+    </message>
+    <message>
+        <source>Send to</source>
+        <translation>傳送至</translation>
     </message>
 </context>
 <context>
@@ -6187,6 +6824,62 @@
     <message>
         <source>Range of the curve</source>
         <translation>曲線的範圍</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::TransferQueue</name>
+    <message>
+        <source>Retrieving %1</source>
+        <translation>正在取回 %1</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::TransfersPanel</name>
+    <message>
+        <source>Nothing has been retrieved yet. Search for a study, and double-click one that a server has.</source>
+        <translation>尚未取回任何檢查。請搜尋檢查，並按兩下伺服器所有的檢查。</translation>
+    </message>
+    <message>
+        <source>Clear</source>
+        <translation>清除</translation>
+    </message>
+    <message>
+        <source>Transfers</source>
+        <translation>傳輸</translation>
+    </message>
+    <message>
+        <source>Remove what has ended from the list; the images stay</source>
+        <translation>從清單中移除已結束者；影像仍保留</translation>
+    </message>
+    <message>
+        <source>waiting</source>
+        <translation>等待中</translation>
+    </message>
+    <message>
+        <source>listing</source>
+        <translation>列出中</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1／%2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n images</source>
+        <translation>
+            <numerusform>%n 張影像</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>cancelled</source>
+        <translation>已取消</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>再試一次</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
     </message>
 </context>
 <context>

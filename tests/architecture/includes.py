@@ -115,12 +115,15 @@ for source in sources:
                     wrong.append(f"{place}: a header names <{what}>")
             break
 
-# Untrusted bytes are parsed in one process; the bench runs on machines without Qt, DCMTK and ITK.
+# Untrusted bytes are parsed in confined processes; the bench runs on machines without Qt, DCMTK and ITK.
 for folder, several in rooms.items():
     for room in several:
         linked = everything(room.target)
-        if "pellucid_parse" in linked and room.target not in ("pellucid_parse", "pellucid-decode"):
-            wrong.append(f"{room.target} links pellucid_parse, which is for pellucid-decode alone")
+        confined = ("pellucid_parse", "pellucid-decode", "pellucid_network", "pellucid-net")
+        if "pellucid_parse" in linked and room.target not in confined:
+            wrong.append(f"{room.target} links pellucid_parse, which is for confined processes alone")
+        if "pellucid_network" in linked and room.target not in confined:
+            wrong.append(f"{room.target} links pellucid_network, which is for pellucid-net alone")
         if folder == "app/bench":
             wrong += [f"{room.target} links {link}" for link in linked if re.match(r"Qt6|DCMTK|ITK", link)]
 

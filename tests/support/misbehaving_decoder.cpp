@@ -17,6 +17,7 @@
 
 #include "core/decoder/channel.h"
 #include "core/decoder/child.h"
+#include "core/helper/process.h"
 #include "core/parse/serve.h"
 #include "core/parse/watch.h"
 #include "core/task/reason.h"
@@ -31,9 +32,9 @@ using decoder::Message;
 constexpr std::size_t mib = std::size_t(1) << 20;
 
 void finishWith(const std::string &body, std::int32_t code = decoder::isUnusable) {
-    const Mapping arena(decoder::arenaDescriptor, mib, Mapping::Access::write);
+    const Mapping arena(helper::fileDescriptor, mib, Mapping::Access::write);
     std::memcpy(arena.data(), body.data(), body.size());
-    decoder::send(decoder::socketDescriptor, {Message::Kind::done, code, body.size(), 0});
+    decoder::send(helper::socketDescriptor, {Message::Kind::done, code, body.size(), 0});
 }
 
 void finish(const task::Reason &reason, std::int32_t code = decoder::isUnusable) {
@@ -57,7 +58,7 @@ bool tryForbidden(std::string_view word) {
     else if (word == "unlink")
         finish(outcome(::unlink("/tmp/anything") >= 0));
     else if (word == "write-arena-size")
-        finish(outcome(::ftruncate(decoder::arenaDescriptor, 16) >= 0));
+        finish(outcome(::ftruncate(helper::fileDescriptor, 16) >= 0));
     else if (word == "socket")
         finish(outcome(::socket(AF_INET, SOCK_STREAM, 0) >= 0));
     else if (word == "process")
@@ -104,27 +105,26 @@ void act(std::string_view word) {
     else if (tryForbidden(word))
         return;
     else if (word == "ask-for-all")
-        decoder::send(decoder::socketDescriptor,
+        decoder::send(helper::socketDescriptor,
                       {Message::Kind::need, 0, std::uint64_t(1) << 50, 0});
     else if (word == "flood") // without ever listening
         for (;;)
-            decoder::send(decoder::socketDescriptor, {Message::Kind::need, 0, mib, 0});
+            decoder::send(helper::socketDescriptor, {Message::Kind::need, 0, mib, 0});
     else if (word == "descriptors")
         for (int n = 0; n < 4; ++n)
-            decoder::send(decoder::socketDescriptor, {Message::Kind::need, 0, mib, 0},
-                          decoder::socketDescriptor);
+            decoder::send(helper::socketDescriptor, {Message::Kind::need, 0, mib, 0},
+                          helper::socketDescriptor);
     else if (word == "large-body")
-        decoder::send(decoder::socketDescriptor,
+        decoder::send(helper::socketDescriptor,
                       {Message::Kind::done, 0, std::uint64_t(1) << 60, 8});
     else if (word == "large-data")
-        decoder::send(decoder::socketDescriptor,
-                      {Message::Kind::done, 0, 8, ~std::uint64_t(0) - 8});
+        decoder::send(helper::socketDescriptor, {Message::Kind::done, 0, 8, ~std::uint64_t(0) - 8});
     else if (word == "other-kind")
-        decoder::send(decoder::socketDescriptor, {Message::Kind(7777), 0, 0, 0});
+        decoder::send(helper::socketDescriptor, {Message::Kind(7777), 0, 0, 0});
     else if (word == "short-message")
-        (void)!::write(decoder::socketDescriptor, "x", 1);
+        (void)!::write(helper::socketDescriptor, "x", 1);
     else if (word == "empty-header")
-        decoder::send(decoder::socketDescriptor, {Message::Kind::done, 0, 0, 0});
+        decoder::send(helper::socketDescriptor, {Message::Kind::done, 0, 0, 0});
     else if (word == "no-reason")
         finishWith("");
     else if (word == "plain-reason")
@@ -146,20 +146,20 @@ void act(std::string_view word) {
         finish(byHand(), 77);
     else if (word == "samples-twice" || word == "half-the-samples") {
         const bool isTwice = word == "samples-twice";
-        decoder::send(decoder::socketDescriptor,
+        decoder::send(helper::socketDescriptor,
                       {Message::Kind::part, 0, 0, isTwice ? 4096U : 2048U});
-        decoder::receive(decoder::socketDescriptor, decoder::Takes::descriptor); // go on
+        decoder::receive(helper::socketDescriptor, decoder::Takes::descriptor); // go on
         decoder::send(
-            decoder::socketDescriptor,
+            helper::socketDescriptor,
             {isTwice ? Message::Kind::part : Message::Kind::done, 0, 0, isTwice ? 4096U : 0U});
     } else if (word == "more-samples")
-        decoder::send(decoder::socketDescriptor, {Message::Kind::part, 0, 0, 1 << 16});
+        decoder::send(helper::socketDescriptor, {Message::Kind::part, 0, 0, 1 << 16});
     else if (word == "half-a-sample")
-        decoder::send(decoder::socketDescriptor, {Message::Kind::part, 0, 0, 3});
+        decoder::send(helper::socketDescriptor, {Message::Kind::part, 0, 0, 3});
     else if (word == "no-samples") // and so on for ever
-        decoder::send(decoder::socketDescriptor, {Message::Kind::part, 0, 0, 0});
+        decoder::send(helper::socketDescriptor, {Message::Kind::part, 0, 0, 0});
     else if (word == "fewer-samples")
-        decoder::send(decoder::socketDescriptor, {Message::Kind::done, 0, 0, 0});
+        decoder::send(helper::socketDescriptor, {Message::Kind::done, 0, 0, 0});
     else
         finish(byHand());
 }
@@ -168,9 +168,9 @@ void act(std::string_view word) {
 
 int main() {
     const int confinement = parse::confine();
-    decoder::send(decoder::socketDescriptor, {Message::Kind::ready, confinement, 0, 0});
+    decoder::send(helper::socketDescriptor, {Message::Kind::ready, confinement, 0, 0});
     while (const auto request =
-               decoder::receive(decoder::socketDescriptor, decoder::Takes::descriptor)) {
+               decoder::receive(helper::socketDescriptor, decoder::Takes::descriptor)) {
         if (!request->descriptor) { // an answer to what it asked
             finish(because::inWords(request->message.kind == Message::Kind::refused ? "refused"
                                                                                     : "granted"));

@@ -240,42 +240,56 @@ private slots:
         QVERIFY(document().volume());
     }
 
+    // A study whose first projection was cancelled has none to return to.
     void aCancelledPreparationIsRepeatedByF5() {
+        mainWindow().openPaths({headPath()});
+        QTRY_VERIFY_WITH_TIMEOUT(document().volume() && !document().isPreview() &&
+                                     jobs().isRunning(),
+                                 patienceMs);
+        QTest::keyClick(&mainWindow(), Qt::Key_Escape);
+        QVERIFY(!jobs().isRunning());
+        QCOMPARE(projection()->planState(), ui::PlanState::cancelled);
+        QTest::keyClick(&mainWindow(), Qt::Key_F5);
+        QCOMPARE(projection()->planState(), ui::PlanState::underway);
+        settle();
+        QCOMPARE(projection()->planState(), ui::PlanState::holds);
+    }
+
+    // The picture, its name and the scene return together, and the cancel can be undone.
+    void aCancelReturnsToWhatIsShown() {
         open(headPath());
+        const double tolerance = document().scene().tolerance;
         ui::editScene(document(), "Tolerance", ui::noDrag,
                       [](scene::Scene &scene) { scene.tolerance = 1e-5; });
         QVERIFY(jobs().isRunning());
         QTest::keyClick(&mainWindow(), Qt::Key_Escape);
         QVERIFY(!jobs().isRunning());
-        QCOMPARE(projection()->planState(), ui::PlanState::cancelled);
-        const auto former = projection()->picture();
-        QTest::keyClick(&mainWindow(), Qt::Key_F5);
-        QCOMPARE(projection()->planState(), ui::PlanState::underway);
+        QCOMPARE(projection()->planState(), ui::PlanState::holds);
+        QCOMPARE(document().scene().tolerance, tolerance);
+        document().undoStack()->undo();
         settle();
+        QCOMPARE(document().scene().tolerance, 1e-5);
         QCOMPARE(projection()->planState(), ui::PlanState::holds);
         QVERIFY(find<QLabel>("predictedErrorLabel")->text().section(' ', -2, -2).toDouble() <=
                 1e-3);
-        QVERIFY(changed(former, projection()->picture()) < 0.02);
-        // The former look is not refused because its preparation was cancelled once.
-        document().undoStack()->undo();
-        settle();
-        QCOMPARE(projection()->planState(), ui::PlanState::holds);
     }
 
-    // No full picture follows a coarse one after a cancel: the former picture comes back.
+    // No full picture follows a coarse one after a cancel: the former look comes back.
     void aCancelledLookRestoresTheFormerPicture() {
         mainWindow().openPhantom("head");
         settle();
         const QImage former = projection()->picture();
+        const classify::Look look = document().scene().look;
         ui::editScene(document(), "Bone", ui::noDrag, [](scene::Scene &scene) {
             scene.look.classes.push_back({.name = "Bone", .low = 200.0, .high = 3000.0});
         });
         QTRY_VERIFY_WITH_TIMEOUT(!projection()->isFinal(), patienceMs);
         QTest::keyClick(&mainWindow(), Qt::Key_Escape);
-        QCOMPARE(projection()->planState(), ui::PlanState::cancelled);
+        QVERIFY(document().scene().look == look);
         QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
+        QCOMPARE(projection()->planState(), ui::PlanState::holds);
         QVERIFY(changed(former, projection()->picture()) < 0.001);
-        QTest::keyClick(&mainWindow(), Qt::Key_F5);
+        document().undoStack()->undo();
         settle();
         QVERIFY(changed(former, projection()->picture()) > 0.02);
     }

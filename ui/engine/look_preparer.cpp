@@ -7,6 +7,7 @@
 #include "core/classify/layers.h"
 #include "core/preprocess/step_cache.h"
 #include "core/system/memory.h"
+#include "ui/document/commands.h"
 #include "ui/document/document.h"
 #include "ui/engine/make_engines.h"
 
@@ -73,6 +74,23 @@ void LookPreparer::adopt(const PreparedFor &preparedFor, const prepare::Prepared
     m_have.full = preparedFor;
     emit planChanged(PlanState::holds);
     take(Step::showFull, preparedFor);
+}
+
+void LookPreparer::returnToShown() {
+    if (!m_have.full || !m_have.givenUp || wantedOf(m_document) == *m_have.full)
+        return;
+    const auto returned = [shown = *m_have.full](scene::Scene &scene) {
+        scene.fieldWindow = shown.window;
+        scene.look = shown.look;
+        scene.crop = shown.crop;
+        scene.image = shown.image;
+        scene.interpolation = shown.interpolation;
+        scene.tolerance = shown.tolerance;
+    };
+    scene::Scene scene = m_document.scene();
+    returned(scene);
+    if (PreparedFor(scene) == *m_have.full)
+        editScene(m_document, tr("Cancel"), noDrag, returned);
 }
 
 void LookPreparer::announce() {

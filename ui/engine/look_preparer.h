@@ -54,6 +54,10 @@ public:
     /// The last full engine and what it was made for, if there is one.
     const std::optional<PreparedFor> &preparedFor() const { return m_have.full; }
     const std::optional<prepare::PreparedEngine> &fullEngine() const { return m_full; }
+    /// After a cancel, returns the scene to what the full engine shows, as an edit that can be
+    /// undone: no picture stays on the screen under the name of another look. Does nothing if there
+    /// is no full engine, or the scene differs from it in more than its contents.
+    void returnToShown();
     /// Takes over and shows an engine that was made before.
     void adopt(const PreparedFor &preparedFor, const prepare::PreparedEngine &engine);
     /// Emits the signals of the present state, for a new window.

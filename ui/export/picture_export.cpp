@@ -332,7 +332,10 @@ std::optional<task::Reason> obstacle(const PictureExport &what, const Panes &pan
         return because::noStudyIsOpen;
     const bool isPlane = what.pane != Pane::projection;
     if (!isPlane && !panes.projection->showsWhatIsAskedFor())
-        return because::projectionIsBeingMade;
+        return panes.projection->planState() == PlanState::cancelled ||
+                       panes.projection->planState() == PlanState::failed
+                   ? because::projectionIsNotPrepared
+                   : because::projectionIsBeingMade;
     if (isPlane && !what.isPicture())
         return because::valuesOfTheProjectionOnly;
     if (isPlane && what.isTurn())

@@ -296,6 +296,8 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
     placer.copies().flush();
     library.put(all);
     placer.copies().keep();
+    if (import.listed)
+        import.listed();
     progress.report(1.0);
     return result;
 }

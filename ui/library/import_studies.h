@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,8 @@ enum class ImportMode { refer, copy };
 struct Import {
     std::vector<std::filesystem::path> paths;
     ImportMode mode = ImportMode::refer;
+    /// Called on the import's thread when all is listed.
+    std::function<void()> listed{};
 };
 
 struct ImportResult {

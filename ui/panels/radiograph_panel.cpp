@@ -51,8 +51,12 @@ RadiographPanel::RadiographPanel(Document &document, QWidget *parent)
            m_sharpness);
     connect(m_sharpness, &ValueSlider::changed, this, [this](double value, DragId drag) {
         if (m_document.volume())
-            editScene(m_document, tr("Sharpness"), drag,
-                      [&](scene::Scene &scene) { scene.image.detail = value; });
+            editScene(m_document, tr("Sharpness"), drag, [&](scene::Scene &scene) {
+                if (scene.image.detail == 0.0)
+                    scene.image.detailMm =
+                        scene::defaultDetailMm(m_document.volume()->lattice().radiusMm());
+                scene.image.detail = value;
+            });
     });
     m_withoutCouch->setObjectName("withoutCouchBox");
     m_withoutCouch->setToolTip(tr("Leave out the couch, head rests and clothes, in every preset"));

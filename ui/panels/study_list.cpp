@@ -48,8 +48,11 @@ bool StudyList::matches(const StudyFacts &study, const std::vector<VolumeFacts> 
 }
 
 void StudyList::append(StudyFacts study, bool isRead) {
-    m_entries.push_back(
-        std::make_unique<Entry>(Entry{std::move(study), {}, {}, isRead, int(m_entries.size())}));
+    auto entry = std::make_unique<Entry>();
+    entry->study = std::move(study);
+    entry->isRead = isRead;
+    entry->row = int(m_entries.size());
+    m_entries.push_back(std::move(entry));
 }
 
 // The phases of a series share one row; the phase bar selects among them.
@@ -99,12 +102,79 @@ void StudyList::rebuild() {
     m_libraryCount = page.count;
     for (StudyFacts &study : page.studies)
         append(std::move(study), false);
+    placeRemote();
     endResetModel();
+}
+
+StudyList::Entry &StudyList::entryAt(int row) const {
+    const auto at = std::size_t(row);
+    return at < m_entries.size() ? *m_entries[at] : *m_onlyRemote.at(at - m_entries.size());
+}
+
+void StudyList::setRemote(const std::vector<RemoteStudy> &remote) {
+    beginResetModel();
+    m_remote = remote;
+    placeRemote();
+    endResetModel();
+}
+
+// A study is the same wherever it is: its UID tells.
+void StudyList::placeRemote() {
+    m_onlyRemote.clear();
+    QHash<QString, Entry *> here;
+    for (const auto &entry : m_entries) {
+        entry->remote.reset();
+        here.insert(entry->study.uid, entry.get());
+    }
+    for (const RemoteStudy &remote : m_remote) {
+        if (Entry *const entry = here.value(remote.study.uid)) {
+            entry->remote = remote;
+            entry->instancesHere = 0;
+            QStringList counted; // phases of a series share its files
+            const auto &volumes =
+                entry->study.libraryId != 0 ? m_library.volumes(entry->study) : entry->volumes;
+            for (const VolumeFacts &volume : volumes)
+                if (!counted.contains(volume.seriesUid)) {
+                    counted << volume.seriesUid;
+                    entry->instancesHere += volume.files;
+                }
+            continue;
+        }
+        auto entry = std::make_unique<Entry>();
+        entry->study = remote.study;
+        entry->isRead = true;
+        entry->row = int(m_entries.size() + m_onlyRemote.size());
+        entry->remote = remote;
+        m_onlyRemote.push_back(std::move(entry));
+    }
+}
+
+const RemoteStudy *StudyList::remote(const QModelIndex &at) const {
+    if (!at.isValid() || at.parent().isValid())
+        return nullptr;
+    const auto &remote = entryAt(at.row()).remote;
+    return remote ? &*remote : nullptr;
+}
+
+bool StudyList::isOnlyRemote(const QModelIndex &at) const {
+    return at.isValid() && !at.parent().isValid() && at.row() >= int(m_entries.size());
+}
+
+QString StudyList::whereText(const QModelIndex &at) const {
+    const RemoteStudy *const remote = this->remote(at);
+    if (remote == nullptr)
+        return {};
+    const QString servers = remote->servers.join(", ");
+    const int here = isOnlyRemote(at) ? 0 : entryAt(at.row()).instancesHere;
+    if (remote->instances == 0)
+        return servers;
+    return here == 0 ? tr("%1: %n images", "", remote->instances).arg(servers)
+                     : tr("%1: %2 of %3 here").arg(servers).arg(here).arg(remote->instances);
 }
 
 const StudyFacts &StudyList::study(const QModelIndex &at) const {
     const QModelIndex study = at.parent().isValid() ? at.parent() : at;
-    return m_entries.at(std::size_t(study.row()))->study;
+    return entryAt(study.row()).study;
 }
 
 const VolumeFacts *StudyList::volume(const QModelIndex &at) const {
@@ -169,8 +239,7 @@ QImage StudyList::thumbnail(const QModelIndex &at) const {
 QModelIndex StudyList::index(int row, int column, const QModelIndex &parent) const {
     if (row < 0 || row >= rowCount(parent) || column != 0)
         return {};
-    return createIndex(row, column,
-                       parent.isValid() ? m_entries[std::size_t(parent.row())].get() : nullptr);
+    return createIndex(row, column, parent.isValid() ? &entryAt(parent.row()) : nullptr);
 }
 
 QModelIndex StudyList::parent(const QModelIndex &at) const {
@@ -181,19 +250,18 @@ QModelIndex StudyList::parent(const QModelIndex &at) const {
 
 int StudyList::rowCount(const QModelIndex &parent) const {
     if (!parent.isValid())
-        return int(m_entries.size());
-    return parent.parent().isValid() ? 0
-                                     : int(m_entries[std::size_t(parent.row())]->volumes.size());
+        return int(m_entries.size() + m_onlyRemote.size());
+    return parent.parent().isValid() ? 0 : int(entryAt(parent.row()).volumes.size());
 }
 
 bool StudyList::hasChildren(const QModelIndex &parent) const {
-    return !parent.isValid() || !parent.parent().isValid();
+    return !parent.isValid() || (!parent.parent().isValid() && !isOnlyRemote(parent));
 }
 
 bool StudyList::canFetchMore(const QModelIndex &parent) const {
     if (!parent.isValid())
         return int(m_entries.size()) - m_openCount < m_libraryCount;
-    return !parent.parent().isValid() && !m_entries[std::size_t(parent.row())]->isRead;
+    return !parent.parent().isValid() && !entryAt(parent.row()).isRead;
 }
 
 void StudyList::fetchMore(const QModelIndex &parent) {
@@ -211,6 +279,9 @@ void StudyList::fetchMore(const QModelIndex &parent) {
         for (StudyFacts &study : page)
             append(std::move(study), false);
         endInsertRows();
+        // Some of them may have been listed as remote.
+        if (!m_remote.empty())
+            setRemote(std::vector(m_remote));
         return;
     }
     Entry &entry = *m_entries[std::size_t(parent.row())];
@@ -237,11 +308,15 @@ QVariant StudyList::data(const QModelIndex &at, int role) const {
     case Qt::AccessibleTextRole:
         return v != nullptr
                    ? (QStringList{seriesText(*v), sizeText(*v)} + warningTexts(*v)).join(", ")
-                   : patientText(s) + ", " + studyText(s);
+                   : (QStringList{patientText(s), studyText(s)} +
+                      (whereText(at).isEmpty() ? QStringList() : QStringList{whereText(at)}))
+                         .join(", ");
     case Qt::ToolTipRole:
         return v != nullptr
                    ? (QStringList{seriesText(*v), sizeText(*v)} + warningTexts(*v)).join("\n")
-                   : (QStringList{patientText(s), s.patientId, studyText(s)}).join("\n");
+                   : (QStringList{patientText(s), s.patientId, studyText(s), whereText(at)})
+                         .join("\n")
+                         .trimmed();
     case Qt::DecorationRole:
         return v != nullptr ? QVariant(thumbnail(at)) : QVariant();
     default:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <QAbstractItemModel>
@@ -9,6 +10,7 @@
 
 #include "ui/library/study_library.h"
 #include "ui/library/thumbnail_maker.h"
+#include "ui/servers/remote_study.h"
 #include "ui/studies/study_facts.h"
 
 namespace pellucid::ui {
@@ -16,8 +18,8 @@ namespace pellucid::ui {
 class Document;
 
 /// The model of the list of studies: matching open studies that are not in the library, then
-/// matching studies of the library, a page at a time. Each has its volumes as children, read on
-/// demand.
+/// matching studies of the library, a page at a time, then those that only servers have. Each of
+/// the former has its volumes as children, read on demand.
 class StudyList : public QAbstractItemModel {
     Q_OBJECT
 public:
@@ -28,9 +30,18 @@ public:
     const QString &search() const { return m_search; }
     StudyOrder order() const { return m_order; }
     /// The number of matching studies, fetched or not.
-    int studyCount() const { return m_openCount + m_libraryCount; }
+    int studyCount() const { return m_openCount + m_libraryCount + int(m_onlyRemote.size()); }
     /// The same without an open study that is listed although it does not match.
     int matchCount() const { return studyCount() - (m_hasOther ? 1 : 0); }
+
+    /// What servers have, folded with what is here.
+    void setRemote(const std::vector<RemoteStudy> &remote);
+    /// Set for the row of a study that only servers have, or have more of.
+    const RemoteStudy *remote(const QModelIndex &index) const;
+    /// Whether no file of it is here.
+    bool isOnlyRemote(const QModelIndex &index) const;
+    /// Where else a study is, and how much of it is here; empty if nothing is known.
+    QString whereText(const QModelIndex &index) const;
 
     /// The study of a row; for a volume, its parent.
     const StudyFacts &study(const QModelIndex &index) const;
@@ -60,7 +71,11 @@ private:
         std::vector<QStringList> keys;    ///< of all volumes of each row
         bool isRead = false;
         int row = 0;
+        std::optional<RemoteStudy> remote;
+        int instancesHere = 0; ///< set with `remote`
     };
+    Entry &entryAt(int row) const;
+    void placeRemote();
     void rebuild();
     void append(StudyFacts study, bool isRead);
     static void addVolumes(Entry &entry, const std::vector<VolumeFacts> &volumes);
@@ -71,6 +86,8 @@ private:
     QString m_search;
     StudyOrder m_order = StudyOrder::newestFirst;
     std::vector<std::unique_ptr<Entry>> m_entries;
+    std::vector<RemoteStudy> m_remote;
+    std::vector<std::unique_ptr<Entry>> m_onlyRemote; ///< after `m_entries`
     int m_openCount = 0, m_libraryCount = 0;
     bool m_hasOther = false; ///< the open study does not match the search
     /// Thumbnails of open volumes that are not in the library, by key; made on demand.

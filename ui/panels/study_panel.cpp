@@ -22,10 +22,12 @@
 
 #include "ui/document/document.h"
 #include "ui/jobs/job_strip.h"
+#include "ui/language/reasons.h"
 #include "ui/panels/header_dialog.h"
 #include "ui/panels/problem_list.h"
 #include "ui/panels/study_details.h"
 #include "ui/panels/study_row_painter.h"
+#include "ui/servers/server_search.h"
 
 namespace pellucid::ui {
 
@@ -35,6 +37,8 @@ namespace {
 constexpr int maxExpandedStudies = 20;
 // A search starts when typing pauses.
 constexpr int typingMs = 120;
+// Servers are asked after a longer pause.
+constexpr int restingMs = 900, fewestLetters = 3;
 
 QStringList localPaths(const QMimeData &data) {
     QStringList paths;
@@ -46,11 +50,11 @@ QStringList localPaths(const QMimeData &data) {
 
 } // namespace
 
-StudyPanel::StudyPanel(Document &document, StudyLibrary &library, const Theme &theme,
-                       QWidget *parent)
+StudyPanel::StudyPanel(Document &document, StudyLibrary &library, ServerSearch &servers,
+                       const Theme &theme, QWidget *parent)
     : QWidget(parent), m_document(document), m_library(library), m_list(document, library),
       m_search(new QLineEdit), m_tree(new QTreeView), m_corner(new QPushButton(tr("Import"))),
-      m_empty(new QLabel) {
+      m_empty(new QLabel), m_servers(servers), m_serverStates(new QLabel) {
     setObjectName("studyPanel");
     setAttribute(Qt::WA_StyledBackground);
     setAcceptDrops(true);
@@ -73,6 +77,10 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, const Theme &t
     m_empty->setObjectName("studiesEmpty");
     m_empty->setProperty("role", "muted");
     m_empty->setWordWrap(true);
+    m_serverStates->setObjectName("serverStates");
+    m_serverStates->setProperty("role", "muted");
+    m_serverStates->setWordWrap(true);
+    m_serverStates->hide();
     m_tree->setObjectName("seriesTree");
     m_tree->setAccessibleName(tr("Studies"));
     m_tree->setHeaderHidden(true);
@@ -92,6 +100,7 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, const Theme &t
     layout->setContentsMargins(14, 4, 10, 12);
     layout->setSpacing(6);
     layout->addLayout(top);
+    layout->addWidget(m_serverStates);
     layout->addWidget(m_empty, 0, Qt::AlignTop);
     layout->addWidget(m_tree, 1);
     layout->addWidget(new JobStrip(library.jobs(), "import"));
@@ -106,10 +115,24 @@ void StudyPanel::connectControls() {
     m_typing.setInterval(typingMs);
     connect(m_search, &QLineEdit::textChanged, &m_typing, qOverload<>(&QTimer::start));
     connect(&m_typing, &QTimer::timeout, this, [this] { m_list.setSearch(m_search->text()); });
+    m_resting.setSingleShot(true);
+    m_resting.setInterval(restingMs);
+    connect(m_search, &QLineEdit::textChanged, this, [this](const QString &text) {
+        // A server is not asked for every letter, nor for the names that begin with one.
+        if (text.trimmed().size() >= fewestLetters)
+            m_resting.start();
+        else
+            m_resting.stop();
+        if (text.isEmpty())
+            m_servers.clear();
+    });
+    connect(&m_resting, &QTimer::timeout, this, &StudyPanel::searchServers);
     connect(m_search, &QLineEdit::returnPressed, this, [this] {
         m_list.setSearch(m_search->text());
+        searchServers();
         m_tree->setFocus();
     });
+    connect(&m_servers, &ServerSearch::changed, this, &StudyPanel::showServers);
     connect(new QShortcut(Qt::Key_Escape, m_search, nullptr, nullptr, Qt::WidgetShortcut),
             &QShortcut::activated, this, [this] {
                 m_search->clear();
@@ -125,6 +148,12 @@ void StudyPanel::connectControls() {
     m_tree->setExpandsOnDoubleClick(false);
     connect(m_tree, &QTreeView::clicked, this, &StudyPanel::activate);
     connect(m_tree, &QTreeView::activated, this, &StudyPanel::activate);
+    const auto retrieve = [this](const QModelIndex &index) {
+        if (const RemoteStudy *const remote = m_list.remote(index);
+            remote != nullptr && m_list.isOnlyRemote(index))
+            emit retrieveRequested(*remote);
+    };
+    connect(m_tree, &QTreeView::activated, this, retrieve);
     connect(m_tree, &QWidget::customContextMenuRequested, this, &StudyPanel::showMenu);
 }
 
@@ -152,6 +181,34 @@ QMenu *StudyPanel::orderMenu() {
 
 QWidget *StudyPanel::corner() {
     return m_corner;
+}
+
+void StudyPanel::searchServers() {
+    m_resting.stop();
+    m_servers.search(m_search->text().trimmed(), window());
+}
+
+void StudyPanel::showServers() {
+    m_list.setRemote(m_servers.found());
+    QStringList texts, tips;
+    for (const auto &[name, state] : m_servers.states()) {
+        switch (state.kind) {
+        case ServerState::Kind::searching:
+            texts << tr("%1: searching").arg(name);
+            break;
+        case ServerState::Kind::answered:
+            texts << (state.hasMore ? tr("%1: more than listed").arg(name) : name);
+            break;
+        case ServerState::Kind::failed:
+            texts << QString::fromUtf8("\u26A0 ") + name;
+            tips << name + ": " + translated(*state.reason);
+            break;
+        }
+    }
+    m_serverStates->setText(texts.join(QString::fromUtf8(" \u00B7 ")));
+    m_serverStates->setToolTip(tips.join("\n"));
+    m_serverStates->setVisible(!texts.isEmpty());
+    showEmpty();
 }
 
 void StudyPanel::focusSearch() {
@@ -188,6 +245,8 @@ void StudyPanel::showCurrent() {
 }
 
 void StudyPanel::activate(const QModelIndex &index) {
+    if (m_list.isOnlyRemote(index)) // a double-click or Enter retrieves it
+        return;
     const VolumeFacts *const volume = m_list.volume(index);
     if (volume == nullptr) {
         // A click may also arrive as an activation, and a double-click as three events.
@@ -230,6 +289,14 @@ void StudyPanel::showMenu(const QPoint &at) {
             });
         menu->addSeparator();
     }
+    if (const RemoteStudy *const remote = m_list.remote(index))
+        add(tr("Retrieve from %1").arg(remote->servers.value(0)), "retrieveStudyAction",
+            [this, remote = *remote] { emit retrieveRequested(remote); });
+    addServersTo(*menu, index);
+    if (m_list.isOnlyRemote(index)) {
+        menu->popup(m_tree->viewport()->mapToGlobal(at));
+        return;
+    }
     if (study.libraryId != 0) {
         add(tr("Remove from the library..."), "removeStudyAction",
             [this, study] { remove(study); });
@@ -240,6 +307,28 @@ void StudyPanel::showMenu(const QPoint &at) {
         add(tr("Close"), "closeStudyAction", [this, study] { close(study); });
     }
     menu->popup(m_tree->viewport()->mapToGlobal(at));
+}
+
+// The servers that the study, or the series of a volume, can be sent to.
+void StudyPanel::addServersTo(QMenu &menu, const QModelIndex &index) {
+    const QStringList servers = m_servers.serverNames();
+    if (servers.isEmpty() || m_list.isOnlyRemote(index) ||
+        m_list.study(index).patientId == "phantoms")
+        return;
+    QMenu *const send = menu.addMenu(tr("Send to"));
+    send->setObjectName("sendMenu");
+    const QPersistentModelIndex row(index);
+    for (const QString &server : servers)
+        connect(send->addAction(server), &QAction::triggered, this, [this, row, server] {
+            QStringList files;
+            if (m_list.volume(row) != nullptr)
+                files = filesOf(row);
+            else
+                for (int n = 0; n < m_list.rowCount(row); ++n)
+                    files << filesOf(m_list.index(n, 0, row));
+            files.removeDuplicates();
+            emit sendRequested(files, server);
+        });
 }
 
 void StudyPanel::openBeside(const QModelIndex &index) {

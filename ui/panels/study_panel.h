@@ -18,13 +18,14 @@ class QTreeView;
 namespace pellucid::ui {
 
 class Document;
+class ServerSearch;
 
 /// The open studies and those of the library, with search, sort order, a context menu, the running
-/// import and the problem list.
+/// import and the problem list. A search also asks the servers, after Enter or a rest.
 class StudyPanel : public QWidget {
     Q_OBJECT
 public:
-    StudyPanel(Document &document, StudyLibrary &library, const Theme &theme,
+    StudyPanel(Document &document, StudyLibrary &library, ServerSearch &servers, const Theme &theme,
                QWidget *parent = nullptr);
 
     /// The button beside the panel's heading, which imports.
@@ -38,6 +39,10 @@ signals:
     /// `paths`: if empty, the user is asked for them.
     void importRequested(const QStringList &paths);
     void closeRequested(int index);
+    /// Only servers have it, or have more of it.
+    void retrieveRequested(const pellucid::ui::RemoteStudy &study);
+    /// `files`: of a study; to this server.
+    void sendRequested(const QStringList &files, const QString &server);
     void besideRequested(const pellucid::ui::StudySource &source);
 
 protected:
@@ -58,6 +63,9 @@ private:
     void close(const StudyFacts &study);
     void connectControls();
     QMenu *orderMenu();
+    void searchServers();
+    void showServers();
+    void addServersTo(QMenu &menu, const QModelIndex &index);
 
     Document &m_document;
     StudyLibrary &m_library;
@@ -67,7 +75,9 @@ private:
     QTreeView *m_tree;
     QPushButton *m_corner;
     QLabel *m_empty;
-    QTimer m_typing;
+    ServerSearch &m_servers;
+    QLabel *m_serverStates; ///< how the servers fare
+    QTimer m_typing, m_resting;
 };
 
 } // namespace pellucid::ui

@@ -72,7 +72,7 @@ QSize StudyRowPainter::sizeHint(const QStyleOptionViewItem &option,
                                 const QModelIndex &index) const {
     const VolumeFacts *const volume = m_list.volume(index);
     if (volume == nullptr)
-        return {0, 2 * lineHeight(option.font) + 2 * gap};
+        return {0, (m_list.whereText(index).isEmpty() ? 2 : 3) * lineHeight(option.font) + 2 * gap};
     int texts = 3 * lineHeight(option.font);
     texts +=
         int(warningLines(option.font, textWidth(cardWidth(option)), warningTexts(*volume)).size()) *
@@ -111,6 +111,12 @@ void StudyRowPainter::paintStudy(QPainter &painter, const QStyleOptionViewItem &
     painter.setPen(m_theme.color("muted"));
     painter.drawText(rect, Qt::AlignTop | Qt::AlignLeft,
                      option.fontMetrics.elidedText(studyText(study), Qt::ElideRight, rect.width()));
+    if (const QString where = m_list.whereText(index); !where.isEmpty()) {
+        rect.adjust(0, lineHeight(option.font), 0, 0);
+        painter.setPen(m_theme.color("accent"));
+        painter.drawText(rect, Qt::AlignTop | Qt::AlignLeft,
+                         option.fontMetrics.elidedText(where, Qt::ElideMiddle, rect.width()));
+    }
 }
 
 void StudyRowPainter::paintVolume(QPainter &painter, const QStyleOptionViewItem &option,

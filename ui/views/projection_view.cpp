@@ -194,6 +194,18 @@ void ProjectionView::resetView() {
     });
 }
 
+void ProjectionView::fitView() {
+    m_body = m_tone.exposure();
+    moveTo(fittedToBody(m_document.pose()), false);
+}
+
+void ProjectionView::fitOrResetView() {
+    if (fittedToBody(m_document.pose()) == m_document.pose())
+        resetView();
+    else
+        fitView();
+}
+
 void ProjectionView::moveTo(const Pose &pose, bool isMoving) {
     const QScopedValueRollback moving(m_isMoving, isMoving);
     m_document.setPose(pose);

@@ -59,6 +59,10 @@ public:
     void jobStarted();
     void showStandardView(scene::StandardView view);
     void showOrientation(const glm::dquat &orientation);
+    /// The same view, fitted to the body.
+    void fitView();
+    /// Fits the view or, if it is fitted, resets it.
+    void fitOrResetView();
     /// The front, fitted to the body, with automatic brightness.
     void resetView();
     /// The left button measures distances with that tool; with every other one it orbits.

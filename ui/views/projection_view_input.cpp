@@ -172,9 +172,10 @@ void ProjectionView::keyPressEvent(QKeyEvent *event) {
     const bool keypad = (event->modifiers() & Qt::KeypadModifier) != 0;
     if (const auto view = standardViewOf(*event))
         showStandardView(*view);
-    else if ((keypad && (event->key() == Qt::Key_0 || event->key() == Qt::Key_Insert)) ||
-             event->key() == Qt::Key_R)
+    else if (keypad && (event->key() == Qt::Key_0 || event->key() == Qt::Key_Insert))
         resetView();
+    else if (event->key() == Qt::Key_R)
+        fitOrResetView();
     else if (event->key() == Qt::Key_Left || event->key() == Qt::Key_Right)
         orbitBy({event->key() == Qt::Key_Left ? -11 : 11, 0}); // about five degrees
     else if (event->key() == Qt::Key_Up || event->key() == Qt::Key_Down)

@@ -22,6 +22,7 @@
 #include "ui/export/print_picture.h"
 #include "ui/export/scene_files.h"
 #include "ui/export/segment_writer.h"
+#include "ui/language/reasons.h"
 #include "ui/panels/header_dialog.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/views/projection_view.h"
@@ -45,6 +46,7 @@ FileMenu::FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &
     add(menu, tr("&Import into the library..."), "importAction", QKeySequence("Ctrl+I"), [this] {
         importPaths({});
     })->setIconText(tr("Import"));
+    add(menu, tr("Ser&vers..."), "serversAction", {}, [this] { emit serversRequested(); });
     QAction *const segmentation = add(menu, tr("Open se&gmentation..."), "openSegmentationAction",
                                       {}, [this] { chooseSegmentations(); });
     QAction *const subtraction = add(menu, tr("Su&btract a volume..."), "subtractAction", {},
@@ -94,7 +96,11 @@ void FileMenu::attempt(const std::function<void()> &what) {
     try {
         what();
     } catch (const task::Error &error) {
-        emit failed(error.reason(), QString::fromStdString(error.path().string()));
+        // What cannot be done now is no problem of a study.
+        if (error.code() == task::ErrorCode::usage && error.path().empty())
+            emit messageShown(translated(error.reason()));
+        else
+            emit failed(error.reason(), QString::fromStdString(error.path().string()));
     }
 }
 

@@ -38,6 +38,7 @@ public:
 signals:
     void besideRequested(const pellucid::ui::StudySource &source);
     void pathsChosen(const QStringList &paths);
+    void serversRequested();
     void phantomChosen(const QString &kind);
     void recentForgotten();
     void preferencesRequested();

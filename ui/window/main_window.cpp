@@ -52,6 +52,7 @@
 #include "ui/window/preferences_dialog.h"
 #include "ui/window/projection_keys.h"
 #include "ui/window/reopening.h"
+#include "ui/window/server_commands.h"
 #include "ui/window/study_docks.h"
 #include "ui/window/tool_bar.h"
 #include "ui/window/tools_menu.h"
@@ -230,6 +231,13 @@ void MainWindow::createFileMenu() {
                 else
                     m_bench.study.segments.open(paths);
             });
+    auto *servers = new ServerCommands(*this, m_bench, *m_docks);
+    connect(m_file, &FileMenu::serversRequested, servers, &ServerCommands::showServers);
+    connect(servers, &ServerCommands::failed, this, &MainWindow::report);
+    connect(servers, &ServerCommands::studyArrived, this,
+            [this](const QString &folder) { openPaths({folder}); });
+    connect(servers, &ServerCommands::messageShown, this,
+            [this](const QString &text) { statusBar()->showMessage(text, 4000); });
     connect(m_start, &StartPage::openFilesRequested, m_file, &FileMenu::chooseFiles);
     connect(m_start, &StartPage::openFolderRequested, m_file, &FileMenu::chooseFolder);
 }
@@ -446,9 +454,10 @@ void MainWindow::compareLooks(bool isComparing) {
 }
 
 void MainWindow::keyPressEvent(QKeyEvent *event) {
-    if (event->key() == Qt::Key_Escape && m_bench.study.jobs.isRunning())
+    if (event->key() == Qt::Key_Escape && m_bench.study.jobs.isRunning()) {
         m_bench.study.jobs.cancel();
-    else
+        m_bench.study.preparer.returnToShown();
+    } else
         QMainWindow::keyPressEvent(event);
 }
 

@@ -98,7 +98,7 @@ void PaneMenus::addProjection(QMenu &menu) {
                       "topViewAction", "bottomViewAction"});
     addNamed(menu, {"anglesAction"});
     menu.addSeparator();
-    menu.addAction(tr("&Fit to the patient"), m_viewer.projection, &ProjectionView::resetView);
+    menu.addAction(tr("&Fit to the patient") + "\tR", m_viewer.projection, &ProjectionView::fitView);
     addNamed(menu, {"filmAction", "automaticToneAction", "removeCouchAction", "depthCueAction",
                     "compareAction"});
 }

@@ -8,6 +8,7 @@
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/spectrum_panel.h"
 #include "ui/panels/study_panel.h"
+#include "ui/panels/transfers_panel.h"
 #include "ui/theme/dock.h"
 #include "ui/views/spectrum_sampler.h"
 #include "ui/window/workbench.h"
@@ -16,7 +17,7 @@ namespace pellucid::ui {
 
 StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme)
     : QObject(&window), m_window(window),
-      m_studies(new StudyPanel(bench.study.document, bench.library, theme)),
+      m_studies(new StudyPanel(bench.study.document, bench.library, bench.serverSearch, theme)),
       m_measurements(new MeasurementsPanel(bench.study.document)) {
     m_study = makeDock(tr("STUDIES"), "studyDock", m_studies, m_studies->corner());
     m_studies->setMinimumWidth(250);
@@ -25,12 +26,16 @@ StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme
         makeDock(tr("MEASUREMENTS"), "measurementsDock", m_measurements, m_measurements->corner());
     window.addDockWidget(Qt::LeftDockWidgetArea, m_measured);
     window.resizeDocks({m_study, m_measured}, {700, 180}, Qt::Vertical);
+    auto *transfers = new TransfersPanel(bench.transfers);
+    m_transfers = makeDock(tr("TRANSFERS"), "transfersDock", transfers, transfers->corner());
+    window.addDockWidget(Qt::LeftDockWidgetArea, m_transfers);
+    m_transfers->hide();
     m_history = addHistory(window, bench);
     m_spectrum = addSpectrum(window, bench, theme);
 }
 
 void StudyDocks::reset() {
-    for (QDockWidget *dock : {m_study, m_measured, m_history, m_spectrum}) {
+    for (QDockWidget *dock : {m_study, m_measured, m_transfers, m_history, m_spectrum}) {
         dock->setFloating(false);
         m_window.addDockWidget(Qt::LeftDockWidgetArea, dock);
         dock->setVisible(dock == m_study || dock == m_measured);

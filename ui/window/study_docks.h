@@ -14,10 +14,11 @@ namespace pellucid::ui {
 
 class MeasurementsPanel;
 class StudyPanel;
+class TransfersPanel;
 struct Workbench;
 
-/// The docks on the left of the window: studies, measurements, edit history and spectrum. The last
-/// two are hidden at first.
+/// The docks on the left of the window: studies, measurements, transfers, edit history and
+/// spectrum. The last three are hidden at first.
 class StudyDocks : public QObject {
     Q_OBJECT
 public:
@@ -26,8 +27,11 @@ public:
     StudyPanel &studies() { return *m_studies; }
     MeasurementsPanel &measurements() { return *m_measurements; }
     /// The docks in the Window menu.
-    std::vector<QDockWidget *> listed() const { return {m_study, m_measured, m_history}; }
+    std::vector<QDockWidget *> listed() const {
+        return {m_study, m_measured, m_transfers, m_history};
+    }
     QDockWidget &study() { return *m_study; }
+    QDockWidget &transfers() { return *m_transfers; }
     QDockWidget &spectrum() { return *m_spectrum; }
 
     /// Shows studies and measurements where they were at first, and hides the others.
@@ -40,7 +44,7 @@ private:
     QMainWindow &m_window;
     StudyPanel *m_studies;
     MeasurementsPanel *m_measurements;
-    QDockWidget *m_study, *m_measured, *m_history, *m_spectrum;
+    QDockWidget *m_study, *m_measured, *m_transfers, *m_history, *m_spectrum;
 };
 
 } // namespace pellucid::ui

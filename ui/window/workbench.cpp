@@ -4,7 +4,8 @@
 namespace pellucid::ui {
 
 Workbench::Workbench(std::optional<EngineChoice> engine)
-    : card(engine), study(card), measurements(study.document) {
+    : card(engine), study(card), serverSearch(servers), transfers(servers, library),
+      measurements(study.document) {
     study.document.addProblems(library.notices());
     if (const auto fault = session.fault())
         study.document.addProblems({{fault->path(), fault->reason()}});

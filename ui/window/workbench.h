@@ -9,6 +9,9 @@
 #include "ui/library/study_library.h"
 #include "ui/opening/open_study.h"
 #include "ui/opening/session.h"
+#include "ui/servers/server_book.h"
+#include "ui/servers/server_search.h"
+#include "ui/servers/transfer_queue.h"
 
 namespace pellucid::ui {
 
@@ -25,6 +28,9 @@ struct Workbench {
     OpenStudy study;
     JobRunner exports;
     StudyLibrary library;
+    ServerBook servers;
+    ServerSearch serverSearch;
+    TransferQueue transfers;
     MeasurementStore measurements;
     SessionFile session;
 };

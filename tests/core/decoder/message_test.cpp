@@ -70,11 +70,13 @@ auto fieldsOf(IsA<InstanceHeader> auto &h) {
 }
 auto fieldsOf(IsA<PetHeader> auto &p) {
     auto &[units, uptakeType, decayCorrection, seriesDate, seriesTime, acquisitionDate,
-           acquisitionTime, injectionTime, injectionDateTime, weightKg, injectedBq, halfLifeS,
-           uptakePerCount, isAttenuationCorrected] = p;
+           acquisitionTime, injectionTime, injectionDateTime, timezone, radionuclide, weightKg,
+           injectedBq, halfLifeS, frameReferenceS, frameDurationS, injections, uptakePerCount,
+           isAttenuationCorrected] = p;
     return std::tie(units, uptakeType, decayCorrection, seriesDate, seriesTime, acquisitionDate,
-                    acquisitionTime, injectionTime, injectionDateTime, weightKg, injectedBq,
-                    halfLifeS, uptakePerCount, isAttenuationCorrected);
+                    acquisitionTime, injectionTime, injectionDateTime, timezone, radionuclide,
+                    weightKg, injectedBq, halfLifeS, frameReferenceS, frameDurationS, injections,
+                    uptakePerCount, isAttenuationCorrected);
 }
 auto fieldsOf(IsA<VolumeLayout> auto &l) {
     auto &[size, volumes, originMm, stepsMm, scalar, slope, intercept, isDeflated, isSwapped,

@@ -94,6 +94,10 @@ TEST(UptakeScale, OtherUnitsOfTheFilesAreKept) {
     pet.uptakePerCount = 0.0004;
     EXPECT_EQ(scaleOf(pet).unit, ValueUnit::uptake);
     EXPECT_EQ(scaleOf(pet).factor, 0.0004);
+    pet.isAttenuationCorrected = false;
+    EXPECT_TRUE(scaleOf(pet).notUptake->is(task::because::notAttenuationCorrected));
+    pet.units = "GML";
+    EXPECT_TRUE(scaleOf(pet).notUptake->is(task::because::notAttenuationCorrected));
 }
 
 TEST(UptakeScale, SaysWhatIsMissing) {
@@ -113,11 +117,19 @@ TEST(UptakeScale, SaysWhatIsMissing) {
     EXPECT_TRUE(reason([](PetHeader &p) {
                     p.isAttenuationCorrected = false;
                 }).is(because::notAttenuationCorrected));
-    // In another time zone, perhaps.
+    EXPECT_TRUE(reason([](PetHeader &p) { p.injectedBq = 3.7e5; }).is(because::noInjectedActivity));
+    // Two statements that contradict each other.
     EXPECT_TRUE(reason([](PetHeader &p) {
-                    p.injectionTime.clear();
-                    p.injectionDateTime = "20260115093000.00+0000";
+                    p.injectionDateTime = "20260115083000.00";
                 }).is(because::noDecayTime));
+    // Zirconium-89, perhaps injected days before.
+    EXPECT_TRUE(reason([](PetHeader &p) { p.halfLifeS = 282276.0; }).is(because::noDecayTime));
+    // Minutes in place of seconds.
+    EXPECT_TRUE(reason([](PetHeader &p) {
+                    p.radionuclide = "^18^Fluorine";
+                    p.halfLifeS = 109.77;
+                }).is(because::halfLifeIsWrong));
+    EXPECT_TRUE(reason([](PetHeader &p) { p.injections = 2; }).is(because::severalInjections));
     EXPECT_TRUE(
         reason([](PetHeader &p) { p.decayCorrection = "NONE"; }).is(because::notDecayCorrected));
     EXPECT_TRUE(reason([](PetHeader &p) { p.halfLifeS = 0.0; }).is(because::noDecayTime));
@@ -126,11 +138,81 @@ TEST(UptakeScale, SaysWhatIsMissing) {
     EXPECT_TRUE(reason([](PetHeader &p) { p.halfLifeS = 180.0; }).is(because::noDecayTime));
 }
 
-TEST(UptakeScale, FilesOfDifferentPatientsHaveNone) {
+TEST(UptakeScale, FilesThatDifferHaveNone) {
+    for (const auto &change : std::initializer_list<void (*)(PetHeader &)>{
+             [](PetHeader &p) { p.weightKg = 80.0; },
+             [](PetHeader &p) { p.decayCorrection = "NONE"; },
+             [](PetHeader &p) { p.isAttenuationCorrected = false; },
+             [](PetHeader &p) { p.injectionTime = "083000"; },
+             [](PetHeader &p) { p.halfLifeS = 1221.8; }}) {
+        InstanceHeader first, second;
+        first.pet = second.pet = fdg();
+        change(*second.pet);
+        EXPECT_TRUE(
+            dicom::uptakeScale({&first, &second}).notUptake->is(task::because::petFilesDiffer));
+        EXPECT_TRUE(
+            dicom::uptakeScale({&second, &first}).notUptake->is(task::because::petFilesDiffer));
+    }
+}
+
+// Zirconium-89, six days before: only the date tells.
+TEST(UptakeScale, AnInjectionDaysBeforeHasADate) {
+    PetHeader pet = fdg();
+    pet.halfLifeS = 282276.0;
+    const double expected = factorAtInjection * std::exp2((6.0 * 86400.0 + 3600.0) / 282276.0);
+    for (const char *const stated : {"20260109093000", "20260109093000.00+0100"}) {
+        pet.injectionDateTime = stated;
+        EXPECT_NEAR(scaleOf(pet).factor, expected, 1e-12) << stated;
+    }
+    // The date in universal time, the rest of the file an hour east of it.
+    pet.timezone = "+0100";
+    pet.injectionDateTime = "20260109083000+0000";
+    EXPECT_NEAR(scaleOf(pet).factor, expected, 1e-12);
+}
+
+// A dynamic scan begins just before the injection: the dose is what it would have been then.
+TEST(UptakeScale, ADynamicScanMayBeginBeforeTheInjection) {
+    PetHeader pet = fdg();
+    pet.injectionTime = "103010";
+    pet.injectionDateTime = "20260115103010";
+    for (const double halfLifeS : {6586.2, 45724.0, 282276.0}) {
+        pet.halfLifeS = halfLifeS;
+        EXPECT_NEAR(scaleOf(pet).factor, factorAtInjection * std::exp2(-10.0 / halfLifeS), 1e-12);
+    }
+    pet.injectionTime = "113010"; // an hour is an error
+    pet.injectionDateTime = "20260115113010";
+    EXPECT_TRUE(scaleOf(pet).notUptake->is(task::because::noDecayTime));
+}
+
+// A scan over midnight whose writer kept the date of its begin.
+TEST(UptakeScale, DatesThatDoNotChangeAtMidnightAreNotBelieved) {
     InstanceHeader first, second;
     first.pet = second.pet = fdg();
-    second.pet->weightKg = 80.0;
-    EXPECT_TRUE(dicom::uptakeScale({&first, &second}).notUptake->is(task::because::petFilesDiffer));
+    for (InstanceHeader *const h : {&first, &second}) {
+        h->pet->seriesTime = "233000";
+        h->pet->injectionTime = "223000";
+    }
+    first.pet->acquisitionTime = "233000";
+    second.pet->acquisitionTime = "000500";
+    EXPECT_TRUE(dicom::uptakeScale({&first, &second}).notUptake->is(task::because::noDecayTime));
+    second.pet->acquisitionDate = "20260116";
+    EXPECT_NEAR(dicom::uptakeScale({&first, &second}).factor,
+                factorAtInjection * std::exp2(3600.0 / 6586.2), 1e-12);
+}
+
+// Only the last bed position is here, and the series has the time of its reconstruction: the frame
+// tells when the scan began.
+TEST(UptakeScale, APartOfAScanRefersToTheScansBegin) {
+    PetHeader pet = fdg();
+    pet.seriesTime = "150000";
+    pet.acquisitionTime = "110000";
+    pet.frameReferenceS = 1800.0;
+    EXPECT_NEAR(scaleOf(pet).factor, factorAtInjection * std::exp2(3600.0 / 6586.2), 1e-12);
+    // The reference time is that of the frame's mean activity, about half of its duration later.
+    pet.frameDurationS = 120.0;
+    pet.frameReferenceS = 1860.0;
+    EXPECT_NEAR(scaleOf(pet).factor, factorAtInjection * std::exp2(3600.0 / 6586.2),
+                1e-4 * factorAtInjection);
 }
 
 TEST(UptakeScale, ReadsDicomTimes) {

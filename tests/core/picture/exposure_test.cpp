@@ -188,6 +188,28 @@ TEST(Exposure, AirOfValuesWithoutAUnitIsBlack) {
     EXPECT_NEAR(tone.exposure->lowMm.x, -54.0, 5.0);
 }
 
+// A class without air: the flank of a dim body beside something bright is not air, so the body stays
+// visible.
+TEST(Exposure, ABodyWithoutAirIsNotTakenForAir) {
+    constexpr int side = 100;
+    ProjectionImage image{side, side, 1.0, Samples(std::size_t(side) * side, 0.0F)};
+    for (int r = 0; r < side; ++r)
+        for (int c = 0; c < side; ++c) {
+            const int x = c - 50, y = r - 45;
+            float &sample = image.samples[std::size_t(r) * side + std::size_t(c)];
+            if (x * x + y * y < 40 * 40)
+                sample = 1.0F + 0.2F * float(x) / 40.0F;
+            if (std::abs(x - 20) < 6 && std::abs(y - 30) < 12)
+                sample += 8.0F;
+        }
+    scene::Tone tone;
+    tone.exposure = exposureOf(image, tone, Background::measured);
+    EXPECT_EQ(tone.exposure->axes[0].air, 0.0);
+    const glm::dquat front = scene::viewOrientation(scene::StandardView::front);
+    const Pixels pixels = compose(image, displayOf(tone, front));
+    EXPECT_GT(int(pixels[4 * (45 * side + 30)]), 20);
+}
+
 TEST(Exposure, AnEmptyPictureHasADisplay) {
     const ProjectionImage image{8, 8, 1.0, Samples(64, 0.0F)};
     scene::Tone tone;

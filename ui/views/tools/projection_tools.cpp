@@ -7,7 +7,7 @@ namespace pellucid::ui {
 
 ProjectionTools::ProjectionTools(Document &document, ProjectionPane &pane)
     : m_pane(pane), m_measure(document, pane, MeasureTool::Figures::inPicture), m_orbit(pane),
-      m_pan(pane, Qt::SizeAllCursor), m_tone(document, pane),
+      m_pan(pane, Qt::SizeAllCursor), m_zoom(pane), m_tone(document, pane),
       m_grow(document, pane, PaneView::projection), m_paint(document, pane, PaneView::projection),
       m_lasso(document, pane) {}
 
@@ -19,12 +19,17 @@ void ProjectionTools::choose(Tool tool) {
                : tool == Tool::paint    ? static_cast<PaneTool *>(&m_paint)
                : tool == Tool::scissors ? static_cast<PaneTool *>(&m_lasso)
                                         : nullptr;
+    m_left = tool == Tool::pan    ? static_cast<PaneTool *>(&m_pan)
+             : tool == Tool::zoom ? static_cast<PaneTool *>(&m_zoom)
+                                  : &m_orbit;
     m_measure.setKind(m_measures ? kind : std::nullopt);
 }
 
 std::optional<Qt::CursorShape> ProjectionTools::cursor() const {
     if (m_region != nullptr)
         return m_region->cursor();
+    if (m_left != &m_orbit)
+        return m_left->cursor();
     return m_measures ? std::optional(m_measure.cursor()) : std::nullopt;
 }
 
@@ -33,9 +38,10 @@ Qt::CursorShape ProjectionTools::heldCursor() const {
 }
 
 PaneTool *ProjectionTools::toolOf(Qt::MouseButton button) {
+    const bool turns = (QGuiApplication::keyboardModifiers() & Qt::ControlModifier) != 0;
     switch (button) {
     case Qt::LeftButton:
-        return &m_orbit;
+        return turns ? &m_orbit : m_left;
     case Qt::MiddleButton:
         return &m_pan;
     case Qt::RightButton:

@@ -9,12 +9,14 @@
 #include "ui/views/tools/pan_tool.h"
 #include "ui/views/tools/tone_tool.h"
 #include "ui/views/tools/tool.h"
+#include "ui/views/tools/zoom_tool.h"
 
 namespace pellucid::ui {
 
 /// The tools of the projection and the current drag. The left button orbits, the middle one pans,
-/// the right one sets the brightness. Of the selectable tools, those that measure in one plane,
-/// annotate or mark regions have an effect here. Measurements can be dragged with any tool.
+/// the right one sets the brightness. Of the selectable tools, those that pan and zoom, measure in
+/// one plane, annotate or mark regions have an effect here. Measurements can be dragged with any
+/// tool.
 class ProjectionTools {
 public:
     ProjectionTools(Document &document, ProjectionPane &pane);
@@ -62,11 +64,13 @@ private:
     MeasureTool m_measure;
     OrbitTool m_orbit;
     PanTool m_pan;
+    ZoomTool m_zoom;
     ToneTool m_tone;
     GrowTool m_grow;
     PaintTool m_paint;
     LassoTool m_lasso;
     PaneTool *m_region = nullptr; ///< the selected tool for regions
+    PaneTool *m_left = &m_orbit;  ///< what the left button does otherwise
     bool m_measures = false, m_showsMeasurements = true;
     PaneTool *m_activeTool = nullptr; ///< gets the moves of the drag
     QPoint m_last;

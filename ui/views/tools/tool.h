@@ -9,8 +9,8 @@
 namespace pellucid::ui {
 
 /// The tool of the left mouse button in the panes. In the projection, the button orbits unless the
-/// tool measures (not a region of values) or marks regions. ToolsMenu::addTools lists the tools in
-/// the same order.
+/// tool pans, zooms, measures (not a region of values) or marks regions. ToolsMenu::addTools lists
+/// the tools in the same order.
 enum class Tool {
     window,
     pan,

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/parse/serve.h"
+#include "core/helper/confinement.h"
 
-#include <cstdint>
+#include <cerrno>
 #include <fcntl.h>
-#include <initializer_list>
+#include <linux/landlock.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <seccomp.h>
 
-#include "core/decoder/message.h"
-#include "core/system/memory.h"
-
-namespace pellucid::parse {
+namespace pellucid::helper {
 
 namespace {
 
@@ -30,18 +28,6 @@ void preferOutOfMemoryKill() {
         return;
     (void)!::write(fd, "1000", 4);
     ::close(fd);
-}
-
-bool limitResources() {
-    preferOutOfMemoryKill();
-    bool holds = limit(RLIMIT_CORE, 0) && limit(RLIMIT_NPROC, 0) && limit(RLIMIT_MEMLOCK, 0);
-#ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes and write reports
-    holds = limit(RLIMIT_FSIZE, 0) && holds;
-    // Limits private memory; files and the arena, which the parent fills, do not count.
-    holds = limit(RLIMIT_DATA, system::freeMemoryBytes()) && holds;
-    ::prctl(PR_SET_DUMPABLE, 0); // only root may debug it
-#endif
-    return holds;
 }
 
 // Each call returns 0 if the filter accepted all of its rules.
@@ -82,7 +68,7 @@ int allowMemory(scmp_filter_ctx filter) {
     return failed;
 }
 
-// No decoder ever makes these calls; an attempt means that it is compromised.
+// No helper ever makes these calls; an attempt means that it is compromised.
 int killForbiddenCalls(scmp_filter_ctx filter) {
     int failed = 0;
     for (const int call : {SCMP_SYS(execve),
@@ -114,12 +100,29 @@ int killForbiddenCalls(scmp_filter_ctx filter) {
     return failed;
 }
 
-// All other calls fail with EPERM, so a library that tries to read a table continues without it.
-bool filterCalls() {
+} // namespace
+
+bool limitResources(const ResourceLimits &limits) {
+    preferOutOfMemoryKill();
+    bool holds = limit(RLIMIT_CORE, 0) && limit(RLIMIT_NPROC, 0) && limit(RLIMIT_MEMLOCK, 0);
+#ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes and write reports
+    holds = limit(RLIMIT_FSIZE, limits.fileBytes) && holds;
+    // Limits private memory; files and an arena, which the parent fills, do not count.
+    holds = limit(RLIMIT_DATA, limits.memoryBytes) && holds;
+    ::prctl(PR_SET_DUMPABLE, 0); // only root may debug it
+#else
+    (void)limits;
+#endif
+    return holds;
+}
+
+bool filterCalls(std::initializer_list<int> more) {
     const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ERRNO(EPERM));
     if (filter == nullptr)
         return false;
     int failed = allowCalls(filter);
+    for (const int call : more)
+        failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
     failed |= allowMemory(filter);
     failed |= killForbiddenCalls(filter);
     failed |= ::seccomp_load(filter); // also forbids new privileges
@@ -127,12 +130,18 @@ bool filterCalls() {
     return failed == 0;
 }
 
-} // namespace
-
-int confine() {
-    const bool holds = limitResources();
-    const bool isFiltered = filterCalls();
-    return (holds ? decoder::limitsHold : 0) | (isFiltered ? decoder::callsAreFiltered : 0);
+bool forbidFiles() {
+    // The rights of the first version of Landlock, which every kernel that has it knows; a later
+    // version only adds rights, such as truncating, that need an open file.
+    landlock_ruleset_attr all{};
+    all.handled_access_fs = (std::uint64_t(LANDLOCK_ACCESS_FS_MAKE_SYM) << 1) - 1;
+    const int rules = int(::syscall(SYS_landlock_create_ruleset, &all, sizeof all, 0));
+    if (rules < 0)
+        return false;
+    const bool isForbidden = ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+                             ::syscall(SYS_landlock_restrict_self, rules, 0) == 0;
+    ::close(rules);
+    return isForbidden;
 }
 
-} // namespace pellucid::parse
+} // namespace pellucid::helper

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/commands.h"
+#include "app/cli/terminal.h"
+#include "core/archive/listener.h"
+#include "core/archive/receiving.h"
+#include "core/archive/run_transfer.h"
+#include "core/task/error.h"
+
+namespace pellucid::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    archive::ListenerOptions listener;
+    std::string folder;
+    bool isForLibrary = false;
+};
+
+// Every DICOM server of the list may send.
+std::vector<archive::Sender> knownSenders() {
+    std::vector<archive::Sender> senders;
+    for (const archive::Server &server : archive::ServerList::ofUser().servers())
+        if (server.peer.protocol == exchange::Protocol::dicom)
+            senders.push_back({server.peer.calledAe, server.peer.host});
+    return senders;
+}
+
+void listen(Options o, const Context &context) {
+    if (!o.listener.acceptsAnyone) {
+        o.listener.senders = knownSenders();
+        if (o.listener.senders.empty())
+            throw task::Error(task::ErrorCode::usage, task::because::noSenderIsKnown);
+    }
+    const archive::ObjectFolder folder(o.isForLibrary ? archive::libraryObjectFolder()
+                                                      : fs::absolute(o.folder),
+                                       archive::ObjectFolder::Keeps::onDisk);
+    std::error_code failed;
+    fs::create_directories(folder.folder(), failed);
+    if (failed)
+        throw task::Error(task::ErrorCode::output,
+                          task::because::cannotBeMade(task::systemReason(failed.value())),
+                          folder.folder());
+    std::optional<archive::TransferLog> log;
+    if (o.isForLibrary)
+        log.emplace(archive::TransferLog::fileOfUser());
+    std::size_t stored = 0;
+    archive::Receiving receiving(folder, log ? &*log : nullptr,
+                                 {[&](const archive::StoredObject &) { ++stored; },
+                                  [](const archive::RefusedObject &object) {
+                                      warn(object.sopInstanceUid +
+                                           ": not stored: " + object.reason.english());
+                                  }});
+    const archive::Listener listener(
+        o.listener, [&] { return receiving.receiver(); },
+        {[&](const std::string &sender, const std::optional<task::Reason> &reason) {
+            if (reason)
+                warn(sender + ": " + reason->english());
+            fmt::print("{}: {} stored so far\n", printable(sender), stored);
+            std::fflush(stdout);
+        }});
+    fmt::print("{} listens on port {}\n", o.listener.ae, listener.port());
+    std::fflush(stdout);
+    while (!context.stop.stop_requested())
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+}
+
+} // namespace
+
+void addListenCommand(CLI::App &app, const Context &context) {
+    auto o = std::make_shared<Options>();
+    CLI::App *c = app.add_subcommand(
+        "listen", "Receive what the known servers send, until interrupted (C-STORE)");
+    CLI::Option *to =
+        c->add_option("--to", o->folder, "Folder to write to; default: the current one")
+            ->default_str(".");
+    c->add_flag("--library", o->isForLibrary, "Add what arrives to the library of the workstation")
+        ->excludes(to);
+    c->add_option("--port", o->listener.port, "Port; default 11112; 0: any free one")
+        ->check(CLI::Range(0, 65535));
+    c->add_option("--ae", o->listener.ae, "AE title of this program; default PELLUCID");
+    c->add_flag("--any", o->listener.acceptsAnyone, "Accept anyone, not only the known servers");
+    CLI::Option *certificate = c->add_option("--certificate", o->listener.certificate,
+                                             "Use TLS with this certificate, in PEM format")
+                                   ->check(CLI::ExistingFile);
+    CLI::Option *key =
+        c->add_option("--key", o->listener.key, "Private key of the certificate, in PEM format")
+            ->check(CLI::ExistingFile)
+            ->needs(certificate);
+    certificate->needs(key);
+    c->add_option("--authorities", o->listener.authorities,
+                  "Certificates of the authorities that senders' certificates must be from")
+        ->check(CLI::ExistingFile)
+        ->needs(certificate);
+    c->callback([o, context] {
+        o->listener.usesTls = !o->listener.certificate.empty();
+        listen(*o, context);
+    });
+}
+
+} // namespace pellucid::cli

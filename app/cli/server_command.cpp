@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/commands.h"
+#include "app/cli/servers.h"
+#include "app/cli/terminal.h"
+#include "core/archive/server.h"
+#include "core/exchange/link.h"
+#include "core/task/error.h"
+#include "core/task/naming.h"
+
+namespace pellucid::cli {
+
+namespace {
+
+using archive::Server;
+using exchange::Step;
+
+struct Options {
+    std::string name, dicom, web, tls = "off", authorities, certificate, key,
+                                  callingAe = "PELLUCID", retrieve = "automatic",
+                                  authentication = "none", user, set;
+    int connections = 4;
+    std::uint32_t limit = 200;
+    bool json = false;
+};
+
+// The program may be started in another folder the next time.
+std::string absolute(const std::string &path) {
+    return path.empty() ? path : std::filesystem::absolute(path).string();
+}
+
+void add(const Options &o) {
+    Server server;
+    server.name = o.name;
+    server.peer = o.dicom.empty() ? archive::webPeer(o.web) : archive::dicomPeer(o.dicom);
+    exchange::Peer &peer = server.peer;
+    peer.callingAe = o.callingAe;
+    if (!o.dicom.empty())
+        peer.usesTls = o.tls == "on";
+    peer.authorities = absolute(o.authorities);
+    peer.certificate = absolute(o.certificate);
+    peer.key = absolute(o.key);
+    peer.user = o.user;
+    peer.characterSet = o.set;
+    peer.authentication = o.authentication == "basic"    ? exchange::Authentication::basic
+                          : o.authentication == "bearer" ? exchange::Authentication::bearer
+                                                         : exchange::Authentication::none;
+    server.retrieve = o.retrieve == "get"    ? archive::RetrieveMethod::get
+                      : o.retrieve == "move" ? archive::RetrieveMethod::move
+                                             : archive::RetrieveMethod::automatic;
+    server.connections = o.connections;
+    server.limit = o.limit;
+    auto list = archive::ServerList::ofUser();
+    list.put(server);
+    std::puts(printable(fmt::format("{}: {}", server.name, archive::addressOf(peer))).c_str());
+}
+
+void list(const Options &o) {
+    const auto servers = archive::ServerList::ofUser().servers();
+    if (o.json) {
+        nlohmann::json out = nlohmann::json::array();
+        for (const Server &server : servers)
+            out.push_back({{"name", server.name},
+                           {"address", archive::addressOf(server.peer)},
+                           {"tls", server.peer.usesTls}});
+        std::puts(escapedControls(out.dump(2)).c_str());
+        return;
+    }
+    for (const Server &server : servers)
+        std::puts(
+            printable(
+                fmt::format("{:<20}  {}{}", server.name, archive::addressOf(server.peer),
+                            server.peer.usesTls && server.peer.protocol == exchange::Protocol::dicom
+                                ? "  TLS"
+                                : ""))
+                .c_str());
+}
+
+const char *nameOf(Step step) {
+    switch (step) {
+    case Step::name:
+        return "name";
+    case Step::tcp:
+        return "TCP";
+    case Step::tls:
+        return "TLS";
+    case Step::association:
+        return "association";
+    case Step::service:
+        return "offers";
+    }
+    return "";
+}
+
+// Prints each step as it succeeds; the one that fails is the error.
+void test(const Options &o, const Context &context, bool isVerbose) {
+    const Server server = serverNamed(o.name);
+    const task::Progress progress(context.stop);
+    const auto print = [&](Step step, const std::string &found) {
+        if (isVerbose)
+            std::puts(printable(fmt::format("{:<12} {}", nameOf(step), found)).c_str());
+    };
+    task::naming(server.name, [&] {
+        exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::echo}, progress,
+                            print);
+        link.echo(progress, print);
+    });
+    if (!isVerbose)
+        std::puts(printable(fmt::format("{} answers", server.name)).c_str());
+}
+
+} // namespace
+
+void addServerCommand(CLI::App &app, const Context &context) {
+    auto o = std::make_shared<Options>();
+    CLI::App *c = app.add_subcommand("server", "Add, list, test and remove servers");
+    c->require_subcommand(1);
+    CLI::App *put = c->add_subcommand("add", "Add a server, or replace the one of the same name");
+    put->add_option("NAME", o->name, "Name of the server")->required();
+    CLI::Option *dicom = put->add_option("--dicom", o->dicom, "AET@HOST:PORT of a DICOM server");
+    CLI::Option *web =
+        put->add_option("--web", o->web, "URL of a DICOMweb service")->excludes(dicom);
+    dicom->excludes(web);
+    put->add_option("--tls", o->tls, "TLS for a DICOM server; default off")
+        ->check(CLI::IsMember({"off", "on"}));
+    put->add_option("--authorities", o->authorities,
+                    "Certificates of the authorities that are trusted, in PEM format; default: "
+                    "those of the system")
+        ->check(CLI::ExistingFile);
+    CLI::Option *certificate =
+        put->add_option("--certificate", o->certificate,
+                        "Certificate that this program shows the server, in PEM format")
+            ->check(CLI::ExistingFile);
+    CLI::Option *key =
+        put->add_option("--key", o->key, "Private key of the certificate, in PEM format")
+            ->check(CLI::ExistingFile)
+            ->needs(certificate);
+    certificate->needs(key);
+    put->add_option("--calling-ae", o->callingAe, "AE title of this program; default PELLUCID");
+    put->add_option("--retrieve", o->retrieve, "How objects are retrieved; default automatic")
+        ->check(CLI::IsMember({"automatic", "get", "move"}));
+    put->add_option("--authentication", o->authentication,
+                    "How this program authenticates itself; default none")
+        ->check(CLI::IsMember({"none", "basic", "bearer"}));
+    put->add_option("--user", o->user, "User name for basic authentication");
+    put->add_option("--character-set", o->set,
+                    "Character set of answers that name none, such as 'ISO_IR 100'");
+    put->add_option("--connections", o->connections, "Connections at once, 1 to 8; default 4")
+        ->check(CLI::Range(1, archive::maxConnections));
+    put->add_option("--limit", o->limit, "Most answers to a search; default 200; 0: no limit");
+    put->callback([o] {
+        if (o->dicom.empty() == o->web.empty())
+            throw CLI::RequiredError("--dicom or --web");
+        add(*o);
+    });
+    CLI::App *all = c->add_subcommand("list", "List the servers");
+    all->add_flag("--json", o->json, "Print a JSON array");
+    all->callback([o] { list(*o); });
+    CLI::App *check =
+        c->add_subcommand("test", "Connect step by step, and report the step that fails");
+    check->add_option("NAME", o->name, "Name of the server")->required();
+    check->callback([o, context] { test(*o, context, true); });
+    CLI::App *remove = c->add_subcommand("remove", "Remove a server from the list");
+    remove->add_option("NAME", o->name, "Name of the server")->required();
+    remove->callback([o] { archive::ServerList::ofUser().remove(o->name); });
+
+    auto e = std::make_shared<Options>();
+    CLI::App *echo = app.add_subcommand("echo", "Ask whether a server answers");
+    echo->add_option("NAME", e->name, "Name of the server")->required();
+    echo->callback([e, context] { test(*e, context, false); });
+}
+
+} // namespace pellucid::cli

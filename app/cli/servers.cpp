@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/servers.h"
+
+#include <cstdio>
+#include <termios.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "core/files/descriptor.h"
+#include "core/task/error.h"
+
+#include <fcntl.h>
+
+namespace pellucid::cli {
+
+namespace {
+
+namespace because = task::because;
+
+// Reads a line from the terminal without showing it.
+std::string ask(const std::string &question) {
+    const files::Descriptor terminal(::open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY));
+    termios shown{};
+    if (!terminal || ::tcgetattr(terminal.get(), &shown) != 0)
+        throw task::Error(task::ErrorCode::usage, because::passwordNeedsATerminal);
+    termios hidden = shown;
+    hidden.c_lflag &= ~tcflag_t(ECHO);
+    (void)!::write(terminal.get(), question.data(), question.size());
+    ::tcsetattr(terminal.get(), TCSAFLUSH, &hidden);
+    std::string line;
+    for (char c = 0; ::read(terminal.get(), &c, 1) == 1 && c != '\n';)
+        line += c;
+    ::tcsetattr(terminal.get(), TCSAFLUSH, &shown);
+    (void)!::write(terminal.get(), "\n", 1);
+    return line;
+}
+
+// Whether a private key has to be unlocked.
+bool isEncrypted(const std::string &key) {
+    if (key.empty())
+        return false;
+    std::FILE *const file = std::fopen(key.c_str(), "re");
+    if (file == nullptr)
+        return false; // reported when it is used
+    std::string text(4096, '\0');
+    text.resize(std::fread(text.data(), 1, text.size(), file));
+    std::fclose(file);
+    return text.find("ENCRYPTED") != std::string::npos;
+}
+
+} // namespace
+
+archive::Server serverNamed(const std::string &name) {
+    return serversNamed({name}).front();
+}
+
+std::vector<archive::Server> serversNamed(const std::vector<std::string> &names) {
+    const auto list = archive::ServerList::ofUser();
+    std::vector<archive::Server> servers;
+    for (const std::string &name : names) {
+        archive::Server server = list.get(name);
+        if (server.peer.authentication == exchange::Authentication::basic)
+            server.peer.secret =
+                ask(fmt::format("Password of {} at {}: ", server.peer.user, server.name));
+        else if (server.peer.authentication == exchange::Authentication::bearer)
+            server.peer.secret = ask(fmt::format("Token for {}: ", server.name));
+        if (isEncrypted(server.peer.key))
+            server.peer.keyPassword = ask(fmt::format("Password of {}: ", server.peer.key));
+        servers.push_back(std::move(server));
+    }
+    return servers;
+}
+
+std::string rateText(std::uint64_t bytes, double seconds) {
+    constexpr double perMegabyte = 1e6;
+    const double megabytes = double(bytes) / perMegabyte;
+    return seconds > 0.0 ? fmt::format("{:.1f} MB, {:.1f} MB/s", megabytes, megabytes / seconds)
+                         : fmt::format("{:.1f} MB", megabytes);
+}
+
+} // namespace pellucid::cli

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/archive/instance_list.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/exchange/link.h"
+#include "core/task/error.h"
+
+namespace pellucid::archive {
+
+namespace {
+
+namespace because = task::because;
+namespace tag = exchange::tag;
+using exchange::Attributes;
+using exchange::Level;
+
+std::string textOf(const Attributes &attributes, std::uint32_t tag) {
+    const auto at = attributes.find(tag);
+    return at == attributes.end() ? std::string() : at->second;
+}
+
+int numberOf(const std::string &text) {
+    int number = 0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
+
+std::vector<double> numbersOf(const std::string &text) {
+    std::vector<double> numbers;
+    std::istringstream each(text);
+    for (std::string part; std::getline(each, part, '\\');) {
+        double value = 0.0;
+        const char *const begin = part.data() + (part.find_first_not_of(" +") % (part.size() + 1));
+        if (std::from_chars(begin, part.data() + part.size(), value).ec == std::errc())
+            numbers.push_back(value);
+    }
+    return numbers;
+}
+
+// The place along the normal of the slices; nothing if the server does not tell.
+std::optional<double> heightOf(const Attributes &attributes) {
+    const auto position = numbersOf(textOf(attributes, tag::position));
+    const auto axes = numbersOf(textOf(attributes, tag::orientation));
+    if (position.size() != 3)
+        return std::nullopt;
+    if (axes.size() != 6)
+        return position[2];
+    const glm::dvec3 normal =
+        glm::cross(glm::dvec3(axes[0], axes[1], axes[2]), glm::dvec3(axes[3], axes[4], axes[5]));
+    return glm::dot(normal, glm::dvec3(position[0], position[1], position[2]));
+}
+
+struct Listed {
+    Instance instance;
+    std::optional<double> height;
+};
+
+} // namespace
+
+std::vector<std::size_t> coarseToFine(std::size_t n) {
+    std::vector<std::size_t> order;
+    if (n == 0)
+        return order;
+    std::size_t stride = 1;
+    while (stride * 2 < n)
+        stride *= 2;
+    std::vector<bool> isTaken(n, false);
+    const auto take = [&](std::size_t index) {
+        if (!isTaken[index])
+            order.push_back(index);
+        isTaken[index] = true;
+    };
+    take(0);
+    take(n - 1);
+    for (; stride > 0; stride /= 2)
+        for (std::size_t index = 0; index < n; index += stride)
+            take(index);
+    return order;
+}
+
+std::vector<Instance> listInstances(const Server &server, const Wanted &wanted,
+                                    const task::Progress &progress) {
+    exchange::Link link({.peer = server.peer, .purpose = exchange::Purpose::find}, progress);
+    std::vector<std::string> seriesUids = wanted.seriesUids;
+    if (seriesUids.empty()) {
+        std::map<int, std::set<std::string>> byNumber;
+        link.find(
+            {.level = Level::series,
+             .keys = {{tag::studyUid, wanted.studyUid},
+                      {tag::seriesUid, ""},
+                      {tag::seriesNumber, ""}},
+             .limit = 0},
+            [&](const Attributes &match) {
+                if (const std::string uid = textOf(match, tag::seriesUid); exchange::isUid(uid))
+                    byNumber[numberOf(textOf(match, tag::seriesNumber))].insert(uid);
+            },
+            progress);
+        for (const auto &[number, uids] : byNumber)
+            seriesUids.insert(seriesUids.end(), uids.begin(), uids.end());
+    }
+    std::vector<Instance> instances;
+    std::set<std::string> known;
+    for (const std::string &series : seriesUids) {
+        std::vector<Listed> listed;
+        link.find(
+            {.level = Level::image,
+             .keys = {{tag::studyUid, wanted.studyUid},
+                      {tag::seriesUid, series},
+                      {tag::sopInstanceUid, ""},
+                      {tag::sopClassUid, ""},
+                      {tag::instanceNumber, ""},
+                      {tag::position, ""},
+                      {tag::orientation, ""}},
+             .limit = 0},
+            [&](const Attributes &match) {
+                const std::string uid = textOf(match, tag::sopInstanceUid);
+                if (!exchange::isUid(uid) || !known.insert(uid).second)
+                    return;
+                const std::string sopClass = textOf(match, tag::sopClassUid);
+                listed.push_back({{wanted.studyUid, series, uid,
+                                   exchange::isUid(sopClass) ? sopClass : std::string(),
+                                   numberOf(textOf(match, tag::instanceNumber))},
+                                  heightOf(match)});
+            },
+            progress);
+        const bool havePlaces = std::all_of(
+            listed.begin(), listed.end(), [](const Listed &one) { return one.height.has_value(); });
+        std::stable_sort(listed.begin(), listed.end(), [&](const Listed &a, const Listed &b) {
+            return havePlaces ? *a.height < *b.height : a.instance.number < b.instance.number;
+        });
+        for (Listed &one : listed)
+            instances.push_back(std::move(one.instance));
+    }
+    if (instances.empty())
+        throw task::Error(task::ErrorCode::unusable, because::serverHasNoSuchStudy);
+    return instances;
+}
+
+} // namespace pellucid::archive

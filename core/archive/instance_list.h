@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/archive/server.h"
+#include "core/exchange/query.h"
+#include "core/task/progress.h"
+
+namespace pellucid::archive {
+
+/// An object of a study, as a server lists it.
+struct Instance {
+    std::string studyUid, seriesUid, sopInstanceUid;
+    std::string sopClassUid; ///< empty if the server does not tell
+    int number = 0;          ///< 0 if unknown
+};
+
+/// What is wanted of a study: all of it, or these series.
+struct Wanted {
+    std::string studyUid;
+    std::vector<std::string> seriesUids;
+};
+
+/// The objects that a server has of it, series by series, each in the order of slices. *Throws* as
+/// exchange::Link; Error{unusable} if the server has none.
+std::vector<Instance> listInstances(const Server &server, const Wanted &wanted,
+                                    const task::Progress &progress = {});
+
+/// The indices 0 to n - 1 from coarse to fine: the ends, the middle, quarters, eighths ... After an
+/// eighth of them, every eighth is there.
+std::vector<std::size_t> coarseToFine(std::size_t n);
+
+} // namespace pellucid::archive

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/archive/server.h"
+#include "core/exchange/link.h"
+
+namespace pellucid::archive {
+
+/// A sender that may connect.
+struct Sender {
+    std::string ae; ///< empty: any at this host
+    std::string host;
+};
+
+struct ListenerOptions {
+    int port = defaultListenerPort; ///< 0: any free one
+    std::string ae = "PELLUCID";
+    std::vector<Sender> senders; ///< empty: nobody
+    bool acceptsAnyone = false;
+    bool usesTls = false;
+    std::string authorities, certificate, key, keyPassword; ///< as of exchange::Peer
+    double silenceSeconds = 60.0;
+};
+
+/// What happens at a listener. Called from threads of its own, one at a time.
+struct ListenerObserver {
+    /// A connection has ended, `reason` being empty if in order. `sender`: the AE title, or the
+    /// address if it is unknown.
+    std::function<void(const std::string &sender, const std::optional<task::Reason> &reason)> ended;
+};
+
+/// A DICOM server for storage: accepts connections of known senders only, each in a `pellucid-net`
+/// of its own. It runs as long as the object exists.
+class Listener {
+public:
+    using Receivers = std::function<std::unique_ptr<exchange::Receiver>()>;
+    /// `receivers` makes the receiver of each connection. *Throws* Error{usage} if the port cannot
+    /// be used.
+    Listener(ListenerOptions options, Receivers receivers, ListenerObserver observer = {});
+    ~Listener();
+    Listener(const Listener &) = delete;
+    Listener &operator=(const Listener &) = delete;
+
+    int port() const;
+
+private:
+    class Threads;
+    std::unique_ptr<Threads> m_threads;
+};
+
+} // namespace pellucid::archive

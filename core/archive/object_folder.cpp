@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/archive/object_folder.h"
+
+#include "core/decoder/decoder.h"
+#include "core/task/error.h"
+
+namespace pellucid::archive {
+
+namespace {
+
+namespace because = task::because;
+namespace fs = std::filesystem;
+namespace tag = exchange::tag;
+using task::Error;
+using task::ErrorCode;
+
+std::string valueOf(const decoder::AttributeList &list, std::uint32_t tag) {
+    for (const decoder::Attribute &attribute : list.attributes)
+        if (attribute.depth == 0 && attribute.tag == tag)
+            return attribute.value;
+    return {};
+}
+
+} // namespace
+
+ObjectFolder::ObjectFolder(fs::path folder, Keeps keeps)
+    : m_folder(std::move(folder)), m_keeps(keeps) {}
+
+fs::path ObjectFolder::pathOf(const std::string &studyUid, const std::string &seriesUid,
+                              const std::string &sopInstanceUid) const {
+    return m_folder / studyUid / seriesUid / (sopInstanceUid + ".dcm");
+}
+
+bool ObjectFolder::has(const std::string &studyUid, const std::string &seriesUid,
+                       const std::string &sopInstanceUid) const {
+    std::error_code unknown;
+    return fs::is_regular_file(pathOf(studyUid, seriesUid, sopInstanceUid), unknown);
+}
+
+std::unique_ptr<files::AtomicFile> ObjectFolder::open(const exchange::Arrival &arrival) const {
+    return std::make_unique<files::AtomicFile>(m_folder / (arrival.sopInstanceUid + ".dcm"));
+}
+
+StoredObject ObjectFolder::keep(files::AtomicFile &file, const exchange::Arrival &arrival,
+                                std::uint64_t bytes) const {
+    if (bytes == 0)
+        throw Error(ErrorCode::output, because::isNotWritable, m_folder);
+    // The decoder reads the file that has no name yet.
+    const fs::path unnamed = "/proc/self/fd/" + std::to_string(file.descriptor());
+    decoder::AttributeList list;
+    try {
+        list = decoder::Decoder::shared().attributes(unnamed);
+    } catch (const Error &error) {
+        throw Error(error.code(), error.reason());
+    }
+    if (!list.isComplete && list.attributes.size() < decoder::maxAttributes)
+        throw Error(ErrorCode::unusable, because::isTruncated);
+    StoredObject object{{},
+                        valueOf(list, tag::studyUid),
+                        valueOf(list, tag::seriesUid),
+                        valueOf(list, tag::sopInstanceUid),
+                        valueOf(list, tag::sopClassUid),
+                        bytes};
+    if (object.sopInstanceUid != arrival.sopInstanceUid ||
+        object.sopClassUid != arrival.sopClassUid)
+        throw Error(ErrorCode::unusable, because::isNotWhatWasAnnounced);
+    // The UIDs become names of folders.
+    if (!exchange::isUid(object.studyUid) || !exchange::isUid(object.seriesUid))
+        throw Error(ErrorCode::unusable, because::hasNoValidUids);
+    object.path = pathOf(object.studyUid, object.seriesUid, object.sopInstanceUid);
+    std::error_code failed;
+    fs::create_directories(object.path.parent_path(), failed);
+    if (failed)
+        throw Error(ErrorCode::output, because::cannotBeMade(task::systemReason(failed.value())),
+                    object.path.parent_path());
+    file.moveTo(object.path);
+    file.commit(m_keeps == Keeps::onDisk ? files::AtomicFile::Bytes::flushed
+                                         : files::AtomicFile::Bytes::unflushed);
+    return object;
+}
+
+} // namespace pellucid::archive

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/exchange/link.h"
+#include "core/files/atomic_file.h"
+#include "core/task/reason.h"
+
+namespace pellucid::archive {
+
+/// An object in a folder.
+struct StoredObject {
+    std::filesystem::path path;
+    std::string studyUid, seriesUid, sopInstanceUid, sopClassUid;
+    std::uint64_t bytes = 0;
+};
+
+/// Why an object was not kept.
+struct RefusedObject {
+    std::string sopInstanceUid;
+    task::Reason reason;
+};
+
+/// Where received objects are stored: FOLDER/STUDY/SERIES/INSTANCE.dcm, named by their UIDs. A file
+/// appears there only when it is complete, readable, and is what its sender announced.
+class ObjectFolder {
+public:
+    /// `isDurable`: an object is kept only when it is on the disk, because its sender may delete
+    /// it.
+    enum class Keeps { inMemoryOfTheSystem, onDisk };
+    ObjectFolder(std::filesystem::path folder, Keeps keeps);
+
+    const std::filesystem::path &folder() const { return m_folder; }
+    std::filesystem::path pathOf(const std::string &studyUid, const std::string &seriesUid,
+                                 const std::string &sopInstanceUid) const;
+    bool has(const std::string &studyUid, const std::string &seriesUid,
+             const std::string &sopInstanceUid) const;
+
+    /// Puts a complete file, still without a name, into its place. *Throws* Error{unusable} if it
+    /// is not the object that was announced, Error{output}.
+    StoredObject keep(files::AtomicFile &file, const exchange::Arrival &arrival,
+                      std::uint64_t bytes) const;
+    /// A file without a name. *Throws* Error{output}.
+    std::unique_ptr<files::AtomicFile> open(const exchange::Arrival &arrival) const;
+
+private:
+    std::filesystem::path m_folder;
+    Keeps m_keeps;
+};
+
+} // namespace pellucid::archive

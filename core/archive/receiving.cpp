@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/archive/receiving.h"
+
+#include "core/task/error.h"
+
+namespace pellucid::archive {
+
+namespace {
+
+constexpr std::uint16_t outOfResources = 0xa700, cannotUnderstand = 0xc000;
+
+} // namespace
+
+class Receiving::Connection : public exchange::Receiver {
+public:
+    explicit Connection(Receiving &all) : m_all(all) {}
+
+    std::variant<int, std::uint16_t> open(const exchange::Arrival &arrival) override {
+        try {
+            m_file = m_all.m_folder.open(arrival);
+            return m_file->descriptor();
+        } catch (const task::Error &error) {
+            refuse(arrival, error.reason());
+            return outOfResources;
+        }
+    }
+    std::uint16_t keep(const exchange::Arrival &arrival, std::uint64_t bytes) override {
+        const std::unique_ptr<files::AtomicFile> file = std::move(m_file);
+        try {
+            const StoredObject object = m_all.m_folder.keep(*file, arrival, bytes);
+            const std::lock_guard lock(m_all.m_mutex);
+            if (m_all.m_log != nullptr)
+                m_all.m_log->addArrival(object, arrival.callingAe);
+            if (m_all.m_observer.stored)
+                m_all.m_observer.stored(object);
+            return 0;
+        } catch (const task::Error &error) {
+            refuse(arrival, error.reason());
+            return error.code() == task::ErrorCode::unusable ? cannotUnderstand : outOfResources;
+        }
+    }
+
+private:
+    void refuse(const exchange::Arrival &arrival, const task::Reason &reason) {
+        const std::lock_guard lock(m_all.m_mutex);
+        if (m_all.m_observer.refused)
+            m_all.m_observer.refused({arrival.sopInstanceUid, reason});
+    }
+
+    Receiving &m_all;
+    std::unique_ptr<files::AtomicFile> m_file;
+};
+
+Receiving::Receiving(const ObjectFolder &folder, TransferLog *log, ReceivingObserver observer)
+    : m_folder(folder), m_log(log), m_observer(std::move(observer)) {}
+
+Receiving::~Receiving() = default;
+
+std::unique_ptr<exchange::Receiver> Receiving::receiver() {
+    return std::make_unique<Connection>(*this);
+}
+
+} // namespace pellucid::archive

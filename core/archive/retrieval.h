@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/archive/instance_list.h"
+#include "core/archive/object_folder.h"
+#include "core/archive/server.h"
+#include "core/task/progress.h"
+
+namespace pellucid::archive {
+
+/// How far a retrieval is.
+struct RetrievalState {
+    std::size_t wanted = 0;   ///< objects that the server has
+    std::size_t present = 0;  ///< of them, here before
+    std::size_t received = 0; ///< of them, now
+    std::uint64_t bytes = 0;  ///< received now, also of incomplete objects
+};
+
+/// The result of a retrieval.
+struct RetrievalReport {
+    RetrievalState state;
+    double seconds = 0.0;
+    /// The objects that lack, each with its reason.
+    std::vector<RefusedObject> lacking;
+    /// Objects that came although nobody asked for them, or twice.
+    std::size_t unwanted = 0;
+    bool isComplete() const { return lacking.empty(); }
+};
+
+/// Told from one thread at a time.
+struct RetrievalObserver {
+    std::function<void(const std::vector<Instance> &)> listed;
+    std::function<void(const StoredObject &)> stored;
+    std::function<void(const RetrievalState &)> changed;
+};
+
+/// Where a server sends objects for C-MOVE: it must know this AE title with this computer's address
+/// and port.
+struct MoveDestination {
+    std::string ae = "PELLUCID";
+    int port = defaultListenerPort;
+};
+
+/// Retrieves what lacks in a folder of a study: compressed objects stay compressed, series come
+/// from coarse to fine, over up to `Server::connections` connections. A connection that is lost is
+/// made again while the others go on; what is still missing at the end is listed. *Throws*
+/// Error{unreachable} if nothing could be retrieved because the server cannot be reached, as
+/// exchange::Link otherwise; Error{output} if the folder cannot be written; Cancelled. What has
+/// arrived stays in any case.
+RetrievalReport retrieve(const Server &server, const Wanted &wanted, const ObjectFolder &folder,
+                         const RetrievalObserver &observer = {},
+                         const task::Progress &progress = {},
+                         const MoveDestination &destination = {});
+
+} // namespace pellucid::archive

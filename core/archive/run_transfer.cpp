@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/archive/run_transfer.h"
+
+#include <chrono>
+
+#include "core/files/user_folders.h"
+#include "core/task/error.h"
+
+namespace pellucid::archive {
+
+namespace {
+
+namespace because = task::because;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds recordedEvery(500);
+
+} // namespace
+
+std::filesystem::path libraryObjectFolder() {
+    const auto data = files::userDataFolder();
+    if (!data)
+        throw task::Error(task::ErrorCode::output, because::noFolderForData);
+    return *data / "library" / "files";
+}
+
+RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &server,
+                            const RetrievalObserver &observer, const task::Progress &progress,
+                            const MoveDestination &destination) {
+    const std::optional<Transfer> transfer = log.transfer(id);
+    if (!transfer || !log.claim(id))
+        throw task::Error(task::ErrorCode::usage, because::transferIsRunning);
+    const bool isForLibrary = transfer->folder == libraryObjectFolder();
+    const auto begin = Clock::now();
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(Clock::now() - begin).count();
+    };
+    // Both end it: the caller's cancel, and that of another program in the log.
+    std::stop_source stop;
+    const task::Progress stoppable(stop.get_token());
+    RetrievalState reached;
+    auto recorded = Clock::now() - recordedEvery;
+    // Callbacks come from several threads, one at a time; the log's connection allows that.
+    RetrievalObserver recording;
+    recording.listed = observer.listed;
+    recording.stored = [&](const StoredObject &object) {
+        if (isForLibrary)
+            log.addArrival(object, server.name);
+        if (observer.stored)
+            observer.stored(object);
+    };
+    recording.changed = [&](const RetrievalState &state) {
+        reached = state;
+        if (progress.stopRequested())
+            stop.request_stop();
+        if (Clock::now() - recorded >= recordedEvery) {
+            recorded = Clock::now();
+            log.update(id, state, seconds());
+            const auto now = log.transfer(id);
+            if (!now || now->state == TransferState::cancelled)
+                stop.request_stop();
+        }
+        if (state.wanted > 0)
+            progress.report(double(state.present + state.received) / double(state.wanted));
+        if (observer.changed)
+            observer.changed(state);
+    };
+    // A server that hangs brings no callbacks.
+    const std::stop_callback forwarded(progress.stopToken(), [&] { stop.request_stop(); });
+    try {
+        RetrievalReport report =
+            retrieve(server, transfer->wanted,
+                     ObjectFolder(transfer->folder, ObjectFolder::Keeps::inMemoryOfTheSystem),
+                     recording, stoppable, destination);
+        log.finish(id, report.isComplete() ? TransferState::complete : TransferState::incomplete,
+                   report.state, seconds(),
+                   report.isComplete() ? "" : report.lacking.front().reason.encoded());
+        return report;
+    } catch (const task::Cancelled &) {
+        log.finish(id, TransferState::cancelled, reached, seconds(), {});
+        throw;
+    } catch (const task::Error &error) {
+        log.finish(id, TransferState::incomplete, reached, seconds(), error.reason().encoded());
+        throw;
+    }
+}
+
+} // namespace pellucid::archive

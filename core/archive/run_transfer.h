@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/archive/retrieval.h"
+#include "core/archive/transfer_log.h"
+
+namespace pellucid::archive {
+
+/// Where objects that belong to the library are stored, below the user's data.
+std::filesystem::path libraryObjectFolder();
+
+/// Does a transfer of the log, and records how far it came, so that it is continued after a kill.
+/// Stops if the transfer is cancelled in the log, by any program. Objects for the library are
+/// recorded as arrivals. *Throws* as `retrieve`; Error{usage} if another program is doing it.
+RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &server,
+                            const RetrievalObserver &observer = {},
+                            const task::Progress &progress = {},
+                            const MoveDestination &destination = {});
+
+} // namespace pellucid::archive

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/archive/search.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "core/exchange/link.h"
+#include "core/task/error.h"
+
+namespace pellucid::archive {
+
+namespace {
+
+namespace because = task::because;
+namespace tag = exchange::tag;
+using exchange::Level;
+using task::Error;
+using task::ErrorCode;
+
+void requirePlain(const std::string &text) {
+    if (text.find('\\') != std::string::npos ||
+        std::any_of(text.begin(), text.end(), [](char c) { return (unsigned char)(c) < 0x20; }))
+        throw Error(ErrorCode::usage, because::searchTextHasABackslash(text));
+}
+
+void requireDate(const std::string &date) {
+    const auto isDay = [](const std::string &day) {
+        return day.size() == 8 &&
+               std::all_of(day.begin(), day.end(), [](char c) { return c >= '0' && c <= '9'; });
+    };
+    const auto dash = date.find('-');
+    const std::string from = date.substr(0, dash),
+                      to = dash == std::string::npos ? from : date.substr(dash + 1);
+    if (!((isDay(from) || from.empty()) && (isDay(to) || to.empty()) &&
+          !(from.empty() && to.empty())))
+        throw Error(ErrorCode::usage, because::isNoDateRange(date));
+}
+
+std::uint32_t uidOf(Level level) {
+    switch (level) {
+    case Level::study:
+        return tag::studyUid;
+    case Level::series:
+        return tag::seriesUid;
+    case Level::image:
+        return tag::sopInstanceUid;
+    }
+    return tag::studyUid;
+}
+
+// Folds the answers of all servers.
+class Folder {
+public:
+    Folder(const SearchObserver &observer, Level level) : m_observer(observer), m_level(level) {}
+
+    void add(const std::string &server, exchange::Attributes attributes) {
+        const std::lock_guard lock(m_mutex);
+        const std::string uid = attributes[uidOf(m_level)];
+        if (!exchange::isUid(uid))
+            return;
+        const auto [known, isNew] = m_indices.emplace(uid, m_result.entries.size());
+        if (isNew)
+            m_result.entries.push_back({std::move(attributes), {}});
+        FoundEntry &entry = m_result.entries[known->second];
+        if (std::find(entry.servers.begin(), entry.servers.end(), server) == entry.servers.end())
+            entry.servers.push_back(server);
+        if (m_observer.found)
+            m_observer.found(entry, known->second);
+    }
+    void end(ServerOutcome outcome) {
+        const std::lock_guard lock(m_mutex);
+        m_result.outcomes.push_back(std::move(outcome));
+        if (m_observer.ended)
+            m_observer.ended(m_result.outcomes.back());
+    }
+    SearchResult take() { return std::move(m_result); }
+
+private:
+    const SearchObserver &m_observer;
+    Level m_level;
+    std::mutex m_mutex;
+    std::map<std::string, std::size_t> m_indices;
+    SearchResult m_result;
+};
+
+void searchAt(const Server &server, const SearchTerms &terms, Folder &folder,
+              const task::Progress &progress) {
+    const auto begin = std::chrono::steady_clock::now();
+    ServerOutcome outcome;
+    outcome.server = server.name;
+    try {
+        exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::find}, progress);
+        const exchange::QueryEnd end = link.find(
+            queryOf(terms, server.limit),
+            [&](exchange::Attributes match) { folder.add(server.name, std::move(match)); },
+            progress);
+        outcome.reachedLimit = end.reachedLimit;
+        outcome.warnings = end.warnings;
+    } catch (const Error &error) {
+        outcome.failure = error.reason();
+    }
+    outcome.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    folder.end(std::move(outcome));
+}
+
+} // namespace
+
+std::string FoundEntry::text(std::uint32_t tag) const {
+    const auto at = attributes.find(tag);
+    return at == attributes.end() ? std::string() : at->second;
+}
+
+exchange::Query queryOf(const SearchTerms &terms, std::uint32_t limit) {
+    for (const std::string *const text :
+         {&terms.patientName, &terms.patientId, &terms.accession, &terms.modality})
+        requirePlain(*text);
+    if (!terms.date.empty())
+        requireDate(terms.date);
+    for (const std::string *const uid : {&terms.studyUid, &terms.seriesUid})
+        if (!uid->empty() && !exchange::isUid(*uid))
+            throw Error(ErrorCode::usage, because::isNoUid(*uid));
+    if (terms.level != Level::study && terms.studyUid.empty())
+        throw Error(ErrorCode::usage, because::levelNeedsAStudy);
+    exchange::Query query{terms.level, {{tag::studyUid, terms.studyUid}}, limit};
+    exchange::Attributes &keys = query.keys;
+    switch (terms.level) {
+    case Level::study:
+        keys.insert({{tag::patientName, terms.patientName},
+                     {tag::patientId, terms.patientId},
+                     {tag::birthDate, ""},
+                     {tag::sex, ""},
+                     {tag::studyDate, terms.date},
+                     {tag::studyTime, ""},
+                     {tag::studyDescription, ""},
+                     {tag::accessionNumber, terms.accession},
+                     {tag::modalitiesInStudy, terms.modality},
+                     {tag::seriesInStudy, ""},
+                     {tag::instancesInStudy, ""}});
+        break;
+    case Level::series:
+        keys.insert({{tag::seriesUid, terms.seriesUid},
+                     {tag::seriesNumber, ""},
+                     {tag::seriesDescription, ""},
+                     {tag::modality, terms.modality},
+                     {tag::bodyPart, ""},
+                     {tag::instancesInSeries, ""}});
+        break;
+    case Level::image:
+        if (terms.seriesUid.empty())
+            throw Error(ErrorCode::usage, because::levelNeedsASeries);
+        keys.insert({{tag::seriesUid, terms.seriesUid},
+                     {tag::sopInstanceUid, ""},
+                     {tag::sopClassUid, ""},
+                     {tag::instanceNumber, ""}});
+        break;
+    }
+    return query;
+}
+
+SearchResult search(const std::vector<Server> &servers, const SearchTerms &terms,
+                    const SearchObserver &observer, const task::Progress &progress) {
+    queryOf(terms, 0); // the terms make sense before anything is connected
+    Folder folder(observer, terms.level);
+    std::mutex mutex;
+    std::exception_ptr failure;
+    {
+        std::vector<std::jthread> threads;
+        for (const Server &server : servers)
+            threads.emplace_back([&, server] {
+                try {
+                    searchAt(server, terms, folder, progress);
+                } catch (...) {
+                    const std::lock_guard lock(mutex);
+                    failure = std::current_exception();
+                }
+            });
+    }
+    if (failure)
+        std::rethrow_exception(failure);
+    return folder.take();
+}
+
+} // namespace pellucid::archive

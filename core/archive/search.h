@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/archive/server.h"
+#include "core/exchange/query.h"
+#include "core/task/progress.h"
+#include "core/task/reason.h"
+
+namespace pellucid::archive {
+
+/// What is searched for; empty texts restrict nothing. `*` and `?` are wildcards.
+struct SearchTerms {
+    std::string patientName, patientId, accession, modality, studyUid;
+    /// YYYYMMDD, or a range FROM-TO with one end missing perhaps.
+    std::string date;
+    exchange::Level level = exchange::Level::study;
+    std::string seriesUid; ///< for images
+};
+
+/// A study, series or image, as one or more servers describe it.
+struct FoundEntry {
+    exchange::Attributes attributes; ///< of the first server that has it
+    std::vector<std::string> servers;
+
+    std::string text(std::uint32_t tag) const;
+};
+
+/// How the search ended at a server.
+struct ServerOutcome {
+    std::string server;
+    bool reachedLimit = false;
+    std::vector<std::string> warnings;
+    std::optional<task::Reason> failure;
+    double seconds = 0.0;
+};
+
+struct SearchResult {
+    std::vector<FoundEntry> entries; ///< folded by their UID, in the order of their arrival
+    std::vector<ServerOutcome> outcomes;
+};
+
+/// Told of each entry as it arrives, from one thread at a time: a new one, or a known one that
+/// another server also has; and of each server when it has ended.
+struct SearchObserver {
+    std::function<void(const FoundEntry &entry, std::size_t index)> found;
+    std::function<void(const ServerOutcome &)> ended;
+};
+
+/// Searches servers at the same time. A server that fails is an outcome; the others go on. *Throws*
+/// Error{usage} if the terms make no sense; Cancelled.
+SearchResult search(const std::vector<Server> &servers, const SearchTerms &terms,
+                    const SearchObserver &observer = {}, const task::Progress &progress = {});
+
+/// The query of these terms, and the attributes it asks for. *Throws* Error{usage}.
+exchange::Query queryOf(const SearchTerms &terms, std::uint32_t limit);
+
+} // namespace pellucid::archive

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/archive/sending.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <set>
+#include <sys/stat.h>
+
+#include "core/decoder/decoder.h"
+#include "core/exchange/link.h"
+#include "core/task/error.h"
+
+namespace pellucid::archive {
+
+namespace {
+
+namespace because = task::because;
+namespace fs = std::filesystem;
+using exchange::Encoding;
+using task::Error;
+using task::ErrorCode;
+using Clock = std::chrono::steady_clock;
+
+// An association has room for 128 presentation contexts.
+constexpr std::size_t encodingsAtOnce = 120;
+constexpr int maxFailures = 3;
+
+struct Outgoing {
+    fs::path path;
+    Encoding encoding;
+};
+
+// A mere description of the patient's files could be large; the decoder reads each header.
+std::vector<Outgoing> describe(const std::vector<fs::path> &files, SendingReport &report,
+                               const task::Progress &progress) {
+    std::vector<Outgoing> outgoing;
+    for (const fs::path &path : files) {
+        progress.check();
+        try {
+            const auto list = decoder::Decoder::shared().attributes(path, progress);
+            Encoding encoding;
+            for (const decoder::Attribute &attribute : list.attributes) {
+                if (attribute.depth != 0)
+                    continue;
+                if (attribute.tag == 0x00020010)
+                    encoding.transferSyntax = attribute.value.substr(0, attribute.value.find(' '));
+                if (attribute.tag == exchange::tag::sopClassUid)
+                    encoding.sopClassUid = attribute.value.substr(0, attribute.value.find(' '));
+            }
+            if (!exchange::isUid(encoding.sopClassUid) || !exchange::isUid(encoding.transferSyntax))
+                throw Error(ErrorCode::unusable, because::hasNoValidUids, path);
+            outgoing.push_back({path, encoding});
+        } catch (const Error &error) {
+            report.notSent.push_back({path, error.reason()});
+        }
+    }
+    return outgoing;
+}
+
+class Sender {
+public:
+    Sender(const Server &server, const std::function<void(const SendingState &)> &changed,
+           const task::Progress &progress, SendingReport &report)
+        : m_server(server), m_changed(changed), m_progress(progress), m_report(report) {}
+
+    // Files of few enough encodings for one association.
+    void send(const std::vector<Outgoing> &files, const std::vector<Encoding> &encodings) {
+        std::optional<exchange::Link> link;
+        int failures = 0;
+        for (std::size_t n = 0; n < files.size();) {
+            try {
+                if (!link)
+                    link.emplace(
+                        exchange::Connection{
+                            m_server.peer, exchange::Purpose::store, {}, {}, encodings},
+                        m_progress);
+                store(*link, files[n].path);
+                failures = 0;
+                ++n;
+            } catch (const Error &error) {
+                if (error.code() == ErrorCode::unreachable) {
+                    link.reset();
+                    if (++failures < maxFailures)
+                        continue; // the same file again
+                    if (m_report.state.sent == 0)
+                        throw;
+                    for (; n < files.size(); ++n)
+                        m_report.notSent.push_back({files[n].path, error.reason()});
+                    return;
+                }
+                m_report.notSent.push_back({files[n].path, error.reason()});
+                ++n;
+            }
+        }
+    }
+
+private:
+    void store(exchange::Link &link, const fs::path &path) {
+        const files::Descriptor file = files::openRegular(path);
+        struct stat about {};
+        if (::fstat(file.get(), &about) != 0)
+            throw Error(ErrorCode::unusable, task::systemReason(errno), path);
+        link.store(file.get(), std::uint64_t(about.st_size), m_progress);
+        ++m_report.state.sent;
+        m_report.state.bytes += std::uint64_t(about.st_size);
+        m_progress.report(double(m_report.state.sent) / double(m_report.state.files));
+        if (m_changed)
+            m_changed(m_report.state);
+    }
+
+    const Server &m_server;
+    const std::function<void(const SendingState &)> &m_changed;
+    const task::Progress &m_progress;
+    SendingReport &m_report;
+};
+
+} // namespace
+
+SendingReport send(const Server &server, const std::vector<fs::path> &files,
+                   const std::function<void(const SendingState &)> &changed,
+                   const task::Progress &progress) {
+    const auto begin = Clock::now();
+    SendingReport report;
+    report.state.files = files.size();
+    std::vector<Outgoing> outgoing = describe(files, report, progress);
+    Sender sender(server, changed, progress, report);
+    for (std::size_t first = 0; first < outgoing.size();) {
+        std::set<Encoding> encodings;
+        std::size_t last = first;
+        for (; last < outgoing.size(); ++last) {
+            encodings.insert(outgoing[last].encoding);
+            if (encodings.size() > encodingsAtOnce) {
+                encodings.erase(outgoing[last].encoding);
+                break;
+            }
+        }
+        sender.send(
+            {outgoing.begin() + std::ptrdiff_t(first), outgoing.begin() + std::ptrdiff_t(last)},
+            {encodings.begin(), encodings.end()});
+        first = last;
+    }
+    report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    return report;
+}
+
+} // namespace pellucid::archive

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/archive/server.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/task/error.h"
+
+namespace pellucid::archive {
+
+namespace {
+
+namespace because = task::because;
+
+[[noreturn]] void fail(const task::Reason &reason) {
+    throw task::Error(task::ErrorCode::usage, reason);
+}
+
+int portIn(const std::string &text) {
+    int port = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+    if (error != std::errc() || end != text.data() + text.size() || port < 1 || port > 65535)
+        fail(because::isNoPort(text));
+    return port;
+}
+
+// PS3.5, table 6.2-1: at most 16 characters, no backslash, no control characters, not blank.
+void requireAe(const std::string &title) {
+    if (title.empty() || title.size() > 16 || title.find('\\') != std::string::npos ||
+        title.find_first_not_of(' ') == std::string::npos ||
+        std::any_of(title.begin(), title.end(),
+                    [](char c) { return (unsigned char)(c) < 0x20 || (unsigned char)(c) > 0x7e; }))
+        fail(because::isNoAeTitle(title));
+}
+
+} // namespace
+
+exchange::Peer dicomPeer(const std::string &address) {
+    const auto at = address.find('@');
+    if (at == std::string::npos)
+        fail(because::isNoDicomAddress(address));
+    exchange::Peer peer;
+    peer.calledAe = address.substr(0, at);
+    peer.host = address.substr(at + 1);
+    peer.port = defaultDicomPort;
+    if (const auto colon = peer.host.rfind(':'); colon != std::string::npos) {
+        peer.port = portIn(peer.host.substr(colon + 1));
+        peer.host.resize(colon);
+    }
+    requireAe(peer.calledAe);
+    if (peer.host.empty() || peer.host.find_first_of(" /:") != std::string::npos)
+        fail(because::isNoDicomAddress(address));
+    return peer;
+}
+
+exchange::Peer webPeer(const std::string &url) {
+    exchange::Peer peer;
+    peer.protocol = exchange::Protocol::web;
+    const std::string secure = "https://", plain = "http://";
+    std::string rest;
+    if (url.starts_with(secure)) {
+        peer.usesTls = true;
+        peer.port = 443;
+        rest = url.substr(secure.size());
+    } else if (url.starts_with(plain)) {
+        peer.port = 80;
+        rest = url.substr(plain.size());
+    } else {
+        fail(because::isNoWebAddress(url));
+    }
+    const auto slash = rest.find('/');
+    peer.host = rest.substr(0, slash);
+    peer.path = slash == std::string::npos ? "" : rest.substr(slash);
+    while (!peer.path.empty() && peer.path.back() == '/')
+        peer.path.pop_back();
+    if (const auto colon = peer.host.rfind(':'); colon != std::string::npos) {
+        peer.port = portIn(peer.host.substr(colon + 1));
+        peer.host.resize(colon);
+    }
+    // A name and a password in the address would end in logs and files.
+    if (peer.host.empty() || peer.host.find_first_of(" @:?#") != std::string::npos ||
+        peer.path.find_first_of(" ?#") != std::string::npos)
+        fail(because::isNoWebAddress(url));
+    return peer;
+}
+
+std::string addressOf(const exchange::Peer &peer) {
+    if (peer.protocol == exchange::Protocol::dicom)
+        return peer.calledAe + "@" + peer.host + ":" + std::to_string(peer.port);
+    const int usual = peer.usesTls ? 443 : 80;
+    return (peer.usesTls ? "https://" : "http://") + peer.host +
+           (peer.port == usual ? "" : ":" + std::to_string(peer.port)) + peer.path;
+}
+
+void requireValid(const Server &server) {
+    if (server.name.empty() || server.name.size() > 64 ||
+        std::any_of(server.name.begin(), server.name.end(),
+                    [](char c) { return (unsigned char)(c) < 0x20; }))
+        fail(because::isNoServerName(server.name));
+    if (server.peer.protocol == exchange::Protocol::dicom)
+        requireAe(server.peer.calledAe);
+    requireAe(server.peer.callingAe);
+    if (server.connections < 1 || server.connections > maxConnections)
+        fail(because::connectionsAreOutOfRange(maxConnections));
+    if (server.peer.certificate.empty() != server.peer.key.empty())
+        fail(because::certificateNeedsItsKey);
+}
+
+} // namespace pellucid::archive

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/exchange/peer.h"
+
+namespace pellucid::archive {
+
+/// How objects come from a DICOM server: on the same association (C-GET), sent to this program's
+/// own server (C-MOVE), or by what the server offers.
+enum class RetrieveMethod { automatic, get, move };
+
+/// A server that the user has entered. Its secrets are not part of the list on disk.
+struct Server {
+    std::string name;
+    exchange::Peer peer;
+    RetrieveMethod retrieve = RetrieveMethod::automatic;
+    int connections = 4;       ///< at once, 1 to 8
+    std::uint32_t limit = 200; ///< of answers to a search
+
+    bool operator==(const Server &) const = default;
+};
+
+inline constexpr int maxConnections = 8;
+inline constexpr int defaultDicomPort = 104, defaultListenerPort = 11112;
+
+/// AET@HOST:PORT, the port being optional. *Throws* Error{usage}.
+exchange::Peer dicomPeer(const std::string &address);
+/// http://HOST:PORT/PATH or https://... *Throws* Error{usage}.
+exchange::Peer webPeer(const std::string &url);
+/// The address as the user entered it.
+std::string addressOf(const exchange::Peer &peer);
+/// *Throws* Error{usage} with what is wrong.
+void requireValid(const Server &server);
+
+/// The user's servers, a JSON file in the user's folder, written as a whole.
+class ServerList {
+public:
+    /// *Throws* Error{usage} with the place if the file is not such a list. A missing file is an
+    /// empty list.
+    explicit ServerList(std::filesystem::path file);
+    static ServerList ofUser();
+
+    const std::vector<Server> &servers() const { return m_servers; }
+    /// *Throws* Error{usage} if there is none of that name.
+    const Server &get(const std::string &name) const;
+    /// Adds or replaces the server of that name, and saves. *Throws* Error{usage}, Error{output}.
+    void put(const Server &server);
+    void remove(const std::string &name);
+
+private:
+    void save() const;
+
+    std::filesystem::path m_file;
+    std::vector<Server> m_servers;
+};
+
+} // namespace pellucid::archive

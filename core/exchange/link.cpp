@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/link.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <mutex>
+#include <system_error>
+
+#include "core/helper/confinement.h"
+#include "core/helper/packing.h"
+#include "core/system/log.h"
+#include "core/task/error.h"
+
+namespace pellucid::exchange {
+
+namespace {
+
+namespace because = task::because;
+using task::Error;
+using task::ErrorCode;
+using Kind = Message::Kind;
+
+constexpr std::chrono::milliseconds releasePatience(300);
+constexpr double startSeconds = 30.0; // on a loaded machine
+constexpr double slackSeconds = 10.0; // beyond the helper's own patience
+constexpr double cancelSeconds = 4.0; // the helper gives the server two
+
+constexpr std::uint16_t refusedByCancel = 0xa700;
+
+void logConfinement(int bits) {
+    static std::once_flag once;
+    std::call_once(once, [bits] {
+        const auto has = [bits](int bit, const char *yes, const char *no) {
+            return (bits & bit) != 0 ? yes : no;
+        };
+        system::log(std::string("network helpers: resource limits ") +
+                    has(helper::limitsHold, "in force", "NOT in force") + ", system calls " +
+                    has(helper::callsAreFiltered, "filtered", "NOT filtered") + ", files " +
+                    has(helper::filesAreFiltered, "out of reach by Landlock",
+                        "out of reach by the filter of system calls only"));
+    });
+}
+
+} // namespace
+
+Link::Link(double patienceSeconds) : m_patienceSeconds(patienceSeconds) {}
+
+Link::Link(const Connection &connection, const task::Progress &progress,
+           const StepObserver &observe)
+    : m_patienceSeconds(connection.peer.silenceSeconds + slackSeconds) {
+    start();
+    send({Kind::connect, 0, 0, pack(connection)});
+    const double patience = m_patienceSeconds;
+    m_patienceSeconds =
+        std::max(startSeconds, connection.peer.connectSeconds + connection.peer.associationSeconds +
+                                   slackSeconds);
+    m_confinement = converse(progress, nullptr, {}, observe, Kind::ready).code;
+    m_patienceSeconds = patience;
+    logConfinement(m_confinement);
+    m_isUsable = true;
+}
+
+Link::~Link() {
+    // An association is released; servers log one that is only closed as aborted.
+    if (m_isUsable)
+        m_process.endWithin(releasePatience);
+}
+
+void Link::start() {
+    const std::filesystem::path program = helper::findProgram("pellucid-net", "PELLUCID_NET");
+    try {
+        m_process = helper::Process({.path = program, .file = -1, .environment = {}});
+    } catch (const std::system_error &error) {
+        throw Error(ErrorCode::internal,
+                    because::helperCannotStart(task::systemReason(error.code().value())), program);
+    }
+}
+
+void Link::echo(const task::Progress &progress, const StepObserver &observe) {
+    send({Kind::echo, 0, 0, {}});
+    converse(progress, nullptr, {}, observe, Kind::done);
+}
+
+QueryEnd Link::find(const Query &query, const std::function<void(Attributes)> &match,
+                    const task::Progress &progress) {
+    send({Kind::find, 0, 0, pack(query)});
+    return unpackQueryEnd(converse(progress, nullptr, match, {}, Kind::done).body);
+}
+
+RetrievalEnd Link::retrieve(const Retrieval &retrieval, Receiver &receiver,
+                            const task::Progress &progress) {
+    Retrieval request = retrieval;
+    request.instanceUids.clear();
+    for (std::size_t n = 0; n < retrieval.instanceUids.size(); n += uidsAtOnce) {
+        const auto from = retrieval.instanceUids.begin() + std::ptrdiff_t(n);
+        const auto count = std::min(uidsAtOnce, retrieval.instanceUids.size() - n);
+        send({Kind::uids, 0, 0, pack(std::vector(from, from + std::ptrdiff_t(count)))});
+    }
+    send({Kind::retrieve, 0, 0, pack(request)});
+    return unpackRetrievalEnd(converse(progress, &receiver, {}, {}, Kind::done).body);
+}
+
+void Link::store(int file, std::uint64_t bytes, const task::Progress &progress) {
+    send({Kind::store, 0, bytes, {}}, file);
+    converse(progress, nullptr, {}, {}, Kind::done);
+}
+
+void Link::send(const Message &message, int descriptor) {
+    if (exchange::send(m_process.socket(), message, descriptor))
+        return;
+    fail({Kind::failed, -1, 0, {}});
+}
+
+Message Link::converse(const task::Progress &progress, Receiver *receiver,
+                       const std::function<void(Attributes)> &match, const StepObserver &observe,
+                       Kind end) {
+    for (;;) {
+        std::optional<Packet> packet;
+        try {
+            if (!helper::waitForPacket(m_process.socket(), m_patienceSeconds, progress)) {
+                m_isUsable = false;
+                throw Error(ErrorCode::unreachable, because::helperDoesNotAnswer);
+            }
+            packet = receive(m_process.socket());
+        } catch (const task::Cancelled &) {
+            requestCancel();
+            throw;
+        }
+        if (!packet)
+            fail({Kind::failed, -1, 0, {}});
+        const Message &message = packet->message;
+        if (message.kind == end)
+            return message;
+        switch (message.kind) {
+        case Kind::step:
+            if (observe && message.code >= 0 && message.code <= std::int32_t(Step::service)) {
+                std::string found = message.body.substr(0, 200);
+                helper::makeOneLine(found);
+                observe(Step(message.code), found);
+            }
+            break;
+        case Kind::match:
+            if (match)
+                match(unpackAttributes(message.body));
+            break;
+        case Kind::ready: // of a server, whose requests end with `done`
+            m_confinement = message.code;
+            logConfinement(m_confinement);
+            break;
+        case Kind::arrival:
+        case Kind::received:
+        case Kind::progress:
+            if (receiver == nullptr)
+                fail({Kind::done, 0, 0, {}});
+            take(*packet, *receiver);
+            break;
+        default:
+            fail(message);
+        }
+    }
+}
+
+void Link::take(const Packet &packet, Receiver &receiver) {
+    const Message &message = packet.message;
+    if (message.kind == Kind::progress) {
+        receiver.receive(message.number);
+    } else if (message.kind == Kind::arrival) {
+        m_arrival = unpackArrival(message.body);
+        const auto answer = receiver.open(m_arrival);
+        if (const int *const file = std::get_if<int>(&answer))
+            send({Kind::file, 0, 0, {}}, *file);
+        else
+            send({Kind::refused, std::get<std::uint16_t>(answer), 0, {}});
+    } else {
+        const std::uint16_t status = receiver.keep(m_arrival, message.number);
+        send({status == 0 ? Kind::kept : Kind::refused, status, 0, {}});
+    }
+}
+
+// Lets the server end the request, then closes the connection.
+void Link::requestCancel() {
+    m_isUsable = false;
+    exchange::send(m_process.socket(), {Kind::cancel, 0, 0, {}});
+    const auto end =
+        std::chrono::steady_clock::now() + std::chrono::duration<double>(cancelSeconds);
+    while (std::chrono::steady_clock::now() < end) {
+        if (!helper::waitForPacket(m_process.socket(), 0.1, {}))
+            continue;
+        const auto packet = receive(m_process.socket());
+        if (!packet || packet->message.kind == Kind::done || packet->message.kind == Kind::failed)
+            break;
+        if (packet->message.kind == Kind::arrival || packet->message.kind == Kind::received)
+            exchange::send(m_process.socket(), {Kind::refused, refusedByCancel, 0, {}});
+    }
+    m_process = helper::Process();
+}
+
+void Link::fail(const Message &message) {
+    if (message.kind == Kind::failed && message.code >= 0) {
+        const task::Reason reason = unpackReason(message.body);
+        switch (Failure(message.code)) {
+        case Failure::refused:
+            throw Error(ErrorCode::unusable, reason);
+        case Failure::invalid:
+            throw Error(ErrorCode::usage, reason);
+        default:
+            m_isUsable = false;
+            throw Error(ErrorCode::unreachable, reason);
+        }
+    }
+    m_isUsable = false;
+    const std::optional<int> signal =
+        message.kind == Kind::failed ? m_process.endSignal() : std::nullopt;
+    if (!signal)
+        throw Error(ErrorCode::unreachable, because::helperSentNonsense);
+    system::log("a network helper was ended by signal " + std::to_string(*signal));
+    throw Error(ErrorCode::unreachable, *signal == SIGSYS
+                                            ? task::Reason(because::helperBrokeItsConfinement)
+                                            : because::helperCrashed);
+}
+
+void serveClient(files::Descriptor socket, const Acceptance &acceptance, Receiver &receiver,
+                 const task::Progress &progress, const StepObserver &observe) {
+    Link link(acceptance.silenceSeconds + slackSeconds);
+    link.start();
+    link.send({Kind::accept, 0, 0, pack(acceptance)}, socket.get());
+    socket = files::Descriptor(); // so that the client notices when the helper ends
+    link.converse(progress, &receiver, {}, observe, Kind::done);
+}
+
+} // namespace pellucid::exchange

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <variant>
+
+#include "core/exchange/message.h"
+#include "core/files/descriptor.h"
+#include "core/helper/process.h"
+#include "core/task/progress.h"
+
+namespace pellucid::exchange {
+
+/// Takes the objects that arrive. Called from the thread of the request.
+class Receiver {
+public:
+    virtual ~Receiver() = default;
+    /// An open file for the object, or the status that refuses it (PS3.4, B.2.3). The file belongs
+    /// to the receiver.
+    virtual std::variant<int, std::uint16_t> open(const Arrival &arrival) = 0;
+    /// The object is complete; 0 bytes: it could not be written. *Shape*: 0 when it is kept, or the
+    /// status for the sender.
+    virtual std::uint16_t keep(const Arrival &arrival, std::uint64_t bytes) = 0;
+    /// Bytes of the current object so far, or 0 with objects that others received.
+    virtual void receive(std::uint64_t) {}
+};
+
+using StepObserver = std::function<void(Step, const std::string &)>;
+
+/// A connection to a server by a `pellucid-net` of its own, which can reach nothing but that server
+/// and the files that it is given. Used by one thread at a time. All requests *throw*
+/// Error{unreachable} if the connection fails; Error{unusable} if the server refuses, after which
+/// it can be asked again; Error{usage}; Error{internal} if the helper cannot be started; Cancelled,
+/// after which the connection is closed.
+class Link {
+public:
+    /// Connects. `observe` is told of each step that succeeds.
+    Link(const Connection &connection, const task::Progress &progress = {},
+         const StepObserver &observe = {});
+    ~Link();
+    Link(const Link &) = delete;
+    Link &operator=(const Link &) = delete;
+
+    /// Asks whether the server is there; what it offers is the last step that `observe` is told.
+    void echo(const task::Progress &progress = {}, const StepObserver &observe = {});
+    QueryEnd find(const Query &query, const std::function<void(Attributes)> &match,
+                  const task::Progress &progress = {});
+    RetrievalEnd retrieve(const Retrieval &retrieval, Receiver &receiver,
+                          const task::Progress &progress = {});
+    /// Sends an object from an open file of this size.
+    void store(int file, std::uint64_t bytes, const task::Progress &progress = {});
+
+    bool isUsable() const { return m_isUsable; }
+    /// See helper::Confinement.
+    int confinement() const { return m_confinement; }
+
+private:
+    friend void serveClient(files::Descriptor, const Acceptance &, Receiver &,
+                            const task::Progress &, const StepObserver &);
+    explicit Link(double patienceSeconds);
+    void start();
+    void send(const Message &message, int descriptor = -1);
+    /// Passes on messages until the end of the request.
+    Message converse(const task::Progress &progress, Receiver *receiver,
+                     const std::function<void(Attributes)> &match, const StepObserver &observe,
+                     Message::Kind end);
+    void take(const Packet &packet, Receiver &receiver);
+    [[noreturn]] void fail(const Message &message);
+    void requestCancel();
+
+    helper::Process m_process;
+    double m_patienceSeconds;
+    int m_confinement = 0;
+    bool m_isUsable = false;
+    Arrival m_arrival; ///< the current object
+};
+
+/// Serves a client that has connected, in a `pellucid-net` of its own, until the client ends the
+/// association. *Throws* as the requests of a link.
+void serveClient(files::Descriptor socket, const Acceptance &acceptance, Receiver &receiver,
+                 const task::Progress &progress = {}, const StepObserver &observe = {});
+
+} // namespace pellucid::exchange

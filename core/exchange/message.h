@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/exchange/peer.h"
+#include "core/exchange/query.h"
+#include "core/files/descriptor.h"
+#include "core/task/reason.h"
+
+namespace pellucid::exchange {
+
+/// The messages between the program and `pellucid-net`: packets of at most `largestPacket` bytes,
+/// some with an open file.
+struct Message {
+    enum class Kind : std::uint32_t {
+        // sent to pellucid-net
+        connect = 1, ///< body: Connection; the first message
+        accept,      ///< body: Acceptance, with the connected socket; the first message of a server
+        echo,
+        find,     ///< body: Query
+        retrieve, ///< body: Retrieval
+        uids,     ///< body: more instances of the next `retrieve`
+        store,    ///< body: Encoding and instance, with the open file; `number`: its size
+        file,     ///< the answer to `arrival`: the open file to write to
+        kept,     ///< the answer to `received`
+        refused,  ///< the answer to either; `code`: the status for the sender
+        cancel,
+        // sent by pellucid-net
+        ready = 100, ///< it is confined, see helper::Confinement, and connected; `code`
+        step,        ///< of connecting: `code` is a Step that succeeded, body: what it found
+        match,       ///< body: Attributes
+        arrival,     ///< body: Arrival; waits for `file`
+        received,    ///< `number`: bytes of the file
+        progress,    ///< `number`: bytes received so far of the current object
+        done,        ///< the end of a request. body: QueryEnd, RetrievalEnd or none
+        failed,      ///< body: Reason; `code`: a Failure; the connection is of no more use if its
+                     ///< `isLost`
+    };
+    Kind kind = Kind::ready;
+    std::int32_t code = 0;
+    std::uint64_t number = 0;
+    std::string body;
+};
+
+/// The steps of connecting, in order.
+enum class Step : std::int32_t { name, tcp, tls, association, service };
+
+/// How a request failed.
+enum class Failure : std::int32_t {
+    lost,    ///< the connection: the server cannot be reached, or has gone
+    refused, ///< by the server, which can be asked again
+    invalid, ///< the request
+};
+
+inline constexpr std::size_t largestPacket = 96 << 10;
+inline constexpr std::size_t uidsAtOnce = 1000;
+
+struct Packet {
+    Message message;
+    files::Descriptor descriptor;
+};
+
+/// Sends a message, and a descriptor unless it is -1; waits while the other end is busy. False if
+/// it is closed.
+bool send(int socket, const Message &message, int descriptor = -1);
+/// Waits for a message. Empty if the other end is closed, or sent something else.
+std::optional<Packet> receive(int socket);
+
+/// What a server of this program accepts from one connection.
+struct Acceptance {
+    std::string calledAe;                ///< the only name it answers to; empty: any
+    std::vector<std::string> callingAes; ///< the senders it knows; empty: any
+    bool usesTls = false;
+    std::string authorities, certificate, key, keyPassword; ///< as of Peer
+    double silenceSeconds = 60.0;
+};
+
+std::string pack(const Connection &connection);
+std::string pack(const Acceptance &acceptance);
+std::string pack(const Query &query);
+std::string pack(const QueryEnd &end);
+std::string pack(const Retrieval &retrieval);
+std::string pack(const RetrievalEnd &end);
+std::string pack(const Arrival &arrival);
+std::string pack(const Attributes &attributes);
+std::string pack(const std::vector<std::string> &uids);
+
+/// All *throw* Error{unusable} if the bytes are not such a value: a compromised helper may send
+/// anything. Texts are made one line, and UIDs are checked.
+Connection unpackConnection(const std::string &body);
+Acceptance unpackAcceptance(const std::string &body);
+Query unpackQuery(const std::string &body);
+QueryEnd unpackQueryEnd(const std::string &body);
+Retrieval unpackRetrieval(const std::string &body);
+RetrievalEnd unpackRetrievalEnd(const std::string &body);
+Arrival unpackArrival(const std::string &body);
+Attributes unpackAttributes(const std::string &body);
+std::vector<std::string> unpackUids(const std::string &body);
+task::Reason unpackReason(const std::string &body);
+
+} // namespace pellucid::exchange

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/peer.h"
+
+namespace pellucid::exchange {
+
+const std::vector<std::string> &transferSyntaxes() {
+    static const std::vector<std::string> syntaxes{
+        "1.2.840.10008.1.2.1",     // explicit VR little endian
+        "1.2.840.10008.1.2",       // implicit VR little endian
+        "1.2.840.10008.1.2.4.80",  // JPEG-LS, lossless
+        "1.2.840.10008.1.2.4.90",  // JPEG 2000, lossless
+        "1.2.840.10008.1.2.4.70",  // JPEG, lossless, selection value 1
+        "1.2.840.10008.1.2.5",     // run lengths
+        "1.2.840.10008.1.2.4.91",  // JPEG 2000
+        "1.2.840.10008.1.2.4.81",  // JPEG-LS, near-lossless
+        "1.2.840.10008.1.2.4.57",  // JPEG, lossless
+        "1.2.840.10008.1.2.4.51",  // JPEG, extended
+        "1.2.840.10008.1.2.4.50",  // JPEG, baseline
+        "1.2.840.10008.1.2.4.201", // high-throughput JPEG 2000, lossless
+        "1.2.840.10008.1.2.4.202", "1.2.840.10008.1.2.4.203",
+        "1.2.840.10008.1.2.1.99", // deflated
+        "1.2.840.10008.1.2.2",    // explicit VR big endian
+    };
+    return syntaxes;
+}
+
+} // namespace pellucid::exchange

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pellucid::exchange {
+
+enum class Protocol { dicom, web };
+enum class Authentication { none, basic, bearer };
+
+/// What a connection to a server needs, secrets included. Paths name files in PEM format.
+struct Peer {
+    Protocol protocol = Protocol::dicom;
+    std::string host;
+    int port = 104;
+    std::string calledAe = "ANY-SCP", callingAe = "PELLUCID";
+    std::string path; ///< of a DICOMweb service, such as "/dicom-web"
+    bool usesTls = false;
+    std::string authorities; ///< certificates that are trusted; empty: those of the system
+    std::string certificate, key, keyPassword; ///< of this program; empty: none
+    Authentication authentication = Authentication::none;
+    std::string user, secret; ///< the password or the token
+    std::string characterSet; ///< of answers that name none; a defined term such as ISO_IR 100
+    double connectSeconds = 10.0, associationSeconds = 30.0, silenceSeconds = 60.0;
+
+    bool operator==(const Peer &) const = default;
+};
+
+/// A kind of object, and one way to encode it (transfer syntax).
+struct Encoding {
+    std::string sopClassUid, transferSyntax;
+    bool operator==(const Encoding &) const = default;
+    auto operator<=>(const Encoding &) const = default;
+};
+
+/// The ways to encode objects that are asked for, as UIDs; the best first.
+const std::vector<std::string> &transferSyntaxes();
+
+/// What a connection is for, since a DICOM association is negotiated for it.
+enum class Purpose : std::int32_t { echo, find, get, move, store };
+
+struct Connection {
+    Peer peer;
+    Purpose purpose = Purpose::echo;
+    std::vector<std::string> sopClasses{}; ///< of `get`: what may arrive; empty: common images
+    /// Of `get`: the only encodings that are asked for; empty: all.
+    std::vector<std::string> transferSyntaxes{};
+    std::vector<Encoding> encodings{}; ///< of `store`: what is sent
+};
+
+} // namespace pellucid::exchange

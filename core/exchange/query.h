@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace pellucid::exchange {
+
+enum class Level : std::int32_t { study, series, image };
+
+/// Attributes by tag, as text in UTF-8; backslashes separate values.
+using Attributes = std::map<std::uint32_t, std::string>;
+
+/// The tags that queries and answers use: group in the upper, element in the lower 16 bits.
+namespace tag {
+inline constexpr std::uint32_t sopClassUid = 0x00080016, sopInstanceUid = 0x00080018,
+                               studyDate = 0x00080020, studyTime = 0x00080030,
+                               accessionNumber = 0x00080050, modality = 0x00080060,
+                               modalitiesInStudy = 0x00080061, sopClassesInStudy = 0x00080062,
+                               referringPhysician = 0x00080090, studyDescription = 0x00081030,
+                               seriesDescription = 0x0008103e, retrieveAe = 0x00080054,
+                               availability = 0x00080056, patientName = 0x00100010,
+                               patientId = 0x00100020, birthDate = 0x00100030, sex = 0x00100040,
+                               bodyPart = 0x00180015, studyUid = 0x0020000d, seriesUid = 0x0020000e,
+                               studyId = 0x00200010, seriesNumber = 0x00200011,
+                               instanceNumber = 0x00200013, position = 0x00200032,
+                               orientation = 0x00200037, spacing = 0x00280030,
+                               seriesInStudy = 0x00201206, instancesInStudy = 0x00201208,
+                               instancesInSeries = 0x00201209, rows = 0x00280010,
+                               columns = 0x00280011, frames = 0x00280008;
+}
+
+/// A search: the keys with a value restrict it, with the wildcards * and ?, and ranges of dates;
+/// the others are returned.
+struct Query {
+    Level level = Level::study;
+    Attributes keys;
+    std::uint32_t limit =
+        200; ///< the search is cancelled at the server when it is reached; 0: none
+};
+
+/// How a search ended.
+struct QueryEnd {
+    bool reachedLimit = false;
+    std::vector<std::string> warnings; ///< what the server remarks
+};
+
+/// What is to be retrieved: a study, a series of it, or instances of the series.
+struct Retrieval {
+    Level level = Level::study;
+    std::string studyUid, seriesUid;
+    std::vector<std::string> instanceUids;
+    std::string destinationAe; ///< of `move`
+};
+
+/// What the server says at the end of a retrieval.
+struct RetrievalEnd {
+    std::uint32_t completed = 0, failed = 0, warnings = 0;
+    std::vector<std::string> failedInstances;
+    bool operator==(const RetrievalEnd &) const = default;
+};
+
+/// An object that arrives.
+struct Arrival {
+    std::string sopClassUid, sopInstanceUid, transferSyntax;
+    std::string callingAe; ///< of the sender, if this program is the server
+};
+
+/// A unique identifier: digits and dots, at most 64.
+bool isUid(const std::string &text);
+
+} // namespace pellucid::exchange

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/network/association.h"
+
+#include <algorithm>
+#include <arpa/inet.h>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <netdb.h>
+#include <poll.h>
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmnet/assoc.h>
+#include <dcmtk/dcmnet/dcmlayer.h>
+#include <dcmtk/dcmnet/dcmtrans.h>
+#include <dcmtk/dcmnet/dimse.h>
+#include <dcmtk/dcmnet/diutil.h>
+#include <dcmtk/dcmtls/tlslayer.h>
+
+#include "core/network/confine.h"
+
+namespace pellucid::network {
+
+namespace {
+
+namespace because = task::because;
+using exchange::Purpose;
+using exchange::Step;
+
+// A presentation context has an odd number below 256.
+constexpr std::size_t maxContexts = 128;
+constexpr int releaseSeconds = 5;
+
+// DICOM addresses an application by IPv4 in DCMTK's network layer.
+std::vector<std::string> addressesOf(const std::string &host) {
+    addrinfo wanted{};
+    wanted.ai_family = AF_INET;
+    wanted.ai_socktype = SOCK_STREAM;
+    addrinfo *found = nullptr;
+    const int failed = ::getaddrinfo(host.c_str(), nullptr, &wanted, &found);
+    if (failed != 0)
+        throw Lost{because::hostIsUnknown(host)};
+    std::vector<std::string> addresses;
+    for (const addrinfo *each = found; each != nullptr; each = each->ai_next) {
+        std::array<char, INET_ADDRSTRLEN> text{};
+        const auto *const at = reinterpret_cast<const sockaddr_in *>(each->ai_addr);
+        ::inet_ntop(AF_INET, &at->sin_addr, text.data(), text.size());
+        addresses.emplace_back(text.data());
+    }
+    ::freeaddrinfo(found);
+    return addresses;
+}
+
+void prepareNetwork(double connectSeconds, double silenceSeconds) {
+    ::signal(SIGPIPE, SIG_IGN);
+    dcmConnectionTimeout.set(Sint32(std::lround(connectSeconds)));
+    dcmSocketReceiveTimeout.set(Sint32(std::lround(silenceSeconds)));
+    dcmSocketSendTimeout.set(Sint32(std::lround(silenceSeconds)));
+    dcmDisableGethostbyaddr.set(OFTrue); // names of clients are not looked up
+    dcmMaxOutgoingPDUSize.set(ASC_MAXIMUMPDUSIZE);
+}
+
+task::Reason rejectionOf(const T_ASC_RejectParameters &rejection) {
+    switch (rejection.reason) {
+    case ASC_REASON_SU_CALLINGAETITLENOTRECOGNIZED:
+        return because::serverDoesNotKnowUs;
+    case ASC_REASON_SU_CALLEDAETITLENOTRECOGNIZED:
+        return because::serverHasAnotherName;
+    case ASC_REASON_SP_PRES_TEMPORARYCONGESTION:
+        return because::serverIsBusy;
+    case ASC_REASON_SP_PRES_LOCALLIMITEXCEEDED:
+        return because::serverHasTooManyConnections;
+    default:
+        return because::serverRejectsUs;
+    }
+}
+
+struct Proposal {
+    std::string sopClass;
+    std::vector<std::string> syntaxes;
+    T_ASC_SC_ROLE role = ASC_SC_ROLE_DEFAULT;
+};
+
+const std::vector<std::string> plainSyntaxes{UID_LittleEndianExplicitTransferSyntax,
+                                             UID_LittleEndianImplicitTransferSyntax};
+
+// One context for each kind and syntax, the best syntaxes first if not all fit.
+void proposeEach(std::vector<Proposal> &proposals, const std::vector<std::string> &classes,
+                 const std::vector<std::string> &syntaxes) {
+    for (const std::string &syntax : syntaxes)
+        for (const std::string &sopClass : classes)
+            if (proposals.size() < maxContexts)
+                proposals.push_back({sopClass, {syntax}, ASC_SC_ROLE_SCP});
+}
+
+std::vector<Proposal> proposalsFor(const exchange::Connection &connection) {
+    std::vector<Proposal> proposals;
+    switch (connection.purpose) {
+    case Purpose::echo:
+        proposals.push_back({UID_VerificationSOPClass, plainSyntaxes});
+        // What else it offers is told to the user.
+        proposals.push_back({UID_FINDStudyRootQueryRetrieveInformationModel, plainSyntaxes});
+        proposals.push_back({UID_GETStudyRootQueryRetrieveInformationModel, plainSyntaxes});
+        proposals.push_back({UID_MOVEStudyRootQueryRetrieveInformationModel, plainSyntaxes});
+        proposals.push_back({UID_SecondaryCaptureImageStorage, plainSyntaxes});
+        break;
+    case Purpose::find:
+        proposals.push_back({UID_FINDStudyRootQueryRetrieveInformationModel, plainSyntaxes});
+        break;
+    case Purpose::move:
+        proposals.push_back({UID_MOVEStudyRootQueryRetrieveInformationModel, plainSyntaxes});
+        break;
+    case Purpose::get:
+        proposals.push_back({UID_GETStudyRootQueryRetrieveInformationModel, plainSyntaxes});
+        proposeEach(proposals,
+                    connection.sopClasses.empty() ? storageClasses() : connection.sopClasses,
+                    connection.transferSyntaxes.empty() ? exchange::transferSyntaxes()
+                                                        : connection.transferSyntaxes);
+        break;
+    case Purpose::store:
+        for (const exchange::Encoding &encoding : connection.encodings)
+            if (proposals.size() < maxContexts)
+                proposals.push_back({encoding.sopClassUid, {encoding.transferSyntax}});
+        break;
+    }
+    return proposals;
+}
+
+} // namespace
+
+const std::vector<std::string> &storageClasses() {
+    static const std::vector<std::string> classes{
+        UID_CTImageStorage,
+        UID_MRImageStorage,
+        UID_PositronEmissionTomographyImageStorage,
+        UID_SecondaryCaptureImageStorage,
+        UID_EnhancedCTImageStorage,
+        UID_EnhancedMRImageStorage,
+        UID_SegmentationStorage,
+        UID_RTStructureSetStorage,
+    };
+    return classes;
+}
+
+Association::Association(const exchange::Connection &connection, Control &control)
+    : m_characterSet(connection.peer.characterSet),
+      m_silenceSeconds(connection.peer.silenceSeconds) {
+    const exchange::Peer &peer = connection.peer;
+    prepareNetwork(peer.connectSeconds, peer.silenceSeconds);
+    ConnectionEvents events{
+        [this, &control, &peer](int) {
+            control.step(Step::tcp, peer.host + ":" + std::to_string(peer.port));
+            m_confinement = confine();
+        },
+        [&control](const std::string &parameters) { control.step(Step::tls, parameters); }};
+    m_transport = peer.usesTls
+                      ? std::make_unique<Transport>(
+                            std::move(events), Certificates{peer.authorities, peer.certificate,
+                                                            peer.key, peer.keyPassword, peer.host})
+                      : std::make_unique<Transport>(std::move(events));
+    const std::vector<std::string> addresses = addressesOf(peer.host);
+    control.step(Step::name, addresses.front());
+    if (ASC_initializeNetwork(NET_REQUESTOR, 0, int(std::lround(peer.associationSeconds)),
+                              &m_network)
+            .bad())
+        throw Lost{because::networkCannotBeSetUp};
+    ASC_setTransportLayer(m_network, &m_transport->layer(), 0);
+    for (std::size_t n = 0; n < addresses.size(); ++n) {
+        try {
+            negotiate(connection, addresses[n]);
+            break;
+        } catch (const Lost &) {
+            if (n + 1 == addresses.size() || m_transport->isConnected())
+                throw;
+        }
+    }
+    control.step(Step::association, m_parameters->theirImplementationVersionName);
+}
+
+void Association::negotiate(const exchange::Connection &connection, const std::string &address) {
+    const exchange::Peer &peer = connection.peer;
+    T_ASC_Parameters *parameters = nullptr;
+    ASC_createAssociationParameters(&parameters, ASC_MAXIMUMPDUSIZE);
+    ASC_setAPTitles(parameters, peer.callingAe.c_str(), peer.calledAe.c_str(), nullptr);
+    ASC_setTransportLayerType(parameters, peer.usesTls);
+    ASC_setPresentationAddresses(parameters, "127.0.0.1",
+                                 (address + ":" + std::to_string(peer.port)).c_str());
+    T_ASC_PresentationContextID id = 1;
+    for (const Proposal &proposal : proposalsFor(connection)) {
+        std::vector<const char *> syntaxes;
+        for (const std::string &syntax : proposal.syntaxes)
+            syntaxes.push_back(syntax.c_str());
+        ASC_addPresentationContext(parameters, id, proposal.sopClass.c_str(), syntaxes.data(),
+                                   int(syntaxes.size()), proposal.role);
+        id = T_ASC_PresentationContextID(id + 2);
+    }
+    if (peer.authentication == exchange::Authentication::basic)
+        ASC_setIdentRQUserPassword(parameters, peer.user.c_str(), peer.secret.c_str(), OFFalse);
+    const OFCondition requested = ASC_requestAssociation(m_network, parameters, &m_association);
+    m_parameters = m_association != nullptr ? m_association->params : parameters;
+    if (requested.bad()) {
+        if (requested == DUL_ASSOCIATIONREJECTED) {
+            T_ASC_RejectParameters rejection{};
+            ASC_getRejectParameters(m_parameters, &rejection);
+            throw Lost{rejectionOf(rejection)};
+        }
+        failRequest(requested.text());
+    }
+    if (ASC_countAcceptedPresentationContexts(m_parameters) == 0)
+        throw Lost{because::serverOffersNothing};
+}
+
+void Association::failRequest(const char *text) const {
+    if (m_transport->refusal())
+        throw Lost{*m_transport->refusal()};
+    const std::string said = text;
+    if (m_transport->isConnected())
+        throw Lost{said.find("imeout") != std::string::npos
+                       ? task::Reason(because::serverDoesNotAnswer)
+                       : because::associationFails(said)};
+    if (said.find("refused") != std::string::npos)
+        throw Lost{because::connectionIsRefused};
+    if (said.find("imeout") != std::string::npos || said.find("timed out") != std::string::npos ||
+        said.find("in progress") != std::string::npos)
+        throw Lost{because::hostDoesNotAnswer};
+    throw Lost{because::cannotConnect(said)};
+}
+
+Association::Association(const exchange::Acceptance &acceptance, int socket, Control &control)
+    : m_silenceSeconds(acceptance.silenceSeconds) {
+    prepareNetwork(acceptance.silenceSeconds, acceptance.silenceSeconds);
+    ConnectionEvents events{
+        [](int) {},
+        [&control](const std::string &parameters) { control.step(Step::tls, parameters); }};
+    m_transport =
+        acceptance.usesTls
+            ? std::make_unique<Transport>(std::move(events), Certificates{acceptance.authorities,
+                                                                          acceptance.certificate,
+                                                                          acceptance.key,
+                                                                          acceptance.keyPassword,
+                                                                          {}})
+            : std::make_unique<Transport>(std::move(events));
+    // The program has accepted the connection; DCMTK calls that external.
+    dcmExternalSocketHandle.set(socket);
+    const int patience = int(std::lround(acceptance.silenceSeconds));
+    if (ASC_initializeNetwork(NET_ACCEPTOR, 0, patience, &m_network).bad())
+        throw Lost{because::networkCannotBeSetUp};
+    ASC_setTransportLayer(m_network, &m_transport->layer(), 0);
+    m_confinement = confine();
+    const OFCondition received =
+        ASC_receiveAssociation(m_network, &m_association, ASC_MAXIMUMPDUSIZE, nullptr, nullptr,
+                               m_transport->isSecure(), DUL_NOBLOCK, patience);
+    m_parameters = m_association != nullptr ? m_association->params : nullptr;
+    if (received.bad()) {
+        if (m_transport->refusal())
+            throw Lost{*m_transport->refusal()};
+        throw Lost{because::associationFails(std::string(received.text()))};
+    }
+    std::array<char, 65> calling{}, called{};
+    ASC_getAPTitles(m_parameters, calling.data(), calling.size(), called.data(), called.size(),
+                    nullptr, 0);
+    m_callingAe = calling.data();
+    const auto reject = [&](T_ASC_RejectParametersReason why, const task::Reason &reason) {
+        const T_ASC_RejectParameters rejection{ASC_RESULT_REJECTEDPERMANENT, ASC_SOURCE_SERVICEUSER,
+                                               why};
+        ASC_rejectAssociation(m_association, &rejection);
+        throw Lost{reason};
+    };
+    if (!acceptance.calledAe.empty() && acceptance.calledAe != called.data())
+        reject(ASC_REASON_SU_CALLEDAETITLENOTRECOGNIZED,
+               because::senderWantsAnother(m_callingAe, std::string(called.data())));
+    if (!acceptance.callingAes.empty() &&
+        std::find(acceptance.callingAes.begin(), acceptance.callingAes.end(), m_callingAe) ==
+            acceptance.callingAes.end())
+        reject(ASC_REASON_SU_CALLINGAETITLENOTRECOGNIZED, because::senderIsUnknown(m_callingAe));
+
+    const char *verification[] = {UID_VerificationSOPClass};
+    std::vector<const char *> plain, all;
+    for (const std::string &syntax : plainSyntaxes)
+        plain.push_back(syntax.c_str());
+    for (const std::string &syntax : exchange::transferSyntaxes())
+        all.push_back(syntax.c_str());
+    ASC_acceptContextsWithPreferredTransferSyntaxes(m_parameters, verification, 1, plain.data(),
+                                                    int(plain.size()));
+    ASC_acceptContextsWithPreferredTransferSyntaxes(m_parameters, dcmAllStorageSOPClassUIDs,
+                                                    numberOfDcmAllStorageSOPClassUIDs, all.data(),
+                                                    int(all.size()));
+    if (ASC_acknowledgeAssociation(m_association).bad())
+        throw Lost{because::serverHungUp};
+    control.step(Step::association, m_callingAe);
+}
+
+Association::~Association() {
+    if (m_association != nullptr) {
+        ASC_dropAssociation(m_association);
+        ASC_destroyAssociation(&m_association);
+    } else if (m_parameters != nullptr) {
+        ASC_destroyAssociationParameters(&m_parameters);
+    }
+    if (m_network != nullptr)
+        ASC_dropNetwork(&m_network);
+}
+
+unsigned char Association::contextFor(const std::string &sopClassUid) const {
+    const T_ASC_PresentationContextID id =
+        ASC_findAcceptedPresentationContextID(m_association, sopClassUid.c_str());
+    if (id == 0)
+        throw task::Error(task::ErrorCode::unusable, because::serverLacksTheService);
+    return id;
+}
+
+std::optional<unsigned char> Association::contextFor(const exchange::Encoding &encoding) const {
+    const T_ASC_PresentationContextID id = ASC_findAcceptedPresentationContextID(
+        m_association, encoding.sopClassUid.c_str(), encoding.transferSyntax.c_str());
+    if (id == 0 || syntaxOf(id) != encoding.transferSyntax)
+        return std::nullopt;
+    return id;
+}
+
+std::string Association::syntaxOf(unsigned char context) const {
+    T_ASC_PresentationContext found{};
+    if (ASC_findAcceptedPresentationContext(m_parameters, context, &found).bad())
+        return {};
+    return found.acceptedTransferSyntax;
+}
+
+Association::Event Association::wait(Control &control) const {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration<double>(m_silenceSeconds);
+    for (;;) {
+        // Bytes that TLS has already decrypted are not seen by poll.
+        if (ASC_dataWaiting(m_association, 0))
+            return Event::data;
+        std::array<pollfd, 2> waiting{pollfd{m_transport->socket(), POLLIN, 0},
+                                      pollfd{control.socket(), POLLIN, 0}};
+        ::poll(waiting.data(), waiting.size(), 1000);
+        if (waiting[0].revents != 0)
+            return Event::data;
+        if (waiting[1].revents != 0 && control.isCancelled())
+            return Event::cancel;
+        if (Clock::now() > end)
+            throw Lost{because::serverIsSilent(std::lround(m_silenceSeconds))};
+    }
+}
+
+void Association::fail(const char *text) const {
+    const std::string said = text;
+    if (m_transport->refusal())
+        throw Lost{*m_transport->refusal()};
+    if (said.find("closed") != std::string::npos || said.find("Abort") != std::string::npos ||
+        said.find("elease") != std::string::npos)
+        throw Lost{because::serverHungUp};
+    throw Lost{because::connectionFails(said)};
+}
+
+void Association::abort() {
+    ASC_abortAssociation(m_association);
+}
+
+void Association::release() {
+    ASC_releaseAssociation(m_association);
+}
+
+} // namespace pellucid::network

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/network/control.h"
+
+#include <cerrno>
+#include <poll.h>
+#include <unistd.h>
+
+namespace pellucid::network {
+
+void Control::send(const Message &message) {
+    if (!exchange::send(m_socket, message))
+        throw Disconnected();
+}
+
+exchange::Packet Control::wait() {
+    auto packet = exchange::receive(m_socket);
+    if (!packet)
+        throw Disconnected();
+    return *std::move(packet);
+}
+
+bool Control::isCancelled() {
+    pollfd waiting{m_socket, POLLIN, 0};
+    if (::poll(&waiting, 1, 0) <= 0)
+        return false;
+    return wait().message.kind == Message::Kind::cancel;
+}
+
+void Control::step(exchange::Step step, const std::string &found) {
+    send({Message::Kind::step, std::int32_t(step), 0, found});
+}
+
+void Control::done(const std::string &body) {
+    send({Message::Kind::done, 0, 0, body});
+}
+
+void Control::failed(exchange::Failure failure, const task::Reason &reason) {
+    send({Message::Kind::failed, std::int32_t(failure), 0, reason.encoded()});
+}
+
+Storage::Storage(Control &control, const exchange::Arrival &arrival) : m_control(control) {
+    m_control.send({Message::Kind::arrival, 0, 0, exchange::pack(arrival)});
+    exchange::Packet packet = answer();
+    if (packet.message.kind == Message::Kind::refused)
+        m_status = std::uint16_t(packet.message.code);
+    else if (packet.message.kind == Message::Kind::file && packet.descriptor)
+        m_file = std::move(packet.descriptor);
+    else
+        throw Disconnected();
+}
+
+exchange::Packet Storage::answer() {
+    exchange::Packet packet = m_control.wait();
+    if (packet.message.kind == Message::Kind::cancel)
+        throw CancelledByProgram();
+    return packet;
+}
+
+void Storage::write(std::span<const std::byte> bytes) {
+    constexpr std::uint64_t reportedAtOnce = 4 << 20;
+    m_bytes += bytes.size();
+    while (!bytes.empty() && !m_hasFailed) {
+        const ssize_t written = ::write(m_file.get(), bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR)
+            continue;
+        m_hasFailed = written <= 0;
+        if (!m_hasFailed)
+            bytes = bytes.subspan(std::size_t(written));
+    }
+    if (m_bytes - m_reported < reportedAtOnce)
+        return;
+    m_reported = m_bytes;
+    m_control.send({Message::Kind::progress, 0, m_bytes, {}});
+}
+
+std::uint16_t Storage::finish() {
+    m_file = files::Descriptor();
+    if (m_hasFailed)
+        m_bytes = 0; // nothing that the program could keep
+    m_control.send({Message::Kind::received, 0, m_bytes, {}});
+    const exchange::Packet packet = answer();
+    if (packet.message.kind == Message::Kind::kept)
+        return success;
+    if (packet.message.kind != Message::Kind::refused)
+        throw Disconnected();
+    return std::uint16_t(packet.message.code);
+}
+
+} // namespace pellucid::network

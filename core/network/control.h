@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "core/exchange/message.h"
+#include "core/task/error.h"
+
+namespace pellucid::network {
+
+using exchange::Message;
+
+/// The program has closed its end, or sent something else than it should.
+struct Disconnected {};
+
+/// Thrown in place of an answer when the program cancels a request.
+struct CancelledByProgram {};
+
+/// This process's end of the messages. Sending and waiting *throw* Disconnected.
+class Control {
+public:
+    explicit Control(int socket) : m_socket(socket) {}
+
+    int socket() const { return m_socket; }
+    void send(const Message &message);
+    exchange::Packet wait();
+    /// Whether the program has asked to cancel. Keeps no other message waiting: there is none while
+    /// a request runs.
+    bool isCancelled();
+
+    void step(exchange::Step step, const std::string &found);
+    void done(const std::string &body = {});
+    void failed(exchange::Failure failure, const task::Reason &reason);
+
+private:
+    int m_socket;
+};
+
+/// An object on its way into a file that the program opens.
+class Storage {
+public:
+    /// Asks the program for the file. *Throws* Disconnected, CancelledByProgram.
+    Storage(Control &control, const exchange::Arrival &arrival);
+
+    /// Whether the program wants it; if not, `status` is the answer to the sender.
+    bool isWanted() const { return bool(m_file); }
+    std::uint16_t status() const { return m_status; }
+
+    /// Continues after a failure without writing, so that the object's bytes are still taken from
+    /// the network.
+    void write(std::span<const std::byte> bytes);
+    std::uint64_t bytes() const { return m_bytes; }
+    /// Tells the program that the object is complete. *Shape*: the status for the sender.
+    /// *Throws* as the constructor.
+    std::uint16_t finish();
+
+private:
+    exchange::Packet answer();
+
+    Control &m_control;
+    files::Descriptor m_file;
+    std::uint16_t m_status = 0;
+    std::uint64_t m_bytes = 0, m_reported = 0;
+    bool m_hasFailed = false;
+};
+
+/// Statuses of C-STORE (PS3.4, B.2.3).
+inline constexpr std::uint16_t success = 0x0000, outOfResources = 0xa700, notWanted = 0x0124,
+                               invalidInstance = 0x0117, cannotUnderstand = 0xc000;
+
+} // namespace pellucid::network

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nlohmann/json.hpp>
+
+#include "core/network/dicom_json.h"
+#include "core/parse/attributes.h"
+#include "core/task/error.h"
+
+namespace pellucid::network {
+
+namespace {
+
+using Json = nlohmann::json;
+
+[[noreturn]] void fail() {
+    throw task::Error(task::ErrorCode::unusable, task::because::serverSendsNoDicomJson);
+}
+
+Json parsed(const std::string &text) {
+    Json json = Json::parse(text, nullptr, false);
+    if (json.is_discarded())
+        fail();
+    return json;
+}
+
+std::uint32_t tagOf(const std::string &name) {
+    if (name.size() != 8 || name.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+        return 0;
+    return std::uint32_t(std::stoul(name, nullptr, 16));
+}
+
+std::string textOf(const Json &value) {
+    if (value.is_string())
+        return value.get<std::string>();
+    if (value.is_number() || value.is_boolean())
+        return value.dump();
+    if (value.is_object()) // a person's name
+        for (const char *const group : {"Alphabetic", "Ideographic", "Phonetic"})
+            if (value.contains(group) && value[group].is_string())
+                return value[group].get<std::string>();
+    return {};
+}
+
+std::string valueOf(const Json &attribute) {
+    if (!attribute.is_object() || !attribute.contains("Value") || !attribute["Value"].is_array() ||
+        attribute.value("vr", "") == "SQ")
+        return {};
+    std::string text;
+    for (const Json &value : attribute["Value"])
+        text += (text.empty() ? "" : "\\") + textOf(value);
+    return parse::oneLine(text);
+}
+
+exchange::Attributes attributesOf(const Json &dataset) {
+    exchange::Attributes attributes;
+    if (!dataset.is_object())
+        fail();
+    for (const auto &[name, attribute] : dataset.items())
+        if (const std::uint32_t tag = tagOf(name))
+            if (std::string text = valueOf(attribute); !text.empty())
+                attributes[tag] = std::move(text);
+    return attributes;
+}
+
+// The items of a sequence.
+std::vector<Json> itemsOf(const Json &dataset, const char *tag) {
+    if (!dataset.is_object() || !dataset.contains(tag) || !dataset[tag].is_object() ||
+        !dataset[tag].contains("Value") || !dataset[tag]["Value"].is_array())
+        return {};
+    return dataset[tag]["Value"].get<std::vector<Json>>();
+}
+
+} // namespace
+
+std::vector<exchange::Attributes> readDicomJson(const std::string &text) {
+    if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+        return {};
+    const Json json = parsed(text);
+    if (!json.is_array())
+        fail();
+    std::vector<exchange::Attributes> datasets;
+    for (const Json &dataset : json)
+        datasets.push_back(attributesOf(dataset));
+    return datasets;
+}
+
+StoreAnswer readStoreAnswer(const std::string &text) {
+    Json json = parsed(text);
+    if (json.is_array() && json.size() == 1) // some servers answer with a list
+        json = Json(json[0]);
+    if (!json.is_object())
+        fail();
+    StoreAnswer answer;
+    constexpr std::uint32_t referencedInstance = 0x00081155, failureReason = 0x00081197;
+    for (const Json &item : itemsOf(json, "00081199"))
+        answer.stored.push_back(attributesOf(item)[referencedInstance]);
+    for (const Json &item : itemsOf(json, "00081198")) {
+        exchange::Attributes attributes = attributesOf(item);
+        answer.failed.push_back(
+            {attributes[referencedInstance], std::atoi(attributes[failureReason].c_str())});
+    }
+    return answer;
+}
+
+} // namespace pellucid::network

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/network/association.h"
+
+namespace pellucid::network {
+
+// The requests of a client (PS3.4, annexes A to C). All *throw* Lost if the connection fails,
+// Error{unusable} with the server's status if it refuses, Disconnected, CancelledByProgram after
+// the server has ended the request or two seconds have passed.
+
+void echo(Association &association, Control &control);
+/// Sends a `match` for each answer.
+exchange::QueryEnd find(Association &association, const exchange::Query &query, Control &control);
+/// C-GET: the objects come on the same association, each as `Storage`.
+exchange::RetrievalEnd get(Association &association, const exchange::Retrieval &retrieval,
+                           Control &control);
+/// C-MOVE: the objects come to the server of the destination.
+exchange::RetrievalEnd move(Association &association, const exchange::Retrieval &retrieval,
+                            Control &control);
+/// C-STORE of an open file of this size.
+void store(Association &association, int file, std::uint64_t bytes, Control &control);
+
+/// Answers a client until it releases the association: C-ECHO, and C-STORE as `Storage`.
+void provide(Association &association, Control &control);
+
+} // namespace pellucid::network

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/network/dimse.h"
+
+#include <chrono>
+#include <sstream>
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmnet/assoc.h>
+#include <dcmtk/dcmnet/dimse.h>
+
+#include "core/decoder/channel.h"
+#include "core/network/dimse_dcmtk.h"
+#include "core/network/statuses.h"
+#include "core/parse/attributes.h"
+#include "core/parse/memory_input.h"
+
+namespace pellucid::network {
+
+namespace {
+
+namespace because = task::because;
+using exchange::Level;
+using task::Error;
+using task::ErrorCode;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds cancelPatience(2);
+
+const char *nameOf(Level level) {
+    switch (level) {
+    case Level::study:
+        return "STUDY";
+    case Level::series:
+        return "SERIES";
+    case Level::image:
+        return "IMAGE";
+    }
+    return "STUDY";
+}
+
+DcmTagKey keyOf(std::uint32_t tag) {
+    return {Uint16(tag >> 16), Uint16(tag & 0xffff)};
+}
+
+bool isAscii(const std::string &text) {
+    for (const char c : text)
+        if ((unsigned char)(c) >= 0x80)
+            return false;
+    return true;
+}
+
+// A question in the server's character set if it has all letters, else in UTF-8.
+void encode(DcmDataset &identifier, const exchange::Attributes &keys, const std::string &set) {
+    bool isPlain = true;
+    for (const auto &[tag, value] : keys) {
+        identifier.putAndInsertString(keyOf(tag), value.c_str());
+        isPlain = isPlain && isAscii(value);
+    }
+    if (isPlain)
+        return;
+    identifier.putAndInsertString(DCM_SpecificCharacterSet, "ISO_IR 192");
+    if (!set.empty() && set != "ISO_IR 192")
+        identifier.convertCharacterSet("ISO_IR 192", set.c_str());
+}
+
+void send(Association &association, unsigned char context, T_DIMSE_Message &message,
+          DcmDataset *dataset) {
+    const OFCondition sent = DIMSE_sendMessageUsingMemoryData(association.get(), context, &message,
+                                                              nullptr, dataset, nullptr, nullptr);
+    if (sent.bad())
+        association.fail(sent.text());
+}
+
+// Sends the cancel, and throws after the server has had time to end the request.
+class Cancelling {
+public:
+    void begin(Association &association, unsigned char context, unsigned short request) {
+        if (m_end)
+            return;
+        m_end = Clock::now() + cancelPatience;
+        DIMSE_sendCancelRequest(association.get(), context, request);
+    }
+    bool hasBegun() const { return m_end.has_value(); }
+    void check(Association &association) const {
+        if (m_end && Clock::now() > *m_end) {
+            association.abort();
+            throw CancelledByProgram();
+        }
+    }
+
+private:
+    std::optional<Clock::time_point> m_end;
+};
+
+exchange::Attributes attributesOf(DcmDataset &dataset, const exchange::Query &query,
+                                  const std::string &defaultSet) {
+    if (!defaultSet.empty() && !dataset.tagExistsWithValue(DCM_SpecificCharacterSet))
+        dataset.putAndInsertString(DCM_SpecificCharacterSet, defaultSet.c_str());
+    const parse::CharacterSets sets(dataset);
+    exchange::Attributes attributes;
+    const auto take = [&](std::uint32_t tag) {
+        if (std::string text = parse::readText(&dataset, keyOf(tag), &sets); !text.empty())
+            attributes[tag] = std::move(text);
+    };
+    for (const auto &[tag, value] : query.keys)
+        take(tag);
+    take(exchange::tag::retrieveAe);
+    take(exchange::tag::availability);
+    return attributes;
+}
+
+DcmDataset identifierOf(const exchange::Retrieval &retrieval) {
+    DcmDataset identifier;
+    identifier.putAndInsertString(DCM_QueryRetrieveLevel, nameOf(retrieval.level));
+    identifier.putAndInsertString(DCM_StudyInstanceUID, retrieval.studyUid.c_str());
+    if (retrieval.level != Level::study)
+        identifier.putAndInsertString(DCM_SeriesInstanceUID, retrieval.seriesUid.c_str());
+    if (retrieval.level == Level::image) {
+        std::string uids;
+        for (const std::string &uid : retrieval.instanceUids)
+            uids += (uids.empty() ? "" : "\\") + uid;
+        identifier.putAndInsertOFStringArray(DCM_SOPInstanceUID, OFString(uids.c_str()));
+    }
+    return identifier;
+}
+
+void takeFailed(DcmDataset &dataset, exchange::RetrievalEnd &end) {
+    OFString uids;
+    if (dataset.findAndGetOFStringArray(DCM_FailedSOPInstanceUIDList, uids).bad())
+        return;
+    std::istringstream each(std::string(uids.c_str()));
+    for (std::string uid; std::getline(each, uid, '\\');)
+        if (exchange::isUid(uid) && end.failedInstances.size() < exchange::uidsAtOnce)
+            end.failedInstances.push_back(uid);
+}
+
+// The responses of C-GET and C-MOVE have the same fields.
+template <class Response> void takeCounts(const Response &response, exchange::RetrievalEnd &end) {
+    end.completed = response.NumberOfCompletedSubOperations;
+    end.failed = response.NumberOfFailedSubOperations;
+    end.warnings = response.NumberOfWarningSubOperations;
+}
+
+// Takes objects and responses until the last one.
+exchange::RetrievalEnd retrieve(Association &association, unsigned char context,
+                                unsigned short request, Control &control) {
+    exchange::RetrievalEnd end;
+    Cancelling cancelling;
+    for (;;) {
+        cancelling.check(association);
+        std::optional<Command> command = nextCommand(association, control);
+        if (!command) {
+            cancelling.begin(association, context, request);
+            continue;
+        }
+        T_DIMSE_Message &message = *command->message;
+        if (message.CommandField == DIMSE_C_STORE_RQ) {
+            if (control.isCancelled())
+                cancelling.begin(association, context, request);
+            receiveObject(association, command->context, message.msg.CStoreRQ, control);
+            continue;
+        }
+        std::uint16_t status = 0;
+        bool hasData = false;
+        if (message.CommandField == DIMSE_C_GET_RSP) {
+            const T_DIMSE_C_GetRSP &response = message.msg.CGetRSP;
+            status = response.DimseStatus;
+            hasData = response.DataSetType != DIMSE_DATASET_NULL;
+            takeCounts(response, end);
+        } else if (message.CommandField == DIMSE_C_MOVE_RSP) {
+            const T_DIMSE_C_MoveRSP &response = message.msg.CMoveRSP;
+            status = response.DimseStatus;
+            hasData = response.DataSetType != DIMSE_DATASET_NULL;
+            takeCounts(response, end);
+        } else {
+            throw Lost{because::serverSendsTheUnexpected};
+        }
+        if (hasData)
+            takeFailed(*receiveDataset(association, command->context), end);
+        if (isPending(status)) {
+            control.send({Message::Kind::progress, 0, end.completed, {}});
+            continue;
+        }
+        if (cancelling.hasBegun() || isCancel(status))
+            throw CancelledByProgram();
+        // Objects that fail are counted and listed; the rest has come.
+        if (status != 0 && !isWarning(status) && end.completed == 0)
+            throw Error(ErrorCode::unusable, statusReason(status, command->comment));
+        return end;
+    }
+}
+
+} // namespace
+
+void echo(Association &association, Control &control) {
+    T_DIMSE_Message request{};
+    request.CommandField = DIMSE_C_ECHO_RQ;
+    request.msg.CEchoRQ.MessageID = association.get()->nextMsgID++;
+    OFStandard::strlcpy(request.msg.CEchoRQ.AffectedSOPClassUID, UID_VerificationSOPClass,
+                        sizeof request.msg.CEchoRQ.AffectedSOPClassUID);
+    request.msg.CEchoRQ.DataSetType = DIMSE_DATASET_NULL;
+    send(association, association.contextFor(UID_VerificationSOPClass), request, nullptr);
+    const std::optional<Command> answer = nextCommand(association, control);
+    if (!answer)
+        throw CancelledByProgram();
+    if (answer->message->CommandField != DIMSE_C_ECHO_RSP)
+        throw Lost{because::serverSendsTheUnexpected};
+    if (const std::uint16_t status = answer->message->msg.CEchoRSP.DimseStatus; status != 0)
+        throw Error(ErrorCode::unusable, statusReason(status, answer->comment));
+    std::string offers;
+    for (const auto &[uid, name] : std::initializer_list<std::pair<const char *, const char *>>{
+             {UID_FINDStudyRootQueryRetrieveInformationModel, "C-FIND"},
+             {UID_GETStudyRootQueryRetrieveInformationModel, "C-GET"},
+             {UID_MOVEStudyRootQueryRetrieveInformationModel, "C-MOVE"},
+             {UID_SecondaryCaptureImageStorage, "C-STORE"}})
+        if (ASC_findAcceptedPresentationContextID(association.get(), uid) != 0)
+            offers += std::string(offers.empty() ? "" : ", ") + name;
+    control.step(exchange::Step::service, offers);
+}
+
+exchange::QueryEnd find(Association &association, const exchange::Query &query, Control &control) {
+    const char *const model = UID_FINDStudyRootQueryRetrieveInformationModel;
+    const unsigned char context = association.contextFor(model);
+    DcmDataset identifier;
+    identifier.putAndInsertString(DCM_QueryRetrieveLevel, nameOf(query.level));
+    encode(identifier, query.keys, association.characterSet());
+    T_DIMSE_Message request{};
+    request.CommandField = DIMSE_C_FIND_RQ;
+    T_DIMSE_C_FindRQ &find = request.msg.CFindRQ;
+    find.MessageID = association.get()->nextMsgID++;
+    OFStandard::strlcpy(find.AffectedSOPClassUID, model, sizeof find.AffectedSOPClassUID);
+    find.Priority = DIMSE_PRIORITY_MEDIUM;
+    find.DataSetType = DIMSE_DATASET_PRESENT;
+    send(association, context, request, &identifier);
+
+    exchange::QueryEnd end;
+    Cancelling cancelling;
+    bool isCancelledByUser = false;
+    for (std::uint32_t matches = 0;;) {
+        cancelling.check(association);
+        std::optional<Command> command = nextCommand(association, control);
+        if (!command) {
+            isCancelledByUser = true;
+            cancelling.begin(association, context, find.MessageID);
+            continue;
+        }
+        if (command->message->CommandField != DIMSE_C_FIND_RSP)
+            throw Lost{because::serverSendsTheUnexpected};
+        const T_DIMSE_C_FindRSP &response = command->message->msg.CFindRSP;
+        const std::uint16_t status = response.DimseStatus;
+        std::unique_ptr<DcmDataset> answer;
+        if (response.DataSetType != DIMSE_DATASET_NULL)
+            answer = receiveDataset(association, command->context);
+        if (isPending(status)) {
+            if (query.limit != 0 && matches == query.limit) {
+                end.reachedLimit = true;
+                cancelling.begin(association, context, find.MessageID);
+            } else if (answer && !cancelling.hasBegun()) {
+                ++matches;
+                control.send(
+                    {Message::Kind::match, 0, 0,
+                     exchange::pack(attributesOf(*answer, query, association.characterSet()))});
+            }
+            continue;
+        }
+        if (isCancelledByUser)
+            throw CancelledByProgram();
+        if (!command->comment.empty())
+            end.warnings.push_back(command->comment);
+        if (status != 0 && !end.reachedLimit && !isWarning(status))
+            throw Error(ErrorCode::unusable, statusReason(status, command->comment));
+        return end;
+    }
+}
+
+exchange::RetrievalEnd get(Association &association, const exchange::Retrieval &retrieval,
+                           Control &control) {
+    const char *const model = UID_GETStudyRootQueryRetrieveInformationModel;
+    const unsigned char context = association.contextFor(model);
+    DcmDataset identifier = identifierOf(retrieval);
+    T_DIMSE_Message request{};
+    request.CommandField = DIMSE_C_GET_RQ;
+    T_DIMSE_C_GetRQ &get = request.msg.CGetRQ;
+    get.MessageID = association.get()->nextMsgID++;
+    OFStandard::strlcpy(get.AffectedSOPClassUID, model, sizeof get.AffectedSOPClassUID);
+    get.Priority = DIMSE_PRIORITY_MEDIUM;
+    get.DataSetType = DIMSE_DATASET_PRESENT;
+    send(association, context, request, &identifier);
+    return retrieve(association, context, get.MessageID, control);
+}
+
+exchange::RetrievalEnd move(Association &association, const exchange::Retrieval &retrieval,
+                            Control &control) {
+    const char *const model = UID_MOVEStudyRootQueryRetrieveInformationModel;
+    const unsigned char context = association.contextFor(model);
+    DcmDataset identifier = identifierOf(retrieval);
+    T_DIMSE_Message request{};
+    request.CommandField = DIMSE_C_MOVE_RQ;
+    T_DIMSE_C_MoveRQ &move = request.msg.CMoveRQ;
+    move.MessageID = association.get()->nextMsgID++;
+    OFStandard::strlcpy(move.AffectedSOPClassUID, model, sizeof move.AffectedSOPClassUID);
+    move.Priority = DIMSE_PRIORITY_MEDIUM;
+    move.DataSetType = DIMSE_DATASET_PRESENT;
+    OFStandard::strlcpy(move.MoveDestination, retrieval.destinationAe.c_str(),
+                        sizeof move.MoveDestination);
+    send(association, context, request, &identifier);
+    return retrieve(association, context, move.MessageID, control);
+}
+
+void store(Association &association, int file, std::uint64_t bytes, Control &control) {
+    const decoder::Mapping mapping(file, bytes, decoder::Mapping::Access::read);
+    const auto input = parse::memoryInput(mapping.bytes());
+    DcmFileFormat object;
+    object.transferInit();
+    const OFCondition loaded = object.read(*input, EXS_Unknown, EGL_noChange, DCM_MaxReadLength);
+    object.transferEnd();
+    if (loaded.bad())
+        throw Error(ErrorCode::unusable, because::isDamagedBy(std::string(loaded.text())));
+    DcmDataset &dataset = *object.getDataset();
+    const exchange::Encoding encoding{
+        parse::readText(&dataset, DCM_SOPClassUID),
+        DcmXfer(dataset.getOriginalXfer()).getXferID(),
+    };
+    const std::string uid = parse::readText(&dataset, DCM_SOPInstanceUID);
+    const auto context = association.contextFor(encoding);
+    if (!context)
+        throw Error(ErrorCode::unusable, because::serverDoesNotTakeTheEncoding(std::string(
+                                             DcmXfer(dataset.getOriginalXfer()).getXferName())));
+    T_DIMSE_Message request{};
+    request.CommandField = DIMSE_C_STORE_RQ;
+    T_DIMSE_C_StoreRQ &store = request.msg.CStoreRQ;
+    store.MessageID = association.get()->nextMsgID++;
+    OFStandard::strlcpy(store.AffectedSOPClassUID, encoding.sopClassUid.c_str(),
+                        sizeof store.AffectedSOPClassUID);
+    OFStandard::strlcpy(store.AffectedSOPInstanceUID, uid.c_str(),
+                        sizeof store.AffectedSOPInstanceUID);
+    store.Priority = DIMSE_PRIORITY_MEDIUM;
+    store.DataSetType = DIMSE_DATASET_PRESENT;
+    send(association, *context, request, &dataset);
+    const std::optional<Command> answer = nextCommand(association, control);
+    if (!answer) {
+        association.abort();
+        throw CancelledByProgram();
+    }
+    if (answer->message->CommandField != DIMSE_C_STORE_RSP)
+        throw Lost{because::serverSendsTheUnexpected};
+    const std::uint16_t status = answer->message->msg.CStoreRSP.DimseStatus;
+    // A coerced attribute or a discarded private element: the object is stored.
+    if (status != 0 && !isWarning(status))
+        throw Error(ErrorCode::unusable, statusReason(status, answer->comment));
+}
+
+} // namespace pellucid::network

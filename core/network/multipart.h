@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace pellucid::network {
+
+/// Splits a multipart body, as of WADO-RS, into its parts while it arrives (RFC 2046, 5.1). Accepts
+/// quoted boundaries, parts without headers, and lines that end with LF alone.
+class MultipartReader {
+public:
+    /// `begin` starts a part, `take` gets its bytes, `end` is called when its closing delimiter has
+    /// come. All may throw.
+    struct Sink {
+        std::function<void()> begin;
+        std::function<void(std::span<const std::byte>)> take;
+        std::function<void()> end;
+    };
+    /// `contentType`: of the whole body. A type other than multipart is a single part.
+    MultipartReader(const std::string &contentType, Sink sink);
+
+    void add(std::span<const std::byte> bytes);
+    /// The body has ended. *Shape*: false if a part was still open, so that its end is missing.
+    bool finish();
+
+private:
+    enum class State { preamble, headers, body, epilogue, single };
+    /// Consumes what is certain. Returns false when more bytes are needed.
+    bool step();
+
+    Sink m_sink;
+    std::string m_delimiter; ///< with the leading dashes
+    std::string m_pending;
+    State m_state = State::preamble;
+};
+
+/// The value of a parameter such as boundary in a header field, without quotes; empty if it is
+/// missing.
+std::string parameterOf(const std::string &field, const std::string &name);
+
+} // namespace pellucid::network

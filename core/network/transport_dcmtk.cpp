@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/network/transport.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <openssl/err.h>
+#include <openssl/ssl.h>
+#include <openssl/x509_vfy.h>
+#include <sys/socket.h>
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmnet/dcmlayer.h>
+#include <dcmtk/dcmnet/dcmtrans.h>
+#include <dcmtk/dcmtls/tlslayer.h>
+#include <dcmtk/dcmtls/tlstrans.h>
+
+#include "core/network/authorities.h"
+#include "core/task/error.h"
+
+namespace pellucid::network {
+
+namespace {
+
+namespace because = task::because;
+
+// Without these, each object waits for the delayed acknowledgement of the last one: 40 ms.
+void sendAtOnce(int socket) {
+    const int on = 1;
+    ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    ::setsockopt(socket, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
+}
+
+// The kernel forgets it after a while.
+void acknowledgeAtOnce(int socket) {
+    const int on = 1;
+    ::setsockopt(socket, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
+}
+
+class PlainConnection : public DcmTCPConnection {
+public:
+    explicit PlainConnection(int socket) : DcmTCPConnection(socket) {}
+    ssize_t read(void *to, size_t bytes) override {
+        const ssize_t got = DcmTCPConnection::read(to, bytes);
+        acknowledgeAtOnce(getSocket());
+        return got;
+    }
+};
+
+class PlainLayer : public DcmTransportLayer {
+public:
+    explicit PlainLayer(std::shared_ptr<Transport::State> state) : m_state(std::move(state)) {}
+    DcmTransportConnection *createConnection(DcmNativeSocketType socket, OFBool) override {
+        sendAtOnce(socket);
+        m_state->socket = socket;
+        m_state->events.connected(socket);
+        return new PlainConnection(socket);
+    }
+
+private:
+    std::shared_ptr<Transport::State> m_state;
+};
+
+std::string textOfLastError() {
+    std::string text(256, '\0');
+    const unsigned long code = ::ERR_peek_last_error();
+    if (code == 0)
+        return {};
+    if (const char *const reason = ::ERR_reason_error_string(code))
+        return reason;
+    ::ERR_error_string_n(code, text.data(), text.size());
+    return text.c_str();
+}
+
+class SecureConnection : public DcmTLSConnection {
+public:
+    SecureConnection(int socket, SSL *ssl, std::shared_ptr<Transport::State> state)
+        : DcmTLSConnection(socket, ssl), m_ssl(ssl), m_state(std::move(state)) {}
+
+    OFCondition clientSideHandshake() override {
+        return judged(DcmTLSConnection::clientSideHandshake());
+    }
+    OFCondition serverSideHandshake() override {
+        return judged(DcmTLSConnection::serverSideHandshake());
+    }
+    ssize_t read(void *to, size_t bytes) override {
+        ::ERR_clear_error();
+        const ssize_t got = DcmTLSConnection::read(to, bytes);
+        // TLS 1.3 reports a refused certificate of this program only with the first answer.
+        if (got < 0 && !m_state->refusal)
+            if (const std::string text = textOfLastError(); !text.empty())
+                m_state->refusal = because::tlsFails(text);
+        acknowledgeAtOnce(getSocket());
+        return got;
+    }
+
+private:
+    OFCondition judged(const OFCondition &shaken) {
+        if (shaken.good()) {
+            m_state->events.secured(std::string(::SSL_get_version(m_ssl)) + ", " +
+                                    ::SSL_get_cipher_name(m_ssl));
+            return shaken;
+        }
+        const long verified = ::SSL_get_verify_result(m_ssl);
+        if (verified != X509_V_OK) {
+            m_state->refusal = because::certificateIsRefused(
+                std::string(::X509_verify_cert_error_string(verified)));
+        } else {
+            const std::string text = textOfLastError();
+            m_state->refusal =
+                text.empty() ? task::Reason(because::tlsIsNotAnswered) : because::tlsFails(text);
+        }
+        return shaken;
+    }
+
+    SSL *m_ssl; // the connection owns it
+    std::shared_ptr<Transport::State> m_state;
+};
+
+class SecureLayer : public DcmTLSTransportLayer {
+public:
+    SecureLayer(std::shared_ptr<Transport::State> state, const Certificates &certificates)
+        : DcmTLSTransportLayer(certificates.host.empty() ? NET_ACCEPTOR : NET_REQUESTOR, nullptr,
+                               OFTrue),
+          m_state(std::move(state)), m_host(certificates.host) {
+        const auto require = [](const OFCondition &condition, const std::string &path) {
+            if (condition.bad())
+                throw task::Error(task::ErrorCode::usage,
+                                  because::isNoPemFile(std::string(condition.text())), path);
+        };
+        const std::string authorities =
+            certificates.authorities.empty() ? systemAuthoritiesFile() : certificates.authorities;
+        require(addTrustedCertificateFile(authorities.c_str(), DCF_Filetype_PEM), authorities);
+        if (!certificates.certificate.empty()) {
+            setPrivateKeyPasswd(certificates.keyPassword.c_str());
+            require(setPrivateKeyFile(certificates.key.c_str(), DCF_Filetype_PEM),
+                    certificates.key);
+            require(setCertificateFile(certificates.certificate.c_str(), DCF_Filetype_PEM),
+                    certificates.certificate);
+            if (!checkPrivateKeyMatchesCertificate())
+                throw task::Error(task::ErrorCode::usage, because::keyIsNotOfTheCertificate,
+                                  certificates.key);
+        }
+        setTLSProfile(TSP_Profile_BCP195_ND);
+        activateCipherSuites();
+        ::SSL_CTX_set_min_proto_version(getNativeHandle(), TLS1_2_VERSION);
+        setCertificateVerification(DCV_requireCertificate);
+        if (!m_host.empty()) {
+            X509_VERIFY_PARAM *const verified = ::SSL_CTX_get0_param(getNativeHandle());
+            in_addr address{};
+            if (::inet_pton(AF_INET, m_host.c_str(), &address) == 1)
+                ::X509_VERIFY_PARAM_set1_ip_asc(verified, m_host.c_str());
+            else
+                ::X509_VERIFY_PARAM_set1_host(verified, m_host.c_str(), m_host.size());
+        }
+    }
+
+    DcmTransportConnection *createConnection(DcmNativeSocketType socket, OFBool) override {
+        sendAtOnce(socket);
+        SSL *const ssl = ::SSL_new(getNativeHandle());
+        if (ssl == nullptr)
+            return nullptr;
+        ::SSL_set_fd(ssl, socket);
+        in_addr address{};
+        if (!m_host.empty() && ::inet_pton(AF_INET, m_host.c_str(), &address) != 1)
+            ::SSL_set_tlsext_host_name(ssl, m_host.c_str()); // names only (RFC 6066, 3)
+        m_state->socket = socket;
+        m_state->events.connected(socket);
+        return new SecureConnection(socket, ssl, m_state);
+    }
+
+private:
+    std::shared_ptr<Transport::State> m_state;
+    std::string m_host;
+};
+
+} // namespace
+
+Transport::Transport(ConnectionEvents events)
+    : m_state(std::make_shared<State>(State{std::move(events), -1, {}})),
+      m_layer(std::make_unique<PlainLayer>(m_state)) {}
+
+Transport::Transport(ConnectionEvents events, const Certificates &certificates)
+    : m_state(std::make_shared<State>(State{std::move(events), -1, {}})), m_isSecure(true),
+      m_layer(std::make_unique<SecureLayer>(m_state, certificates)) {}
+
+Transport::~Transport() = default;
+
+} // namespace pellucid::network

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/archive/server.h"
+
+#include <gtest/gtest.h>
+
+#include "core/archive/search.h"
+#include "core/task/error.h"
+#include "tests/support/files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid::archive {
+
+TEST(Server, AddressesAreReadAndWritten) {
+    const exchange::Peer dicom = dicomPeer("ARCHIVE@pacs.example.org:4242");
+    EXPECT_EQ(dicom.calledAe, "ARCHIVE");
+    EXPECT_EQ(dicom.host, "pacs.example.org");
+    EXPECT_EQ(dicom.port, 4242);
+    EXPECT_EQ(addressOf(dicom), "ARCHIVE@pacs.example.org:4242");
+    EXPECT_EQ(dicomPeer("A@h").port, 104);
+    const exchange::Peer web = webPeer("https://pacs.example.org/dicom-web/");
+    EXPECT_TRUE(web.usesTls);
+    EXPECT_EQ(web.port, 443);
+    EXPECT_EQ(web.path, "/dicom-web");
+    EXPECT_EQ(addressOf(web), "https://pacs.example.org/dicom-web");
+    EXPECT_EQ(addressOf(webPeer("http://h:8042/wado")), "http://h:8042/wado");
+    for (const char *const bad : {"", "host:104", "@host", "AE@", "AE@host:0", "AE@host:99999",
+                                  "AE@host:x", "SEVENTEENLETTERS_@h", "A\\B@h", "A@h/x"})
+        EXPECT_THROW(dicomPeer(bad), task::Error) << bad;
+    for (const char *const bad : {"", "ftp://h", "h/dicom-web", "https://user:secret@h/dicom-web",
+                                  "https://", "https://h:0/", "https://h/a?b"})
+        EXPECT_THROW(webPeer(bad), task::Error) << bad;
+}
+
+TEST(Server, TheListIsKeptWithoutSecrets) {
+    const test::TemporaryFolder folder;
+    Server server{"Archive", dicomPeer("A@h:11112")};
+    server.peer.usesTls = true;
+    server.peer.authorities = "/ca.pem";
+    server.peer.certificate = "/our.pem";
+    server.peer.key = "/our.key";
+    server.peer.authentication = exchange::Authentication::basic;
+    server.peer.user = "eva";
+    server.peer.secret = "top secret";
+    server.peer.keyPassword = "also secret";
+    server.retrieve = RetrieveMethod::move;
+    server.limit = 7;
+    {
+        ServerList list(folder / "servers.json");
+        list.put(server);
+        list.put({"Web", webPeer("https://h/dicom-web")});
+    }
+    const std::string text = test::readText(folder / "servers.json");
+    EXPECT_EQ(text.find("secret"), std::string::npos);
+    ServerList list(folder / "servers.json");
+    server.peer.secret.clear();
+    server.peer.keyPassword.clear();
+    EXPECT_EQ(list.get("Archive"), server);
+    EXPECT_EQ(addressOf(list.get("Web").peer), "https://h/dicom-web");
+    list.remove("Web");
+    EXPECT_EQ(ServerList(folder / "servers.json").servers().size(), 1U);
+    EXPECT_THROW(list.remove("Web"), task::Error);
+}
+
+TEST(Server, ADamagedListNamesThePlace) {
+    const test::TemporaryFolder folder;
+    const auto message = [&](const std::string &text) {
+        test::writeText(folder / "servers.json", text);
+        try {
+            const ServerList list(folder / "servers.json");
+        } catch (const task::Error &error) {
+            return std::string(error.what());
+        }
+        return std::string("read");
+    };
+    EXPECT_NE(message("{").find("servers.json"), std::string::npos);
+    EXPECT_NE(
+        message(R"({"schema": "pellucid-servers/1", "servers": [{"name": "a", "address": "x"}]})")
+            .find("/servers/0/address"),
+        std::string::npos);
+    EXPECT_EQ(message(R"({"schema": "pellucid-servers/1", "servers": []})"), "read");
+}
+
+TEST(Search, TermsAreChecked) {
+    const auto isRefused = [](const SearchTerms &terms) {
+        try {
+            queryOf(terms, 0);
+        } catch (const task::Error &error) {
+            return error.code() == task::ErrorCode::usage;
+        }
+        return false;
+    };
+    EXPECT_TRUE(isRefused({.patientName = "a\\b"}));
+    EXPECT_TRUE(isRefused({.date = "2026"}));
+    EXPECT_TRUE(isRefused({.date = "-"}));
+    EXPECT_TRUE(isRefused({.studyUid = "x"}));
+    EXPECT_TRUE(isRefused({.level = exchange::Level::series}));
+    EXPECT_TRUE(isRefused({.studyUid = "1.2", .level = exchange::Level::image}));
+    EXPECT_FALSE(isRefused({.patientName = "M*ller^E?a", .date = "20260101-"}));
+    EXPECT_FALSE(isRefused({.date = "-20260101"}));
+}
+
+} // namespace pellucid::archive

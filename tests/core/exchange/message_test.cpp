@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/message.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/task/error.h"
+#include "tests/support/fresh_seed.h"
+
+namespace pellucid::exchange {
+
+namespace {
+
+Connection fullConnection() {
+    Connection connection;
+    connection.peer = {
+        Protocol::web, "host",   8443,         "SERVER",  "US",   "/dicom-web",
+        true,          "ca.pem", "our.pem",    "our.key", "pass", Authentication::bearer,
+        "user",        "token",  "ISO_IR 100", 1.0,       2.0,    3.0};
+    connection.purpose = Purpose::store;
+    connection.sopClasses = {"1.2.3", "1.2.4"};
+    connection.encodings = {{"1.2.3", "1.2.840.10008.1.2"}};
+    return connection;
+}
+
+} // namespace
+
+TEST(ExchangeMessage, ValuesSurviveTheJourney) {
+    const Connection connection = fullConnection(), back = unpackConnection(pack(connection));
+    EXPECT_EQ(back.peer, connection.peer);
+    EXPECT_EQ(back.purpose, connection.purpose);
+    EXPECT_EQ(back.sopClasses, connection.sopClasses);
+    EXPECT_EQ(back.encodings, connection.encodings);
+    const Attributes attributes{{tag::patientName, "M\xC3\xBCller^Eva"}, {tag::studyUid, "1.2.3"}};
+    EXPECT_EQ(unpackAttributes(pack(attributes)), attributes);
+    const RetrievalEnd end{3, 2, 1, {"1.2.3", "1.2.4"}};
+    EXPECT_EQ(unpackRetrievalEnd(pack(end)), end);
+    const Arrival arrival{"1.2", "1.2.3", "1.2.840.10008.1.2", "SENDER"};
+    EXPECT_EQ(unpackArrival(pack(arrival)).callingAe, "SENDER");
+}
+
+// What arrives may become a file name, and is shown: neither a path nor a line break passes.
+TEST(ExchangeMessage, IdentifiersArePlain) {
+    for (const char *const bad :
+         {"", "../../etc/passwd", "1.2/3", "1..2", ".1", "1.", "1.2\n",
+          "1.2.3.4.5.6.7.8.9.10.11.12.13.14.15.16.17.18.19.20.21.22.23.24.25."
+          "26.27"}) {
+        EXPECT_FALSE(isUid(bad)) << bad;
+        EXPECT_THROW(unpackArrival(pack(Arrival{"1.2", bad, "1.2.3", ""})), task::Error) << bad;
+        EXPECT_THROW(unpackRetrievalEnd(pack(RetrievalEnd{0, 1, 0, {bad}})), task::Error) << bad;
+    }
+    EXPECT_TRUE(isUid("1.2.840.10008.5.1.4.1.1.2"));
+    EXPECT_EQ(unpackAttributes(pack(Attributes{{1, "a\nb\x1b[31m"}})).at(1), "a b [31m");
+}
+
+// A compromised helper may send anything: it is refused or taken, but nothing else happens.
+TEST(ExchangeMessage, AnyBytesAreRefusedOrTaken) {
+    std::mt19937 random(test::freshSeed());
+    const std::vector<std::string> valid{pack(fullConnection()), pack(Query{}),
+                                         pack(RetrievalEnd{}),
+                                         pack(Attributes{{1, "a"}, {2, "b"}})};
+    for (int n = 0; n < 4000; ++n) {
+        std::string bytes = valid[std::size_t(n) % valid.size()];
+        for (int change = 0; change < 3 && !bytes.empty(); ++change)
+            bytes[random() % bytes.size()] = char(random());
+        bytes.resize(random() % (bytes.size() + 1));
+        const auto attempt = [&](auto &&unpack) {
+            try {
+                unpack(bytes);
+            } catch (const task::Error &) {
+            }
+        };
+        attempt(unpackConnection);
+        attempt(unpackQuery);
+        attempt(unpackQueryEnd);
+        attempt(unpackRetrievalEnd);
+        attempt(unpackArrival);
+        attempt(unpackAttributes);
+        attempt(unpackUids);
+        attempt(unpackReason);
+    }
+}
+
+} // namespace pellucid::exchange

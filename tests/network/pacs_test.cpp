@@ -1,0 +1,595 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program against real servers: DCMTK's dcmqrscp and Orthanc.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <map>
+#include <random>
+#include <set>
+
+#include "core/archive/listener.h"
+#include "core/archive/receiving.h"
+#include "core/archive/retrieval.h"
+#include "core/archive/search.h"
+#include "core/archive/sending.h"
+#include "core/dicom/scan.h"
+#include "core/dicom/write_series.h"
+#include "core/phantom/phantom.h"
+#include "core/task/error.h"
+#include "tests/network/servers.h"
+#include "tests/support/command.h"
+#include "tests/support/files.h"
+#include "tests/support/fresh_seed.h"
+
+namespace pellucid {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace because = task::because;
+using archive::ObjectFolder;
+using archive::RetrievalReport;
+using archive::Wanted;
+
+// The bytes of a file after its meta header, which a receiver writes itself.
+std::string dataSetOf(const fs::path &file) {
+    const std::string bytes = test::readText(file);
+    std::uint32_t group = 0;
+    if (bytes.size() > 144)
+        std::memcpy(&group, bytes.data() + 140, sizeof group);
+    return bytes.substr(std::min(bytes.size(), std::size_t(144 + group)));
+}
+
+std::vector<fs::path> filesIn(const fs::path &folder) {
+    std::vector<fs::path> files;
+    if (fs::exists(folder))
+        for (const auto &entry : fs::recursive_directory_iterator(folder))
+            if (entry.is_regular_file())
+                files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::multiset<std::string> dataSetsIn(const fs::path &folder) {
+    std::multiset<std::string> sets;
+    // Digests, which a failed comparison can print.
+    for (const fs::path &file : filesIn(folder)) {
+        const std::string set = dataSetOf(file);
+        sets.insert(std::to_string(set.size()) + " bytes, " +
+                    std::to_string(std::hash<std::string>()(set)));
+    }
+    return sets;
+}
+
+archive::Server serverAt(int port, const std::string &ae) {
+    archive::Server server;
+    server.name = "test";
+    server.peer.host = "127.0.0.1";
+    server.peer.port = port;
+    server.peer.calledAe = ae;
+    server.peer.connectSeconds = 5.0;
+    server.peer.associationSeconds = 10.0;
+    server.peer.silenceSeconds = 10.0;
+    return server;
+}
+
+class Pacs : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!test::isInstalled("dcmqrscp"))
+            GTEST_SKIP() << "dcmqrscp is not installed";
+    }
+
+    // A series on disk. *Shape*: its slices are `side` x `side`.
+    fs::path series(const std::string &name, int slices, int side = 64,
+                    dicom::TransferSyntax syntax = dicom::TransferSyntax::explicitLittle) {
+        const volume::Volume volume = phantom::makePhantom(
+            phantom::Kind::head,
+            phantom::phantomLattice(phantom::Kind::head,
+                                    {.size = volume::GridSize{side, side, slices}}));
+        dicom::writeCtSeries(m_folder / name, volume,
+                             {.patientName = "Test^" + name,
+                              .patientId = "ID-" + name,
+                              .studyDescription = "Study " + name,
+                              .seriesDescription = "Series",
+                              .bodyPart = "HEAD",
+                              .windows = {}},
+                             syntax);
+        return m_folder / name;
+    }
+
+    static std::string studyIn(const fs::path &folder) {
+        return dicom::scan({folder}).patients.at(0).studies.at(0).uid;
+    }
+
+    static void put(const archive::Server &server, const fs::path &folder) {
+        const auto report = archive::send(server, filesIn(folder));
+        ASSERT_TRUE(report.notSent.empty()) << report.notSent.front().reason.english();
+    }
+
+    RetrievalReport get(const archive::Server &server, const std::string &study,
+                        const std::string &to = "got") {
+        const ObjectFolder folder(m_folder / to, ObjectFolder::Keeps::inMemoryOfTheSystem);
+        return archive::retrieve(server, {study, {}}, folder);
+    }
+
+    // The reason why something failed.
+    template <class F> static std::string failureOf(F &&work) {
+        try {
+            work();
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.code(), task::ErrorCode::unreachable) << error.what();
+            return error.reason().english();
+        }
+        return "nothing failed";
+    }
+
+    test::TemporaryFolder m_folder;
+};
+
+} // namespace
+
+TEST_F(Pacs, EveryServiceOfBothServers) {
+    test::Dcmqrscp dcmqrscp;
+    std::vector<archive::Server> servers{serverAt(dcmqrscp.port(), "COMMON")};
+    std::unique_ptr<test::Orthanc> orthanc;
+    if (test::isInstalled("Orthanc")) {
+        orthanc = std::make_unique<test::Orthanc>();
+        servers.push_back(serverAt(orthanc->port(), "ORTHANC"));
+    }
+    const fs::path sent = series("A", 24);
+    const std::string study = studyIn(sent);
+    for (const archive::Server &server : servers) {
+        std::string offers;
+        exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::echo});
+        link.echo({}, [&](exchange::Step, const std::string &found) { offers = found; });
+        EXPECT_EQ(offers, "C-FIND, C-GET, C-MOVE, C-STORE");
+        put(server, sent);
+        const auto found = archive::search({server}, {.patientName = "Test^*"});
+        ASSERT_EQ(found.entries.size(), 1U);
+        EXPECT_EQ(found.entries[0].text(exchange::tag::studyUid), study);
+        EXPECT_EQ(found.entries[0].text(exchange::tag::patientName), "Test^A");
+        const std::string to = "got-" + server.peer.calledAe;
+        const RetrievalReport report = get(server, study, to);
+        EXPECT_TRUE(report.isComplete());
+        EXPECT_EQ(report.state.received, 24U);
+        EXPECT_EQ(dataSetsIn(m_folder / to), dataSetsIn(sent));
+        // A second time, there is nothing to do.
+        const RetrievalReport again = get(server, study, to);
+        EXPECT_EQ(again.state.present, 24U);
+        EXPECT_EQ(again.state.received, 0U);
+        // What lacks, and only that.
+        fs::remove(filesIn(m_folder / to)[3]);
+        EXPECT_EQ(get(server, study, to).state.received, 1U);
+        EXPECT_EQ(dataSetsIn(m_folder / to), dataSetsIn(sent));
+    }
+}
+
+// What a server stores compressed arrives as it is stored. (Deflated objects are deflated again.)
+TEST_F(Pacs, CompressedObjectsStayCompressed) {
+    std::unique_ptr<test::Orthanc> orthanc;
+    if (test::isInstalled("Orthanc"))
+        orthanc = std::make_unique<test::Orthanc>();
+    using dicom::TransferSyntax;
+    struct Case {
+        std::string name;
+        TransferSyntax syntax;
+        std::string option; // by which dcmqrscp accepts it
+    };
+    for (const auto &[name, syntax, option] :
+         {Case{"ls", TransferSyntax::jpegLs, "+xt"},
+          Case{"ll", TransferSyntax::jpegLossless, "+xs"}, Case{"rle", TransferSyntax::rle, "+xr"},
+          Case{"j2k", TransferSyntax::jpeg2000, "+xv"},
+          Case{"imp", TransferSyntax::implicitLittle, "+xi"}}) {
+        const fs::path sent = series(name, 5, 48, syntax);
+        test::Dcmqrscp dcmqrscp({option});
+        std::vector<archive::Server> servers{serverAt(dcmqrscp.port(), "COMMON")};
+        if (orthanc)
+            servers.push_back(serverAt(orthanc->port(), "ORTHANC"));
+        for (const archive::Server &server : servers) {
+            put(server, sent);
+            const std::string to = name + server.peer.calledAe;
+            const RetrievalReport report = get(server, studyIn(sent), to);
+            EXPECT_TRUE(report.isComplete()) << to << report.lacking.front().reason.english();
+            const auto metaSyntax = [](const fs::path &folder) {
+                return dicom::scan({folder})
+                    .patients.at(0)
+                    .studies.at(0)
+                    .series.at(0)
+                    .volumes.at(0)
+                    .frames.size();
+            };
+            EXPECT_EQ(metaSyntax(m_folder / to), 5U) << to;
+            EXPECT_EQ(dataSetsIn(m_folder / to), dataSetsIn(sent)) << to;
+        }
+    }
+}
+
+TEST_F(Pacs, EveryServiceOfDicomWeb) {
+    if (!test::isInstalled("Orthanc") ||
+        !fs::exists("/usr/share/orthanc/plugins/libOrthancDicomWeb.so"))
+        GTEST_SKIP() << "Orthanc's DICOMweb plugin is not installed";
+    test::Orthanc orthanc(test::Orthanc::dicomWeb());
+    archive::Server server{
+        "web",
+        archive::webPeer("http://127.0.0.1:" + std::to_string(orthanc.webPort()) + "/dicom-web")};
+    exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::echo});
+    link.echo();
+    const fs::path plain = series("A", 24),
+                   compressed = series("B", 6, 48, dicom::TransferSyntax::jpegLs);
+    put(server, plain);
+    put(server, compressed);
+    const auto found = archive::search({server}, {});
+    EXPECT_EQ(found.entries.size(), 2U);
+    const auto named = archive::search({server}, {.patientName = "Test^A"});
+    ASSERT_EQ(named.entries.size(), 1U);
+    EXPECT_EQ(named.entries[0].text(exchange::tag::studyUid), studyIn(plain));
+    for (const auto &[name, sent] : {std::pair("a", plain), std::pair("b", compressed)}) {
+        const RetrievalReport report = get(server, studyIn(sent), name);
+        EXPECT_TRUE(report.isComplete()) << report.lacking.front().reason.english();
+        EXPECT_EQ(dataSetsIn(m_folder / name), dataSetsIn(sent));
+    }
+    server.peer.path = "/elsewhere";
+    const auto wrong = archive::search({server}, {});
+    EXPECT_TRUE(wrong.outcomes[0].failure->is(because::serverHasNothingThere));
+    server.limit = 1;
+    server.peer.path = "/dicom-web";
+    EXPECT_TRUE(archive::search({server}, {}).outcomes[0].reachedLimit);
+}
+
+// A program that is killed while it retrieves leaves nothing that is half there, and the next one
+// goes on by itself.
+TEST_F(Pacs, KillsLoseNothing) {
+    const char *const cli = std::getenv("PELLUCID_CLI");
+    if (cli == nullptr)
+        GTEST_SKIP() << "PELLUCID_CLI is not set";
+    test::Dcmqrscp dcmqrscp;
+    const fs::path sent = series("K", 40);
+    put(serverAt(dcmqrscp.port(), "COMMON"), sent);
+    const auto expected = dataSetsIn(sent);
+    const std::string study = studyIn(sent);
+    const std::string data = (m_folder / "data").string();
+    fs::create_directories(data);
+    ::setenv("XDG_DATA_HOME", data.c_str(), 1);
+    const std::string add = std::string("'") + cli + "' server add s --dicom COMMON@127.0.0.1:" +
+                            std::to_string(dcmqrscp.port());
+    ASSERT_EQ(test::run(add).exitCode, 0);
+    std::mt19937 random(test::freshSeed());
+    const int kills = std::getenv("PELLUCID_LONG_TESTS") != nullptr ? 200 : 15;
+    for (int n = 0; n < kills; ++n) {
+        const std::string to = (m_folder / ("kill" + std::to_string(n))).string();
+        const std::string get =
+            std::string("'") + cli + "' get s --study " + study + " --to '" + to + "' --json";
+        const pid_t child = ::fork();
+        if (child == 0) {
+            ::setpgid(0, 0);
+            ::execl("/bin/sh", "sh", "-c", ("exec " + get + " >/dev/null 2>&1").c_str(), nullptr);
+            ::_exit(127);
+        }
+        ::usleep(useconds_t(random() % 250000));
+        ::kill(child, SIGKILL);
+        ::waitpid(child, nullptr, 0);
+        for (const std::string &set : dataSetsIn(to))
+            EXPECT_TRUE(expected.contains(set));
+        const auto again = test::run(get);
+        EXPECT_EQ(again.exitCode, 0) << again.error;
+        EXPECT_EQ(dataSetsIn(to), expected);
+        fs::remove_all(to);
+    }
+    ::unsetenv("XDG_DATA_HOME");
+}
+
+TEST_F(Pacs, AServerThatOnlySendsIsGivenAPort) {
+    test::Dcmqrscp dcmqrscp;
+    archive::Server server = serverAt(dcmqrscp.port(), "COMMON");
+    const fs::path sent = series("M", 20);
+    put(server, sent);
+    server.retrieve = archive::RetrieveMethod::move;
+    const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const RetrievalReport report =
+        archive::retrieve(server, {studyIn(sent), {}}, folder, {}, {},
+                          {.ae = "PELLUCID", .port = dcmqrscp.destinationPort});
+    EXPECT_TRUE(report.isComplete());
+    EXPECT_EQ(dataSetsIn(m_folder / "got"), dataSetsIn(sent));
+    // A destination that the server does not know.
+    const ObjectFolder other(m_folder / "other", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const RetrievalReport refused = archive::retrieve(server, {studyIn(sent), {}}, other, {}, {},
+                                                      {.ae = "NOBODY", .port = test::freePort()});
+    ASSERT_EQ(refused.lacking.size(), 20U);
+    EXPECT_NE(refused.lacking[0].reason.english().find("0xA801"), std::string::npos)
+        << refused.lacking[0].reason.english();
+}
+
+// A pulled cable at any moment: the reason is named, nothing is half there, and the next retrieval
+// brings the rest, each object once.
+TEST_F(Pacs, CutsAndStallsLoseNothing) {
+    test::Dcmqrscp dcmqrscp;
+    archive::Server server = serverAt(dcmqrscp.port(), "COMMON");
+    const fs::path sent = series("C", 24);
+    put(server, sent);
+    const auto expected = dataSetsIn(sent);
+    const std::string study = studyIn(sent);
+    long bytes = 0;
+    for (const fs::path &file : filesIn(sent))
+        bytes += long(fs::file_size(file));
+    test::Proxy proxy(dcmqrscp.port());
+    server.peer.port = proxy.port();
+    server.peer.silenceSeconds = 2.0;
+    server.connections = 2;
+    std::mt19937 random(test::freshSeed());
+    const int cuts = std::getenv("PELLUCID_LONG_TESTS") != nullptr ? 200 : 12;
+    for (int n = 0; n < cuts; ++n) {
+        const std::string to = "cut" + std::to_string(n);
+        // Each connection is cut, also those that replace it, so most attempts end incomplete.
+        test::Mischief mischief;
+        const long at = long(random() % (std::uint32_t(bytes) / 2));
+        (n % 6 == 5 ? mischief.stallAfter : mischief.cutAfter) = at;
+        proxy.set(mischief);
+        std::size_t had = 0;
+        try {
+            const RetrievalReport report = get(server, study, to);
+            had = report.state.received;
+            for (const auto &object : report.lacking)
+                EXPECT_FALSE(object.reason.english().empty());
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.code(), task::ErrorCode::unreachable) << error.what();
+            EXPECT_FALSE(error.reason().english().empty());
+        }
+        // Nothing that is there is wrong.
+        for (const std::string &set : dataSetsIn(m_folder / to))
+            EXPECT_TRUE(expected.contains(set)) << "cut after " << at;
+        proxy.set({});
+        const RetrievalReport rest = get(server, study, to);
+        EXPECT_TRUE(rest.isComplete());
+        EXPECT_GE(rest.state.present, had);
+        EXPECT_EQ(dataSetsIn(m_folder / to), expected) << "cut after " << at;
+        fs::remove_all(m_folder / to);
+    }
+}
+
+// At 20 ms round trip, objects come over several connections, and in time.
+TEST_F(Pacs, ALongWayIsUsedByConnectionsTogether) {
+    test::Dcmqrscp dcmqrscp;
+    archive::Server server = serverAt(dcmqrscp.port(), "COMMON");
+    const fs::path sent = series("W", 64, 128);
+    put(server, sent);
+    test::Proxy proxy(dcmqrscp.port());
+    proxy.set({.delayMs = 10});
+    server.peer.port = proxy.port();
+    const std::string study = studyIn(sent);
+    server.connections = 1;
+    const double one = get(server, study, "one").seconds;
+    server.connections = 4;
+    const RetrievalReport four = get(server, study, "four");
+    EXPECT_TRUE(four.isComplete());
+    EXPECT_LT(four.seconds, 0.75 * one);
+    std::cout << "64 objects at 20 ms: " << one << " s by one connection, " << four.seconds
+              << " s by four\n";
+}
+
+TEST_F(Pacs, TheListenerConfirmsWhatItHas) {
+    if (!test::isInstalled("storescu"))
+        GTEST_SKIP() << "storescu is not installed";
+    const fs::path sent = series("L", 6);
+    const ObjectFolder folder(m_folder / "in", ObjectFolder::Keeps::onDisk);
+    fs::create_directories(folder.folder());
+    archive::TransferLog log(m_folder / "transfers.sqlite");
+    std::vector<std::string> ends;
+    archive::Receiving receiving(folder, &log);
+    archive::ListenerOptions options;
+    options.port = 0;
+    options.senders = {{"KNOWN", "127.0.0.1"}};
+    const archive::Listener listener(
+        options, [&] { return receiving.receiver(); },
+        {[&](const std::string &, const std::optional<task::Reason> &reason) {
+            ends.push_back(reason ? reason->english() : "");
+        }});
+    const auto storescu = [&](const std::string &from, const std::string &to) {
+        return test::run("storescu -R -aet " + from + " -aec " + to + " +sd 127.0.0.1 " +
+                         std::to_string(listener.port()) + " '" + sent.string() + "'")
+            .exitCode;
+    };
+    EXPECT_EQ(storescu("KNOWN", "PELLUCID"), 0);
+    EXPECT_EQ(dataSetsIn(folder.folder()), dataSetsIn(sent));
+    EXPECT_EQ(log.arrivals().size(), 6U);
+    EXPECT_NE(storescu("STRANGER", "PELLUCID"), 0);
+    EXPECT_NE(storescu("KNOWN", "ANOTHER"), 0);
+    EXPECT_EQ(dataSetsIn(folder.folder()).size(), 6U);
+    EXPECT_EQ(
+        test::run("echoscu -aet KNOWN -aec PELLUCID 127.0.0.1 " + std::to_string(listener.port()))
+            .exitCode,
+        0);
+}
+
+// One server is dead, one hangs: the third answers at once.
+TEST_F(Pacs, DeadServersDelayNobody) {
+    test::Dcmqrscp dcmqrscp;
+    const archive::Server alive = serverAt(dcmqrscp.port(), "COMMON");
+    put(alive, series("D", 2));
+    archive::Server dead = serverAt(test::freePort(), "DEAD"), hangs = alive;
+    dead.name = "dead";
+    hangs.name = "hangs";
+    int silentPort = 0;
+    const int silent = test::listenOn(silentPort); // accepts, and says nothing
+    hangs.peer.port = silentPort;
+    hangs.peer.associationSeconds = 2.0;
+    std::map<std::string, double> ended;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto result = archive::search(
+        {dead, hangs, alive}, {},
+        {{}, [&](const archive::ServerOutcome &outcome) {
+             ended[outcome.server] =
+                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+         }});
+    ::close(silent);
+    EXPECT_EQ(result.entries.size(), 1U);
+    EXPECT_LT(ended["test"], ended["hangs"]);
+    for (const archive::ServerOutcome &outcome : result.outcomes) {
+        EXPECT_EQ(outcome.failure.has_value(), outcome.server != "test") << outcome.server;
+        if (outcome.server == "dead") {
+            EXPECT_TRUE(outcome.failure->is(because::connectionIsRefused));
+        } else if (outcome.server == "hangs") {
+            EXPECT_TRUE(outcome.failure->is(because::serverDoesNotAnswer))
+                << outcome.failure->english();
+        }
+    }
+}
+
+TEST_F(Pacs, ASearchEndsAtItsLimit) {
+    test::Dcmqrscp dcmqrscp;
+    archive::Server server = serverAt(dcmqrscp.port(), "COMMON");
+    for (int n = 0; n < 5; ++n)
+        put(server, series("S" + std::to_string(n), 1, 16));
+    server.limit = 3;
+    const auto some = archive::search({server}, {});
+    EXPECT_EQ(some.entries.size(), 3U);
+    EXPECT_TRUE(some.outcomes[0].reachedLimit);
+    server.limit = 5;
+    const auto all = archive::search({server}, {});
+    EXPECT_EQ(all.entries.size(), 5U);
+    EXPECT_FALSE(all.outcomes[0].reachedLimit);
+}
+
+// Certificates of an authority of our own, made for the test.
+class PacsTls : public Pacs {
+protected:
+    void SetUp() override {
+        Pacs::SetUp();
+        if (!test::isInstalled("openssl"))
+            GTEST_SKIP() << "openssl is not installed";
+        shell("openssl req -x509 -newkey rsa:2048 -nodes -keyout ca.key -out ca.pem -days 30 -subj "
+              "'/CN=Test CA' -addext basicConstraints=critical,CA:TRUE");
+        shell("openssl req -x509 -newkey rsa:2048 -nodes -keyout ca2.key -out ca2.pem -days 30 "
+              "-subj '/CN=Other CA' -addext basicConstraints=critical,CA:TRUE");
+        certificate("good", "IP:127.0.0.1", "-days 30");
+        certificate("wrong", "DNS:other.example.org", "-days 30");
+        certificate("client", "DNS:client", "-days 30");
+        // Valid for a day, ten days ago.
+        certificate("old", "IP:127.0.0.1",
+                    "-not_before 20200101000000Z -not_after 20200102000000Z");
+    }
+    void shell(const std::string &command) {
+        const auto result = test::run("cd '" + m_folder.path().string() + "' && " + command);
+        ASSERT_EQ(result.exitCode, 0) << command << result.error;
+    }
+    void certificate(const std::string &name, const std::string &host,
+                     const std::string &validity) {
+        test::writeText(m_folder / (name + ".ext"), "subjectAltName=" + host + "\n");
+        shell("openssl req -newkey rsa:2048 -nodes -keyout " + name + ".key -out " + name +
+              ".csr -subj '/CN=" + name + "'");
+        if (validity.find("not_before") == std::string::npos) {
+            shell("openssl x509 -req -in " + name +
+                  ".csr -CA ca.pem -CAkey ca.key -CAcreateserial -out " + name + ".pem -extfile " +
+                  name + ".ext " + validity);
+            return;
+        }
+        // openssl x509 cannot set a date in the past, openssl ca can.
+        test::writeText(m_folder / "index.txt", "");
+        test::writeText(m_folder / "serial", "01\n");
+        test::writeText(
+            m_folder / "ca.cnf",
+            "[ca]\ndefault_ca=d\n[d]\ndatabase=index.txt\nserial=serial\nnew_certs_dir=.\n"
+            "default_md=sha256\npolicy=p\nrand_serial=no\n[p]\ncommonName=supplied\n");
+        shell("openssl ca -batch -config ca.cnf -cert ca.pem -keyfile ca.key -in " + name +
+              ".csr -out " + name +
+              ".pem -startdate 20200101000000Z -enddate 20200102000000Z "
+              "-extfile " +
+              name + ".ext");
+    }
+    std::string at(const std::string &name) const { return (m_folder / name).string(); }
+
+    // A storage server, which answers C-ECHO.
+    std::unique_ptr<test::Server> server(const std::string &name, bool requiresClient = false) {
+        const int port = test::freePort();
+        return std::make_unique<test::Server>(
+            std::vector<std::string>{"storescp", "+tls", at(name + ".key"), at(name + ".pem"),
+                                     requiresClient ? "-rc" : "-ic", "+cf", at("ca.pem"), "-od",
+                                     m_folder.path().string(), std::to_string(port)},
+            port);
+    }
+    archive::Server client(int port) const {
+        archive::Server server = serverAt(port, "COMMON");
+        server.peer.usesTls = true;
+        server.peer.authorities = at("ca.pem");
+        return server;
+    }
+    static std::string echo(const archive::Server &server) {
+        return failureOf([&] {
+            exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::echo});
+            link.echo();
+        });
+    }
+};
+
+TEST_F(PacsTls, ObjectsComeOverTls) {
+    if (!test::isInstalled("Orthanc"))
+        GTEST_SKIP() << "Orthanc is not installed";
+    test::Orthanc orthanc(", \"DicomTlsEnabled\": true, \"DicomTlsCertificate\": \"" +
+                          at("good.pem") + "\", \"DicomTlsPrivateKey\": \"" + at("good.key") +
+                          "\", \"DicomTlsTrustedCertificates\": \"" + at("ca.pem") + "\"");
+    archive::Server secure = client(orthanc.port());
+    secure.peer.calledAe = "ORTHANC";
+    // Orthanc wants a certificate of ours.
+    EXPECT_NE(echo(secure), "nothing failed");
+    secure.peer.certificate = at("client.pem");
+    secure.peer.key = at("client.key");
+    std::string parameters;
+    exchange::Link link(exchange::Connection{secure.peer, exchange::Purpose::echo}, {},
+                        [&](exchange::Step step, const std::string &found) {
+                            if (step == exchange::Step::tls)
+                                parameters = found;
+                        });
+    EXPECT_TRUE(parameters.starts_with("TLSv1.")) << parameters;
+    const fs::path sent = series("T", 12);
+    put(secure, sent);
+    EXPECT_TRUE(get(secure, studyIn(sent)).isComplete());
+    EXPECT_EQ(dataSetsIn(m_folder / "got"), dataSetsIn(sent));
+}
+
+// No byte of a question is sent to a server that is not the right one, and the user learns why.
+TEST_F(PacsTls, WrongServersAreRefusedAndNamed) {
+    using testing::HasSubstr;
+    {
+        const auto storescp = server("wrong");
+        EXPECT_THAT(echo(client(storescp->port())), HasSubstr("IP address mismatch"));
+    }
+    {
+        const auto storescp = server("old");
+        EXPECT_THAT(echo(client(storescp->port())), HasSubstr("expired"));
+    }
+    {
+        const auto storescp = server("good");
+        archive::Server stranger = client(storescp->port());
+        stranger.peer.authorities = at("ca2.pem");
+        EXPECT_THAT(echo(stranger), HasSubstr("certificate"));
+        stranger.peer.authorities = at("missing.pem");
+        EXPECT_THROW(exchange::Link(exchange::Connection{stranger.peer, exchange::Purpose::echo}),
+                     task::Error);
+        // A client that speaks no TLS.
+        archive::Server plain = serverAt(storescp->port(), "COMMON");
+        EXPECT_NE(echo(plain), "nothing failed");
+    }
+    {
+        const auto storescp = server("good", true);
+        archive::Server without = client(storescp->port());
+        EXPECT_NE(echo(without), "nothing failed");
+        without.peer.certificate = at("client.pem");
+        without.peer.key = at("client.key");
+        EXPECT_EQ(echo(without), "nothing failed");
+        without.peer.key = at("good.key");
+        EXPECT_THROW(exchange::Link(exchange::Connection{without.peer, exchange::Purpose::echo}),
+                     task::Error);
+    }
+    { // A server that speaks no TLS.
+        test::Dcmqrscp plain;
+        archive::Server secure = client(plain.port());
+        secure.peer.silenceSeconds = 3.0;
+        EXPECT_NE(echo(secure), "nothing failed");
+    }
+}
+
+} // namespace pellucid

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <QHash>
+#include <QObject>
+#include <QStringList>
+
+#include "core/archive/server.h"
+#include "core/task/reason.h"
+
+class QWidget;
+
+namespace pellucid::ui {
+
+/// The user's servers and their secrets: passwords, tokens, and passwords of private keys. Secrets
+/// are in the desktop's keychain; without one, they are asked for once in each run of the program.
+class ServerBook : public QObject {
+    Q_OBJECT
+public:
+    explicit ServerBook(QObject *parent = nullptr);
+
+    const std::vector<archive::Server> &servers() const { return m_servers; }
+    QStringList names() const;
+    /// Saves a server and, if they are not empty, its secrets. *Throws* Error{usage},
+    /// Error{output}.
+    void put(const archive::Server &server);
+    /// *Throws* Error{usage}, Error{output}.
+    void remove(const QString &name);
+
+    using Use = std::function<void(const std::vector<archive::Server> &)>;
+    /// Calls `use` with these servers and their secrets, at once or after the user has entered
+    /// those that no keychain has. Servers whose secrets the user does not enter are left out.
+    void withSecrets(const QStringList &names, QWidget *asking, const Use &use);
+
+signals:
+    void changed();
+    /// The list on disk cannot be read.
+    void failed(const pellucid::task::Reason &what, const QString &path);
+
+private:
+    struct Pending;
+    void load();
+    void fetchNext(const std::shared_ptr<Pending> &pending);
+    void ask(const std::shared_ptr<Pending> &pending, const QString &key, const QString &question);
+
+    std::vector<archive::Server> m_servers;
+    QHash<QString, QString> m_known; ///< secrets, by their key in the keychain
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/servers/server_search.h"
+
+namespace pellucid::ui {
+
+ServerSearch::ServerSearch(ServerBook &book, QObject *parent) : QObject(parent), m_book(book) {
+    connect(&book, &ServerBook::changed, this, &ServerSearch::clear);
+}
+
+void ServerSearch::clear() {
+    ++m_generation;
+    m_jobs.cancel();
+    m_found.clear();
+    m_states.clear();
+    emit changed();
+}
+
+void ServerSearch::search(const QString &words, QWidget *asking) {
+    clear();
+    if (m_book.servers().empty())
+        return;
+    m_book.withSecrets(m_book.names(), asking,
+                       [this, terms = searchTermsOf(words),
+                        generation = m_generation](const std::vector<archive::Server> &servers) {
+                           if (generation == m_generation && !servers.empty())
+                               start(terms, servers);
+                       });
+}
+
+void ServerSearch::start(const archive::SearchTerms &terms,
+                         const std::vector<archive::Server> &servers) {
+    for (const archive::Server &server : servers)
+        m_states[QString::fromStdString(server.name)] = {};
+    emit changed();
+    m_jobs.start(tr("Searching servers"), [this, terms, servers](const Job &job) {
+        archive::SearchObserver observer;
+        observer.found = [&](const archive::FoundEntry &entry, std::size_t index) {
+            job.deliver([this, remote = remoteStudy(entry), index] {
+                if (index < m_found.size())
+                    m_found[index] = remote;
+                else
+                    m_found.push_back(remote);
+            });
+        };
+        observer.ended = [&](const archive::ServerOutcome &outcome) {
+            job.deliver([this, outcome] {
+                m_states[QString::fromStdString(outcome.server)] = {
+                    outcome.failure ? ServerState::Kind::failed : ServerState::Kind::answered,
+                    outcome.reachedLimit, outcome.failure};
+                emit changed();
+            });
+        };
+        archive::search(servers, terms, observer, job.progress());
+    });
+}
+
+} // namespace pellucid::ui

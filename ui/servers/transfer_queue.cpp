@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/servers/transfer_queue.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/task/error.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+using archive::Transfer;
+using archive::TransferLog;
+using archive::TransferState;
+
+} // namespace
+
+TransferQueue::TransferQueue(ServerBook &book, StudyLibrary &library, QObject *parent)
+    : QObject(parent), m_book(book), m_library(library) {
+    attempt([this] { read(); });
+}
+
+TransferQueue::~TransferQueue() = default;
+
+template <class F> void TransferQueue::attempt(const F &what) {
+    try {
+        what();
+    } catch (const task::Error &error) {
+        emit failed(error.reason(), QString::fromStdString(error.path().string()));
+    }
+}
+
+void TransferQueue::read() {
+    std::error_code unknown; // nothing has ever been retrieved: no list is made
+    if (std::filesystem::exists(TransferLog::fileOfUser(), unknown))
+        m_transfers = TransferLog(TransferLog::fileOfUser()).transfers();
+    emit changed();
+}
+
+void TransferQueue::resume(QWidget *asking) {
+    attempt([this] {
+        std::error_code unknown;
+        if (std::filesystem::exists(TransferLog::fileOfUser(), unknown) &&
+            !TransferLog(TransferLog::fileOfUser()).arrivals().empty())
+            listArrivals();
+    });
+    startNext(asking);
+}
+
+void TransferQueue::add(const RemoteStudy &study, QWidget *asking) {
+    attempt([&] {
+        Transfer transfer;
+        transfer.server = study.servers.value(0).toStdString();
+        transfer.wanted.studyUid = study.study.uid.toStdString();
+        transfer.title = studyText(study.study).toStdString();
+        transfer.folder = archive::libraryObjectFolder();
+        TransferLog(TransferLog::fileOfUser()).add(transfer);
+        read();
+    });
+    startNext(asking);
+}
+
+void TransferQueue::retry(qint64 id, QWidget *asking) {
+    attempt([&] {
+        TransferLog(TransferLog::fileOfUser()).setState(id, TransferState::waiting);
+        read();
+    });
+    startNext(asking);
+}
+
+void TransferQueue::cancel(qint64 id) {
+    attempt([&] {
+        TransferLog(TransferLog::fileOfUser()).setState(id, TransferState::cancelled);
+        if (id == m_running)
+            m_jobs.cancel();
+        read();
+    });
+}
+
+void TransferQueue::clearFinished() {
+    attempt([this] {
+        TransferLog(TransferLog::fileOfUser()).clearFinished();
+        read();
+    });
+}
+
+void TransferQueue::startNext(QWidget *asking) {
+    m_asking = asking;
+    if (m_jobs.isRunning() || m_isWaitingForSecrets)
+        return;
+    // Another program's running transfer is refused when it is claimed.
+    if (m_transfers.empty())
+        return;
+    const auto next =
+        std::find_if(m_transfers.begin(), m_transfers.end(), [](const Transfer &transfer) {
+            return transfer.state <= TransferState::running &&
+                   transfer.folder == archive::libraryObjectFolder();
+        });
+    if (next == m_transfers.end())
+        return;
+    m_isWaitingForSecrets = true;
+    m_book.withSecrets({QString::fromStdString(next->server)}, asking,
+                       [this, transfer = *next](const std::vector<archive::Server> &servers) {
+                           m_isWaitingForSecrets = false;
+                           if (!servers.empty()) {
+                               run(transfer, servers.front());
+                               return;
+                           }
+                           // The server has been removed, or its password is not known.
+                           attempt([&] {
+                               TransferLog(TransferLog::fileOfUser())
+                                   .setState(transfer.id, TransferState::cancelled);
+                               read();
+                           });
+                           startNext(m_asking);
+                       });
+}
+
+void TransferQueue::run(const Transfer &transfer, const archive::Server &server) {
+    m_running = transfer.id;
+    const auto show = [this, id = transfer.id](const archive::RetrievalState &state) {
+        for (Transfer &one : m_transfers)
+            if (one.id == id) {
+                one.state = TransferState::running;
+                one.total = state.wanted;
+                one.received = state.present + state.received;
+                one.bytes = state.bytes;
+            }
+        emit changed();
+    };
+    m_jobs.start(
+        tr("Retrieving %1").arg(QString::fromStdString(transfer.title)),
+        [this, transfer, server, show](const Job &job) {
+            archive::RetrievalObserver observer;
+            auto shown = std::chrono::steady_clock::now();
+            observer.changed = [&](const archive::RetrievalState &state) {
+                const auto now = std::chrono::steady_clock::now();
+                if (now - shown < std::chrono::milliseconds(100))
+                    return;
+                shown = now;
+                job.deliver([show, state] { show(state); });
+            };
+            TransferLog log(TransferLog::fileOfUser());
+            archive::runTransfer(log, transfer.id, server, observer, job.progress());
+        },
+        [this, transfer](const Outcome &outcome) {
+            m_running = 0;
+            attempt([this] { read(); });
+            listArrivals();
+            const auto ended =
+                std::find_if(m_transfers.begin(), m_transfers.end(),
+                             [&](const Transfer &one) { return one.id == transfer.id; });
+            if (ended != m_transfers.end() && ended->state == TransferState::complete)
+                emit completed(
+                    QString::fromStdString((transfer.folder / transfer.wanted.studyUid).string()));
+            if (outcome.kind == Outcome::Kind::failed)
+                emit failed(*outcome.reason, QString::fromStdString(transfer.server));
+            // One that another program works on stays in the list.
+            if (outcome.kind != Outcome::Kind::failed || ended == m_transfers.end() ||
+                ended->state > TransferState::running)
+                startNext(m_asking);
+        });
+}
+
+void TransferQueue::listArrivals() {
+    attempt([this] {
+        TransferLog log(TransferLog::fileOfUser());
+        const std::vector<archive::StoredObject> arrivals = log.arrivals();
+        if (arrivals.empty())
+            return;
+        std::set<std::filesystem::path> studies;
+        for (const archive::StoredObject &object : arrivals)
+            studies.insert(object.path.parent_path().parent_path());
+        Import import;
+        import.mode = ImportMode::refer; // they are in the library's folder already
+        std::error_code unknown;
+        for (const auto &study : studies)
+            if (std::filesystem::exists(study, unknown))
+                import.paths.push_back(study);
+        // They are forgotten when they are listed, not before.
+        import.listed = [arrivals] {
+            TransferLog(TransferLog::fileOfUser()).removeArrivals(arrivals);
+        };
+        if (!import.paths.empty())
+            m_library.import(import);
+        else
+            import.listed(); // they have been removed since
+});
+}
+
+} // namespace pellucid::ui

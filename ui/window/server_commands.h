@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QStringList>
+
+#include "core/task/reason.h"
+
+class QMainWindow;
+
+namespace pellucid::ui {
+
+struct Workbench;
+class StudyDocks;
+
+/// The commands that concern servers: the dialog, retrieving, sending, and what happens when a
+/// study has arrived.
+class ServerCommands : public QObject {
+    Q_OBJECT
+public:
+    ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks &docks);
+
+    void showServers();
+
+signals:
+    /// A study is here, and wanted in the panes.
+    void studyArrived(const QString &folder);
+    void messageShown(const QString &text);
+    void failed(const pellucid::task::Reason &what, const QString &path);
+
+private:
+    void send(const QStringList &files, const QString &server);
+
+    QMainWindow &m_window;
+    Workbench &m_bench;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/servers_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSpinBox>
+#include <QStyle>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "core/exchange/link.h"
+#include "ui/language/reasons.h"
+#include "ui/servers/server_book.h"
+#include "ui/settings/file_dialogs.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+using archive::RetrieveMethod;
+using archive::Server;
+using exchange::Authentication;
+using exchange::Protocol;
+using exchange::Step;
+
+QLineEdit *lineEdit(const char *name, const QString &tip) {
+    auto *edit = new QLineEdit;
+    edit->setObjectName(name);
+    edit->setToolTip(tip);
+    return edit;
+}
+
+QSpinBox *spinBox(const char *name, int low, int high, const QString &tip) {
+    auto *box = new QSpinBox;
+    box->setObjectName(name);
+    box->setRange(low, high);
+    box->setToolTip(tip);
+    return box;
+}
+
+std::string textOf(const QLineEdit *edit) {
+    return edit->text().trimmed().toStdString();
+}
+
+QString shown(const std::string &text) {
+    return QString::fromStdString(text);
+}
+
+} // namespace
+
+ServersDialog::ServersDialog(ServerBook &book, QWidget *parent)
+    : QDialog(parent), m_book(book), m_list(new QListWidget), m_message(new QLabel),
+      m_test(new QPushButton(tr("&Test"))), m_save(new QPushButton(tr("&Save"))),
+      m_remove(new QPushButton(tr("&Remove"))) {
+    setObjectName("serversDialog");
+    setWindowTitle(tr("Servers"));
+    setAttribute(Qt::WA_DeleteOnClose);
+    m_list->setObjectName("serverList");
+    m_list->setAccessibleName(tr("Servers"));
+    m_list->setProperty("role", "plain");
+    m_list->setMaximumWidth(200);
+    auto *add = new QPushButton(tr("&New server"));
+    add->setObjectName("newServerButton");
+    m_remove->setObjectName("removeServerButton");
+    m_test->setObjectName("testServerButton");
+    m_test->setToolTip(tr("Connect step by step, and show the step that fails"));
+    m_save->setObjectName("saveServerButton");
+    m_message->setObjectName("serverMessage");
+    m_message->setWordWrap(true);
+    m_message->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    m_message->setMinimumHeight(6 * fontMetrics().lineSpacing());
+    m_message->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    auto *left = new QVBoxLayout;
+    left->addWidget(m_list, 1);
+    left->addWidget(add);
+    left->addWidget(m_remove);
+    auto *actions = new QHBoxLayout;
+    actions->addWidget(m_test);
+    actions->addStretch(1);
+    actions->addWidget(m_save);
+    auto *scroll = new QScrollArea;
+    scroll->setWidget(makeForm());
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll->setMinimumWidth(440);
+    auto *right = new QVBoxLayout;
+    right->addWidget(scroll, 1);
+    right->addLayout(actions);
+    right->addWidget(m_message);
+    auto *columns = new QHBoxLayout;
+    columns->addLayout(left);
+    columns->addLayout(right, 1);
+    auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    auto *layout = new QVBoxLayout(this);
+    layout->addLayout(columns, 1);
+    layout->addWidget(buttons);
+    for (QPushButton *button : {add, m_remove, m_test, m_save})
+        button->setAutoDefault(false);
+    m_save->setDefault(true);
+
+    connect(add, &QPushButton::clicked, this, [this] {
+        m_list->setCurrentItem(nullptr);
+        showServer({}, true);
+        m_name->setFocus();
+    });
+    connect(m_remove, &QPushButton::clicked, this, &ServersDialog::remove);
+    connect(m_save, &QPushButton::clicked, this, &ServersDialog::save);
+    connect(m_test, &QPushButton::clicked, this, &ServersDialog::test);
+    connect(m_list, &QListWidget::currentRowChanged, this, [this](int row) {
+        if (row >= 0 && row < int(m_book.servers().size()))
+            showServer(m_book.servers()[std::size_t(row)], false);
+    });
+    list(m_book.names().value(0));
+    if (m_book.servers().empty())
+        showServer({}, true);
+    resize(760, 600);
+}
+
+QLineEdit *ServersDialog::addFile(const QString &label, const char *name, const QString &tip) {
+    QLineEdit *const edit = lineEdit(name, tip);
+    auto *choose = new QToolButton;
+    choose->setText("...");
+    choose->setToolTip(tip);
+    connect(choose, &QToolButton::clicked, this, [this, edit, label] {
+        const QStringList chosen = askForFiles(this, label);
+        if (!chosen.isEmpty())
+            edit->setText(chosen.front());
+    });
+    auto *row = new QHBoxLayout;
+    row->addWidget(edit, 1);
+    row->addWidget(choose);
+    m_form->addRow(label, row);
+    return edit;
+}
+
+QWidget *ServersDialog::makeForm() {
+    auto *form = new QWidget;
+    m_form = new QFormLayout(form);
+    m_name = lineEdit("serverNameEdit", tr("The name under which the server is listed"));
+    m_protocol = new QComboBox;
+    m_protocol->setObjectName("protocolBox");
+    m_protocol->addItems({tr("DICOM"), tr("DICOMweb")});
+    m_ae = lineEdit("serverAeEdit", tr("The server's AE title"));
+    m_host = lineEdit("serverHostEdit", tr("Name or address of the server"));
+    m_port = spinBox("serverPortBox", 1, 65535, tr("The server's port; usually 104 or 11112"));
+    m_url = lineEdit("serverUrlEdit", tr("For example https://pacs.example.org/dicom-web"));
+    m_callingAe =
+        lineEdit("callingAeEdit", tr("This program's AE title, which the server must know"));
+    m_retrieve = new QComboBox;
+    m_retrieve->setObjectName("retrieveBox");
+    m_retrieve->setToolTip(tr("C-GET brings images on the same connection. With C-MOVE, the server "
+                              "sends them to this program's port 11112"));
+    m_retrieve->addItems({tr("Automatic"), "C-GET", "C-MOVE"});
+    m_connections = spinBox("connectionsBox", 1, archive::maxConnections,
+                            tr("Connections at the same time while retrieving"));
+    m_limit = spinBox("limitBox", 0, 100000, tr("Most answers to a search; 0: no limit"));
+    m_characterSet = lineEdit("characterSetEdit",
+                              tr("Character set of answers that name none, such as ISO_IR 100"));
+    m_tls = new QCheckBox(tr("&Encrypt the connection (TLS)"));
+    m_tls->setObjectName("tlsBox");
+    m_authentication = new QComboBox;
+    m_authentication->setObjectName("authenticationBox");
+    m_authentication->addItems({tr("None"), tr("User and password"), tr("Token")});
+    m_user = lineEdit("userEdit", tr("User name at the server"));
+    m_secret = lineEdit("secretEdit",
+                        tr("Kept in the desktop's keychain, or for this run of the program"));
+    m_secret->setEchoMode(QLineEdit::Password);
+    m_keyPassword = lineEdit("keyPasswordEdit", m_secret->toolTip());
+    m_keyPassword->setEchoMode(QLineEdit::Password);
+    m_form->addRow(tr("Name"), m_name);
+    m_form->addRow(tr("Protocol"), m_protocol);
+    m_form->addRow(tr("AE title"), m_ae);
+    m_form->addRow(tr("Host"), m_host);
+    m_form->addRow(tr("Port"), m_port);
+    m_form->addRow(tr("URL"), m_url);
+    m_form->addRow(tr("Our AE title"), m_callingAe);
+    m_form->addRow(tr("Retrieve"), m_retrieve);
+    m_form->addRow(tr("Connections"), m_connections);
+    m_form->addRow(tr("Answers"), m_limit);
+    m_form->addRow(tr("Character set"), m_characterSet);
+    m_form->addRow({}, m_tls);
+    m_authorities = addFile(tr("Authorities"), "authoritiesEdit",
+                            tr("Certificates that are trusted (PEM); empty: those of the system"));
+    m_certificate = addFile(tr("Certificate"), "certificateEdit",
+                            tr("Certificate that this program shows (PEM); empty: none"));
+    m_key = addFile(tr("Private key"), "keyEdit", tr("Private key of the certificate (PEM)"));
+    m_form->addRow(tr("Key password"), m_keyPassword);
+    m_form->addRow(tr("Login"), m_authentication);
+    m_form->addRow(tr("User"), m_user);
+    m_form->addRow(tr("Password or token"), m_secret);
+    connect(m_protocol, &QComboBox::currentIndexChanged, this, &ServersDialog::enableFields);
+    connect(m_authentication, &QComboBox::currentIndexChanged, this, &ServersDialog::enableFields);
+    connect(m_tls, &QCheckBox::toggled, this, &ServersDialog::enableFields);
+    connect(m_url, &QLineEdit::textChanged, this, &ServersDialog::enableFields);
+    return form;
+}
+
+// Only the fields that apply are shown.
+void ServersDialog::enableFields() {
+    const bool isWeb = m_protocol->currentIndex() == 1;
+    const bool isSecure = isWeb ? m_url->text().startsWith("https://") : m_tls->isChecked();
+    const auto place = [this](QWidget *field, bool isShown) {
+        for (int row = 0; row < m_form->rowCount(); ++row) {
+            QLayoutItem *const item = m_form->itemAt(row, QFormLayout::FieldRole);
+            const bool isHere = item != nullptr &&
+                                (item->widget() == field || (item->layout() != nullptr &&
+                                                             item->layout()->indexOf(field) >= 0));
+            if (isHere)
+                m_form->setRowVisible(row, isShown);
+        }
+    };
+    for (QWidget *field : std::initializer_list<QWidget *>{m_ae, m_host, m_port, m_callingAe,
+                                                           m_retrieve, m_characterSet, m_tls})
+        place(field, !isWeb);
+    place(m_url, isWeb);
+    for (QWidget *field :
+         std::initializer_list<QWidget *>{m_authorities, m_certificate, m_key, m_keyPassword})
+        place(field, isSecure);
+    place(m_user, m_authentication->currentIndex() == 1);
+    place(m_secret, m_authentication->currentIndex() != 0);
+}
+
+void ServersDialog::list(const QString &selected) {
+    m_list->clear();
+    m_list->addItems(m_book.names());
+    m_list->setCurrentRow(int(m_book.names().indexOf(selected)));
+}
+
+void ServersDialog::showServer(const Server &server, bool isNew) {
+    const exchange::Peer &peer = server.peer;
+    const bool isWeb = peer.protocol == Protocol::web;
+    m_name->setText(shown(server.name));
+    m_protocol->setCurrentIndex(isWeb ? 1 : 0);
+    m_ae->setText(isNew || isWeb ? QString() : shown(peer.calledAe));
+    m_host->setText(isWeb ? QString() : shown(peer.host));
+    m_port->setValue(peer.port);
+    m_url->setText(isWeb ? shown(archive::addressOf(peer)) : QString());
+    m_callingAe->setText(shown(peer.callingAe));
+    m_retrieve->setCurrentIndex(int(server.retrieve));
+    m_connections->setValue(server.connections);
+    m_limit->setValue(int(server.limit));
+    m_characterSet->setText(shown(peer.characterSet));
+    m_tls->setChecked(peer.usesTls);
+    m_authorities->setText(shown(peer.authorities));
+    m_certificate->setText(shown(peer.certificate));
+    m_key->setText(shown(peer.key));
+    m_keyPassword->clear();
+    m_authentication->setCurrentIndex(int(peer.authentication));
+    m_user->setText(shown(peer.user));
+    m_secret->clear();
+    m_secret->setPlaceholderText(isNew ? QString() : tr("unchanged"));
+    m_remove->setEnabled(!isNew);
+    m_message->clear();
+    enableFields();
+}
+
+Server ServersDialog::entered() const {
+    Server server;
+    server.name = textOf(m_name);
+    if (m_protocol->currentIndex() == 1)
+        server.peer = archive::webPeer(textOf(m_url));
+    else
+        server.peer = archive::dicomPeer(textOf(m_ae) + "@" + textOf(m_host) + ":" +
+                                         std::to_string(m_port->value()));
+    exchange::Peer &peer = server.peer;
+    if (peer.protocol == Protocol::dicom) {
+        peer.usesTls = m_tls->isChecked();
+        peer.callingAe = textOf(m_callingAe);
+        peer.characterSet = textOf(m_characterSet);
+    }
+    if (peer.usesTls) {
+        peer.authorities = textOf(m_authorities);
+        peer.certificate = textOf(m_certificate);
+        peer.key = textOf(m_key);
+        peer.keyPassword = m_keyPassword->text().toStdString();
+    }
+    peer.authentication = Authentication(m_authentication->currentIndex());
+    if (peer.authentication == Authentication::basic)
+        peer.user = textOf(m_user);
+    if (peer.authentication != Authentication::none)
+        peer.secret = m_secret->text().toStdString();
+    server.retrieve = RetrieveMethod(m_retrieve->currentIndex());
+    server.connections = m_connections->value();
+    server.limit = std::uint32_t(m_limit->value());
+    archive::requireValid(server);
+    return server;
+}
+
+void ServersDialog::save() {
+    try {
+        const Server server = entered();
+        m_book.put(server);
+        list(shown(server.name));
+        report(tr("Saved"), "muted");
+    } catch (const task::Error &error) {
+        report(translated(error.reason()), "warning");
+    }
+}
+
+void ServersDialog::remove() {
+    try {
+        m_book.remove(m_list->currentItem() == nullptr ? QString() : m_list->currentItem()->text());
+        list(m_book.names().value(0));
+        if (m_book.servers().empty())
+            showServer({}, true);
+    } catch (const task::Error &error) {
+        report(translated(error.reason()), "warning");
+    }
+}
+
+void ServersDialog::test() {
+    Server server;
+    try {
+        server = entered();
+    } catch (const task::Error &error) {
+        report(translated(error.reason()), "warning");
+        return;
+    }
+    const auto run = [this](const Server &complete) {
+        report(tr("Connecting..."), "muted");
+        const QStringList names{tr("Name"), "TCP", "TLS", tr("Association"), tr("Offers")};
+        auto lines = std::make_shared<QStringList>();
+        m_test->setEnabled(false);
+        m_jobs.start(
+            tr("Testing %1").arg(shown(complete.name)),
+            [this, complete, names, lines](const Job &job) {
+                const auto observe = [&](Step step, const std::string &found) {
+                    job.deliver([this, lines,
+                                 line = QString::fromUtf8("\u2713 ") + names[int(step)] + ": " +
+                                        shown(found)] {
+                        *lines << line;
+                        report(lines->join("\n"), "muted");
+                    });
+                };
+                exchange::Link link(exchange::Connection{complete.peer, exchange::Purpose::echo},
+                                    job.progress(), observe);
+                link.echo(job.progress(), observe);
+            },
+            [this, lines](const Outcome &outcome) {
+                m_test->setEnabled(true);
+                if (outcome.kind == Outcome::Kind::failed) {
+                    *lines << QString::fromUtf8("\u2717 ") + translated(*outcome.reason);
+                    report(lines->join("\n"), "warning");
+                }
+            });
+    };
+    // A saved server's secret need not be typed again.
+    const bool lacksSecret = server.peer.authentication != Authentication::none &&
+                             server.peer.secret.empty() &&
+                             m_book.names().contains(shown(server.name));
+    if (!lacksSecret) {
+        run(server);
+        return;
+    }
+    m_book.withSecrets({shown(server.name)}, this,
+                       [server, run](const std::vector<Server> &saved) mutable {
+                           if (saved.empty())
+                               return;
+                           server.peer.secret = saved.front().peer.secret;
+                           if (server.peer.keyPassword.empty())
+                               server.peer.keyPassword = saved.front().peer.keyPassword;
+                           run(server);
+                       });
+}
+
+void ServersDialog::report(const QString &text, const char *role) {
+    m_message->setText(text);
+    m_message->setProperty("role", role);
+    m_message->style()->unpolish(m_message);
+    m_message->style()->polish(m_message);
+}
+
+} // namespace pellucid::ui

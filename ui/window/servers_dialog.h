@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+
+#include "core/archive/server.h"
+#include "ui/jobs/job_runner.h"
+
+class QCheckBox;
+class QComboBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QPushButton;
+class QSpinBox;
+
+namespace pellucid::ui {
+
+class ServerBook;
+
+/// Adds, edits, tests and removes servers.
+class ServersDialog : public QDialog {
+    Q_OBJECT
+public:
+    ServersDialog(ServerBook &book, QWidget *parent);
+
+private:
+    QWidget *makeForm();
+    QLineEdit *addFile(const QString &label, const char *name, const QString &tip);
+    void list(const QString &selected);
+    void showServer(const archive::Server &server, bool isNew);
+    /// What the form says. *Throws* Error{usage}.
+    archive::Server entered() const;
+    void enableFields();
+    void save();
+    void remove();
+    void test();
+    void report(const QString &text, const char *role);
+
+    ServerBook &m_book;
+    QListWidget *m_list;
+    QFormLayout *m_form = nullptr;
+    QLineEdit *m_name, *m_ae, *m_host, *m_url, *m_callingAe, *m_user, *m_secret, *m_characterSet;
+    QLineEdit *m_authorities, *m_certificate, *m_key, *m_keyPassword;
+    QComboBox *m_protocol, *m_retrieve, *m_authentication;
+    QSpinBox *m_port, *m_connections, *m_limit;
+    QCheckBox *m_tls;
+    QLabel *m_message;
+    QPushButton *m_test, *m_save, *m_remove;
+    JobRunner m_jobs;
+};
+
+} // namespace pellucid::ui
