@@ -31,8 +31,8 @@ void measureCase(const Report &report, const std::string &name, const volume::Vo
     render::ProjectionEngine &engine = *prepared.engine;
     const double start = millisecondsNow();
     scene.tone.exposure =
-        picture::measureExposure(engine, volume.lattice().radiusMm(), scene.image, scene.shading,
-                                 scene.tone, picture::Background::zero);
+        picture::measureExposure(engine, volume.lattice(), scene.image, scene.shading, scene.tone,
+                                 picture::Background::zero);
     const double exposureMs = millisecondsNow() - start;
     std::vector<double> rendering, plain, processed;
     const auto views = randomViews(frames);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.h"
+#include "app/cli/json_text.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
 #include "core/archive/search.h"
@@ -91,7 +92,7 @@ void find(const Options &o, const Context &context) {
     std::optional<task::Error> failure;
     for (const archive::ServerOutcome &outcome : result.outcomes) {
         if (outcome.failure) {
-            failure.emplace(task::ErrorCode::unreachable, *outcome.failure, outcome.server);
+            failure.emplace(outcome.code, *outcome.failure, outcome.server);
             if (servers.size() > 1)
                 warn(failure->what());
         }
@@ -104,14 +105,12 @@ void find(const Options &o, const Context &context) {
         nlohmann::json out = nlohmann::json::array();
         for (const archive::FoundEntry &entry : result.entries)
             out.push_back(jsonOf(entry));
-        std::puts(escapedControls(out.dump(2)).c_str());
+        std::puts(jsonText(out).c_str());
     } else {
         for (const archive::FoundEntry &entry : result.entries)
             std::puts(printable(lineOf(entry, o.terms.level)).c_str());
     }
     // Of several servers, those that answer are enough.
-    if (failure && (servers.size() == 1 || result.outcomes.size() == 0))
-        throw *failure;
     const bool haveAllFailed =
         std::all_of(result.outcomes.begin(), result.outcomes.end(),
                     [](const archive::ServerOutcome &one) { return one.failure.has_value(); });

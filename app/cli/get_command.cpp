@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.h"
+#include "app/cli/json_text.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
 #include "core/archive/run_transfer.h"
@@ -74,7 +75,7 @@ void run(TransferLog &log, std::int64_t id, const Options &o, const Context &con
     if (isWatched)
         std::fputs("\n", stderr);
     if (o.json)
-        std::puts(escapedControls(jsonOf(report, transfer.folder).dump(2)).c_str());
+        std::puts(jsonText(jsonOf(report, transfer.folder)).c_str());
     else
         std::puts(printable(summaryOf(report)).c_str());
     if (!report.isComplete())
@@ -143,7 +144,7 @@ void list(const Options &o) {
                           .c_str());
     }
     if (o.json)
-        std::puts(escapedControls(out.dump(2)).c_str());
+        std::puts(jsonText(out).c_str());
 }
 
 Transfer known(TransferLog &log, std::int64_t id) {
@@ -157,7 +158,8 @@ Transfer known(TransferLog &log, std::int64_t id) {
 void addGetCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand(
-        "get", "Retrieve a study from a server; a second time into the same place, what lacks");
+        "get",
+        "Retrieve a study from a server; a second time into the same place: only what is missing");
     c->add_option("NAME", o->name, "Name of the server")->required();
     c->add_option("--study", o->wanted.studyUid, "UID of the study")->required();
     c->add_option("--series", o->wanted.seriesUids, "UIDs of series; default: all of the study");
@@ -168,8 +170,9 @@ void addGetCommand(CLI::App &app, const Context &context) {
     c->add_option("--port", o->destination.port,
                   "Port of this program if the server only sends (C-MOVE); default 11112")
         ->check(CLI::Range(1, 65535));
-    c->add_option("--ae", o->destination.ae,
-                  "AE title of this program if the server only sends; default PELLUCID");
+    c->add_option(
+        "--ae", o->destination.ae,
+        "AE title of this program if the server only sends; default: that of the list of servers");
     c->add_flag("--json", o->json, "Print a report as one JSON object");
     c->callback([o, context] { get(*o, context); });
 
@@ -179,7 +182,7 @@ void addGetCommand(CLI::App &app, const Context &context) {
     CLI::App *all = transfers->add_subcommand("list", "List the retrievals, one per line");
     all->add_flag("--json", t->json, "Print a JSON array");
     all->callback([t] { list(*t); });
-    CLI::App *retry = transfers->add_subcommand("retry", "Retrieve what lacks");
+    CLI::App *retry = transfers->add_subcommand("retry", "Retrieve only what is missing");
     retry->add_option("ID", t->id, "Number of the retrieval, as listed")->required();
     retry->add_flag("--json", t->json, "Print a report as one JSON object");
     retry->callback([t, context] {

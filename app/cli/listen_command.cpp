@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -43,8 +44,9 @@ void listen(Options o, const Context &context) {
         if (o.listener.senders.empty())
             throw task::Error(task::ErrorCode::usage, task::because::noSenderIsKnown);
     }
-    const archive::ObjectFolder folder(o.isForLibrary ? archive::libraryObjectFolder()
-                                                      : fs::absolute(o.folder),
+    const archive::ObjectFolder folder(o.isForLibrary
+                                           ? archive::libraryObjectFolder()
+                                           : fs::absolute(o.folder.empty() ? "." : o.folder),
                                        archive::ObjectFolder::Keeps::onDisk);
     std::error_code failed;
     fs::create_directories(folder.folder(), failed);
@@ -55,7 +57,7 @@ void listen(Options o, const Context &context) {
     std::optional<archive::TransferLog> log;
     if (o.isForLibrary)
         log.emplace(archive::TransferLog::fileOfUser());
-    std::size_t stored = 0;
+    std::atomic<std::size_t> stored = 0;
     archive::Receiving receiving(folder, log ? &*log : nullptr,
                                  {[&](const archive::StoredObject &) { ++stored; },
                                   [](const archive::RefusedObject &object) {
@@ -67,7 +69,7 @@ void listen(Options o, const Context &context) {
         {[&](const std::string &sender, const std::optional<task::Reason> &reason) {
             if (reason)
                 warn(sender + ": " + reason->english());
-            fmt::print("{}: {} stored so far\n", printable(sender), stored);
+            fmt::print("{}: {} stored so far\n", printable(sender), stored.load());
             std::fflush(stdout);
         }});
     fmt::print("{} listens on port {}\n", o.listener.ae, listener.port());
@@ -83,8 +85,7 @@ void addListenCommand(CLI::App &app, const Context &context) {
     CLI::App *c = app.add_subcommand(
         "listen", "Receive what the known servers send, until interrupted (C-STORE)");
     CLI::Option *to =
-        c->add_option("--to", o->folder, "Folder to write to; default: the current one")
-            ->default_str(".");
+        c->add_option("--to", o->folder, "Folder to write to; default: the current one");
     c->add_flag("--library", o->isForLibrary, "Add what arrives to the library of the workstation")
         ->excludes(to);
     c->add_option("--port", o->listener.port, "Port; default 11112; 0: any free one")

@@ -53,8 +53,8 @@ public:
 
     /// The exposure of the scene's study, for its contrast.
     scene::Exposure exposure(picture::Background background) const {
-        return picture::measureExposure(*m_engine, m_lattice.radiusMm(), m_scene.image,
-                                        m_scene.shading, m_scene.tone, background);
+        return picture::measureExposure(*m_engine, m_lattice, m_scene.image, m_scene.shading,
+                                        m_scene.tone, background);
     }
 
     /// Describes the engine that makes the images, one line.

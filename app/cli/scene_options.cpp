@@ -162,8 +162,8 @@ void addLookOptions(CLI::App &command, SceneOptions &options) {
 void addDisplayOptions(CLI::App &command, SceneOptions &options) {
     command
         .add_option("--detail", options.detail,
-                    "A or A,MM: amplify structures finer than MM (default 2; less for a volume "
-                    "smaller than 16 mm) by up to 1 + A, A from "
+                    "A or A,MM: amplify structures finer than MM (default 2; less if the volume's "
+                    "radius is below 16 mm) by up to 1 + A, A from "
                     "0 to 4; a linear filter, of values too")
         ->check(notEmpty());
     command

@@ -10,6 +10,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/input.h"
+#include "app/cli/json_text.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
 #include "core/archive/sending.h"
@@ -57,12 +58,11 @@ void send(const Options &o, const Context &context) {
         nlohmann::json notSent = nlohmann::json::array();
         for (const dicom::Skipped &file : report.notSent)
             notSent.push_back({{"path", file.path.string()}, {"reason", file.reason.english()}});
-        std::puts(escapedControls(nlohmann::json{{"files", report.state.files},
-                                                 {"sent", report.state.sent},
-                                                 {"bytes", report.state.bytes},
-                                                 {"seconds", report.seconds},
-                                                 {"not_sent", notSent}}
-                                      .dump(2))
+        std::puts(jsonText({{"files", report.state.files},
+                            {"sent", report.state.sent},
+                            {"bytes", report.state.bytes},
+                            {"seconds", report.seconds},
+                            {"not_sent", notSent}})
                       .c_str());
     } else {
         for (const dicom::Skipped &file : report.notSent)

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.h"
+#include "app/cli/json_text.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
 #include "core/archive/server.h"
@@ -70,7 +71,7 @@ void list(const Options &o) {
             out.push_back({{"name", server.name},
                            {"address", archive::addressOf(server.peer)},
                            {"tls", server.peer.usesTls}});
-        std::puts(escapedControls(out.dump(2)).c_str());
+        std::puts(jsonText(out).c_str());
         return;
     }
     for (const Server &server : servers)

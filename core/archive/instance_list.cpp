@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -106,7 +107,7 @@ std::vector<Instance> listInstances(const Server &server, const Wanted &wanted,
         for (const auto &[number, uids] : byNumber)
             seriesUids.insert(seriesUids.end(), uids.begin(), uids.end());
     }
-    std::vector<Instance> instances;
+    std::vector<std::vector<Instance>> bySeries;
     std::set<std::string> known;
     for (const std::string &series : seriesUids) {
         std::vector<Listed> listed;
@@ -136,9 +137,17 @@ std::vector<Instance> listInstances(const Server &server, const Wanted &wanted,
         std::stable_sort(listed.begin(), listed.end(), [&](const Listed &a, const Listed &b) {
             return havePlaces ? *a.height < *b.height : a.instance.number < b.instance.number;
         });
+        bySeries.emplace_back();
         for (Listed &one : listed)
-            instances.push_back(std::move(one.instance));
+            bySeries.back().push_back(std::move(one.instance));
     }
+    // The series that is opened by default comes first.
+    std::stable_sort(bySeries.begin(), bySeries.end(),
+                     [](const auto &a, const auto &b) { return a.size() > b.size(); });
+    std::vector<Instance> instances;
+    for (std::vector<Instance> &series : bySeries)
+        instances.insert(instances.end(), std::make_move_iterator(series.begin()),
+                         std::make_move_iterator(series.end()));
     if (instances.empty())
         throw task::Error(task::ErrorCode::unusable, because::serverHasNoSuchStudy);
     return instances;

@@ -24,8 +24,8 @@ struct Wanted {
     std::vector<std::string> seriesUids;
 };
 
-/// The objects that a server has of it, series by series, each in the order of slices. *Throws* as
-/// exchange::Link; Error{unusable} if the server has none.
+/// The objects that a server has of it, series by series, that with the most objects first, each in
+/// the order of slices. *Throws* as exchange::Link; Error{unusable} if the server has none.
 std::vector<Instance> listInstances(const Server &server, const Wanted &wanted,
                                     const task::Progress &progress = {});
 

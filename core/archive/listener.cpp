@@ -6,6 +6,8 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <exception>
 #include <list>
 #include <mutex>
 #include <netdb.h>
@@ -95,14 +97,20 @@ private:
         while (!stop.stop_requested()) {
             m_connections.remove_if([](const Connection &one) { return one.hasEnded.load(); });
             pollfd waiting{m_socket.get(), POLLIN, 0};
-            if (::poll(&waiting, 1, pollMs) <= 0 || m_connections.size() >= maxAtOnce)
+            if (m_connections.size() >= maxAtOnce) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(pollMs));
+                continue;
+            }
+            if (::poll(&waiting, 1, pollMs) <= 0)
                 continue;
             sockaddr_in from{};
             socklen_t size = sizeof from;
             Descriptor client(::accept4(m_socket.get(), reinterpret_cast<sockaddr *>(&from), &size,
                                         SOCK_CLOEXEC));
-            if (!client)
+            if (!client) { // perhaps the program has too many files open
+                std::this_thread::sleep_for(std::chrono::milliseconds(pollMs));
                 continue;
+            }
             Connection &connection = m_connections.emplace_back();
             connection.thread =
                 std::jthread([this, &connection, address = textOf(from.sin_addr),
@@ -149,6 +157,9 @@ private:
             reason = error.reason();
         } catch (const task::Cancelled &) {
             reason = because::wasCancelled;
+        } catch (const std::exception &error) {
+            system::log(std::string("a connection ended: ") + error.what());
+            reason = because::faultOfTheProgram;
         }
         const std::lock_guard lock(m_mutex);
         if (m_observer.ended)

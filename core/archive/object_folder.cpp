@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/archive/object_folder.h"
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
 #include "core/decoder/decoder.h"
 #include "core/task/error.h"
 
@@ -19,6 +23,12 @@ std::string valueOf(const decoder::AttributeList &list, std::uint32_t tag) {
         if (attribute.depth == 0 && attribute.tag == tag)
             return attribute.value;
     return {};
+}
+
+bool haveSameBytes(const fs::path &a, const fs::path &b) {
+    std::ifstream one(a, std::ios::binary), other(b, std::ios::binary);
+    return std::equal(std::istreambuf_iterator<char>(one), {},
+                      std::istreambuf_iterator<char>(other), {});
 }
 
 } // namespace
@@ -42,7 +52,7 @@ std::unique_ptr<files::AtomicFile> ObjectFolder::open(const exchange::Arrival &a
 }
 
 StoredObject ObjectFolder::keep(files::AtomicFile &file, const exchange::Arrival &arrival,
-                                std::uint64_t bytes) const {
+                                std::uint64_t bytes, const std::optional<Place> &place) const {
     if (bytes == 0)
         throw Error(ErrorCode::output, because::isNotWritable, m_folder);
     // The decoder reads the file that has no name yet.
@@ -67,8 +77,15 @@ StoredObject ObjectFolder::keep(files::AtomicFile &file, const exchange::Arrival
     // The UIDs become names of folders.
     if (!exchange::isUid(object.studyUid) || !exchange::isUid(object.seriesUid))
         throw Error(ErrorCode::unusable, because::hasNoValidUids);
+    if (place && (object.studyUid != place->studyUid || object.seriesUid != place->seriesUid))
+        throw Error(ErrorCode::unusable, because::isNotWhatWasAnnounced);
     object.path = pathOf(object.studyUid, object.seriesUid, object.sopInstanceUid);
     std::error_code failed;
+    if (fs::exists(object.path, failed)) {
+        if (!haveSameBytes(unnamed, object.path))
+            throw Error(ErrorCode::unusable, because::anotherObjectHasItsUid);
+        return object;
+    }
     fs::create_directories(object.path.parent_path(), failed);
     if (failed)
         throw Error(ErrorCode::output, because::cannotBeMade(task::systemReason(failed.value())),

@@ -32,8 +32,8 @@ struct RefusedObject {
 /// appears there only when it is complete, readable, and is what its sender announced.
 class ObjectFolder {
 public:
-    /// `isDurable`: an object is kept only when it is on the disk, because its sender may delete
-    /// it.
+    /// `onDisk`: an object counts as kept only when it is on the disk, because its sender may
+    /// delete it.
     enum class Keeps { inMemoryOfTheSystem, onDisk };
     ObjectFolder(std::filesystem::path folder, Keeps keeps);
 
@@ -43,10 +43,15 @@ public:
     bool has(const std::string &studyUid, const std::string &seriesUid,
              const std::string &sopInstanceUid) const;
 
-    /// Puts a complete file, still without a name, into its place. *Throws* Error{unusable} if it
-    /// is not the object that was announced, Error{output}.
+    /// Where an object belongs, as its server lists it.
+    struct Place {
+        std::string studyUid, seriesUid;
+    };
+    /// Puts a complete file, still without a name, into its place. One that is there already and
+    /// has the same contents stays. *Throws* Error{unusable} if it is not the object that was
+    /// announced, belongs to another place, or would replace another file; Error{output}.
     StoredObject keep(files::AtomicFile &file, const exchange::Arrival &arrival,
-                      std::uint64_t bytes) const;
+                      std::uint64_t bytes, const std::optional<Place> &place = {}) const;
     /// A file without a name. *Throws* Error{output}.
     std::unique_ptr<files::AtomicFile> open(const exchange::Arrival &arrival) const;
 

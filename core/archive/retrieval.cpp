@@ -10,6 +10,7 @@
 #include <mutex>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "core/archive/listener.h"
 #include "core/exchange/link.h"
@@ -28,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint16_t outOfResources = 0xa700, notWanted = 0x0124, notAsAnnounced = 0xa900;
 constexpr std::size_t leastOfABatch = 8, mostOfABatch = 32;
+constexpr std::size_t mostUnwanted = 1000;
 // Connections that are lost one after the other, without any object between.
 constexpr int maxFailures = 3, maxRefusals = 3;
 constexpr std::chrono::milliseconds pauses[maxFailures]{std::chrono::milliseconds(300),
@@ -44,8 +46,8 @@ struct Batch {
 class Work {
 public:
     Work(const std::vector<Instance> &instances, const ObjectFolder &folder,
-         const RetrievalObserver &observer)
-        : m_folder(folder), m_observer(observer) {
+         const RetrievalObserver &observer, int connections)
+        : m_folder(folder), m_observer(observer), m_connections(std::size_t(connections)) {
         m_state.wanted = instances.size();
         for (const Instance &instance : instances) {
             if (folder.has(instance.studyUid, instance.seriesUid, instance.sopInstanceUid))
@@ -82,13 +84,16 @@ public:
             m_queue.push_front(std::move(batch));
     }
 
-    // Whether an object is awaited.
-    bool awaits(const std::string &uid) {
+    // Where an awaited object belongs; nothing if it is not awaited. *Throws* if the server goes on
+    // and on with others.
+    std::optional<ObjectFolder::Place> placeOf(const std::string &uid) {
         const std::lock_guard lock(m_mutex);
-        if (m_missing.contains(uid))
-            return true;
-        ++m_unwanted;
-        return false;
+        const auto missing = m_missing.find(uid);
+        if (missing != m_missing.end())
+            return ObjectFolder::Place{missing->second.studyUid, missing->second.seriesUid};
+        if (++m_unwanted > mostUnwanted + m_state.wanted)
+            throw Error(ErrorCode::unusable, because::serverSendsTooMuch);
+        return std::nullopt;
     }
     void stored(const StoredObject &object) {
         const std::lock_guard lock(m_mutex);
@@ -110,11 +115,13 @@ public:
         const std::lock_guard lock(m_mutex);
         for (const std::string &uid : batch.uids)
             if (m_missing.contains(uid) && !m_reasons.contains(uid))
-                m_reasons.emplace(uid,
-                                  std::find(end.failedInstances.begin(), end.failedInstances.end(),
-                                            uid) != end.failedInstances.end()
-                                      ? because::serverCouldNotSendIt
-                                      : because::serverLeftItOut);
+                m_reasons.emplace(
+                    uid, !end.reason.empty()
+                             ? task::Reason::decoded(end.reason).value_or(because::serverLeftItOut)
+                         : std::find(end.failedInstances.begin(), end.failedInstances.end(), uid) !=
+                                 end.failedInstances.end()
+                             ? task::Reason(because::serverCouldNotSendIt)
+                             : task::Reason(because::serverLeftItOut));
     }
     void failed(const Batch &batch, const task::Reason &reason) {
         const std::lock_guard lock(m_mutex);
@@ -145,13 +152,13 @@ public:
                 m_reasons.insert_or_assign(uid, reason);
         m_queue.clear();
     }
-    // Ends all connections: the disk is full, or the program is to stop.
     void offersNoGet() {
         const std::lock_guard lock(m_mutex);
         m_offersNoGet = true;
     }
     bool needsMove() const { return m_offersNoGet; }
     void useMove() { m_offersNoGet = false; }
+    // Ends all connections: the disk is full, or the program is to stop.
     void stop(std::exception_ptr failure) {
         const std::lock_guard lock(m_mutex);
         if (!m_failure)
@@ -202,18 +209,22 @@ private:
                 ++end;
             const std::size_t count = end - begin;
             const std::size_t size = std::clamp(count / 16, leastOfABatch, mostOfABatch);
-            Batch batch{instances[begin].studyUid, instances[begin].seriesUid, {}};
+            // Dealt out among the connections: together they bring coarse slices before fine ones.
+            const Batch empty{instances[begin].studyUid, instances[begin].seriesUid, {}};
+            std::vector<Batch> hands(m_connections, empty);
+            std::size_t dealt = 0;
             const auto flush = [&] {
-                if (!batch.uids.empty())
-                    m_queue.push_back(batch);
-                batch.uids.clear();
+                for (Batch &hand : hands)
+                    if (!hand.uids.empty())
+                        m_queue.push_back(std::exchange(hand, empty));
+                dealt = 0;
             };
             for (const std::size_t index : coarseToFine(count)) {
                 const std::string &uid = instances[begin + index].sopInstanceUid;
                 if (!m_missing.contains(uid))
                     continue;
-                batch.uids.push_back(uid);
-                if (batch.uids.size() == size)
+                hands[dealt++ % hands.size()].uids.push_back(uid);
+                if (dealt == size * hands.size())
                     flush();
             }
             flush();
@@ -223,6 +234,7 @@ private:
 
     const ObjectFolder &m_folder;
     const RetrievalObserver &m_observer;
+    const std::size_t m_connections;
     std::mutex m_mutex;
     std::map<std::string, Instance> m_missing;
     std::map<std::string, task::Reason> m_reasons;
@@ -242,7 +254,8 @@ public:
 
     std::variant<int, std::uint16_t> open(const exchange::Arrival &arrival) override {
         m_reported = 0;
-        if (!m_work.awaits(arrival.sopInstanceUid))
+        m_place = m_work.placeOf(arrival.sopInstanceUid);
+        if (!m_place)
             return notWanted;
         m_file = m_work.folder().open(arrival);
         return m_file->descriptor();
@@ -251,11 +264,13 @@ public:
         receive(bytes);
         const std::unique_ptr<files::AtomicFile> file = std::move(m_file);
         try {
-            m_work.stored(m_work.folder().keep(*file, arrival, bytes));
+            m_work.stored(m_work.folder().keep(*file, arrival, bytes, m_place));
             return 0;
         } catch (const Error &error) {
-            if (error.code() == ErrorCode::output)
+            if (error.code() == ErrorCode::output) {
+                m_work.stop(std::current_exception()); // also if a listener's thread brings it
                 throw;
+            }
             m_work.refused(arrival.sopInstanceUid, error.reason());
             return notAsAnnounced;
         }
@@ -268,6 +283,7 @@ public:
 private:
     Work &m_work;
     std::unique_ptr<files::AtomicFile> m_file;
+    std::optional<ObjectFolder::Place> m_place;
     std::uint64_t m_reported = 0;
 };
 
@@ -322,9 +338,9 @@ private:
         }
     }
     void take(const Batch &batch) {
-        if (!m_link)
-            m_link.emplace(m_connection, m_progress);
         try {
+            if (!m_link)
+                m_link.emplace(m_connection, m_progress);
             const exchange::RetrievalEnd end = m_link->retrieve({.level = Level::image,
                                                                  .studyUid = batch.studyUid,
                                                                  .seriesUid = batch.seriesUid,
@@ -374,7 +390,6 @@ void runWorkers(const Server &server, Purpose purpose, const std::vector<std::st
     // A connection costs round trips, which a few objects do not repay.
     const std::size_t useful = (work.missing() + leastOfABatch - 1) / leastOfABatch;
     const std::size_t count = std::min<std::size_t>(useful, std::size_t(server.connections));
-    const std::size_t before = work.receivedCount();
     std::vector<std::unique_ptr<Worker>> workers;
     for (std::size_t n = 0; n < count; ++n)
         workers.push_back(std::make_unique<Worker>(server, purpose, classes, syntaxes,
@@ -387,7 +402,7 @@ void runWorkers(const Server &server, Purpose purpose, const std::vector<std::st
             workers.front()->run();
     }
     work.rethrow();
-    if (work.receivedCount() == before && work.missing() > 0)
+    if (work.receivedCount() == 0 && work.missing() > 0)
         for (const auto &worker : workers)
             if (worker->failure())
                 throw *worker->failure();
@@ -407,7 +422,7 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     if (failed)
         throw Error(ErrorCode::output, because::cannotBeMade(task::systemReason(failed.value())),
                     folder.folder());
-    Work work(instances, folder, observer);
+    Work work(instances, folder, observer, server.connections);
     // Every connection proposes the kinds that lack; a server that does not tell them gets the
     // common ones.
     std::set<std::string> classes = work.classes();
@@ -415,19 +430,28 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
         classes.clear();
     if (server.retrieve != RetrieveMethod::move)
         runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {}, {}, work, progress);
-    if (server.retrieve == RetrieveMethod::move || work.needsMove()) {
+    const bool hasMoved = server.retrieve == RetrieveMethod::move || work.needsMove();
+    if (hasMoved) {
         work.useMove();
         ListenerOptions options;
         options.port = destination.port;
-        options.ae = destination.ae;
+        options.ae = destination.ae.empty() ? server.peer.callingAe : destination.ae;
+        // What is asked for with TLS does not come without.
+        options.usesTls = server.peer.usesTls;
+        if (options.usesTls && server.peer.certificate.empty())
+            throw Error(ErrorCode::unusable, because::receivingNeedsACertificate);
+        options.certificate = server.peer.certificate;
+        options.key = server.peer.key;
+        options.keyPassword = server.peer.keyPassword;
+        options.authorities = server.peer.authorities;
         options.senders = {{"", server.peer.host}};
         options.silenceSeconds = server.peer.silenceSeconds;
         const Listener listener(options, [&] { return std::make_unique<Objects>(work); });
-        runWorkers(server, Purpose::move, {}, {}, destination.ae, work, progress);
+        runWorkers(server, Purpose::move, {}, {}, options.ae, work, progress);
     }
     // Some servers take the first presentation context of a kind, whatever they have stored, and
     // then cannot send it: one encoding at a time, until all is here.
-    if (server.retrieve != RetrieveMethod::move &&
+    if (server.retrieve != RetrieveMethod::move && !hasMoved &&
         server.peer.protocol == exchange::Protocol::dicom)
         for (const std::string &syntax : exchange::transferSyntaxes())
             if (work.fillQueueAgain(instances))

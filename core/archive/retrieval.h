@@ -42,7 +42,7 @@ struct RetrievalObserver {
 /// Where a server sends objects for C-MOVE: it must know this AE title with this computer's address
 /// and port.
 struct MoveDestination {
-    std::string ae = "PELLUCID";
+    std::string ae; ///< empty: that which this program calls the server by
     int port = defaultListenerPort;
 };
 

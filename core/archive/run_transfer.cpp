@@ -56,8 +56,7 @@ RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &ser
         if (Clock::now() - recorded >= recordedEvery) {
             recorded = Clock::now();
             log.update(id, state, seconds());
-            const auto now = log.transfer(id);
-            if (!now || now->state == TransferState::cancelled)
+            if (!log.hasClaim(id))
                 stop.request_stop();
         }
         if (state.wanted > 0)
@@ -77,7 +76,9 @@ RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &ser
                    report.isComplete() ? "" : report.lacking.front().reason.encoded());
         return report;
     } catch (const task::Cancelled &) {
-        log.finish(id, TransferState::cancelled, reached, seconds(), {});
+        // A program that ends continues it at its next start, unless the user has cancelled it.
+        if (log.hasClaim(id))
+            log.finish(id, TransferState::waiting, reached, seconds(), {});
         throw;
     } catch (const task::Error &error) {
         log.finish(id, TransferState::incomplete, reached, seconds(), error.reason().encoded());

@@ -102,6 +102,7 @@ void searchAt(const Server &server, const SearchTerms &terms, Folder &folder,
         outcome.warnings = end.warnings;
     } catch (const Error &error) {
         outcome.failure = error.reason();
+        outcome.code = error.code();
     }
     outcome.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

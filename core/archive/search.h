@@ -8,6 +8,7 @@
 
 #include "core/archive/server.h"
 #include "core/exchange/query.h"
+#include "core/task/error.h"
 #include "core/task/progress.h"
 #include "core/task/reason.h"
 
@@ -36,6 +37,7 @@ struct ServerOutcome {
     bool reachedLimit = false;
     std::vector<std::string> warnings;
     std::optional<task::Reason> failure;
+    task::ErrorCode code = task::ErrorCode::unreachable; ///< of the failure
     double seconds = 0.0;
 };
 

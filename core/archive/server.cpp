@@ -102,6 +102,8 @@ void requireValid(const Server &server) {
     requireAe(server.peer.callingAe);
     if (server.connections < 1 || server.connections > maxConnections)
         fail(because::connectionsAreOutOfRange(maxConnections));
+    if (server.limit > mostAnswers)
+        fail(because::answersAreOutOfRange(mostAnswers));
     if (server.peer.certificate.empty() != server.peer.key.empty())
         fail(because::certificateNeedsItsKey);
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,6 +52,9 @@ public:
     std::optional<Transfer> transfer(std::int64_t id) const;
     /// Takes a waiting transfer, or one whose program has ended. False if another program has it.
     bool claim(std::int64_t id);
+    /// Whether a claimed transfer has neither been cancelled nor been claimed again. What follows
+    /// has no effect after that.
+    bool hasClaim(std::int64_t id) const;
     void update(std::int64_t id, const RetrievalState &state, double seconds);
     void finish(std::int64_t id, TransferState state, const RetrievalState &reached, double seconds,
                 const std::string &reason);
@@ -70,6 +74,7 @@ private:
     };
     std::unique_ptr<sqlite3, Close> m_database;
     std::filesystem::path m_file;
+    std::map<std::int64_t, std::int64_t> m_runs; ///< of claimed transfers
 };
 
 } // namespace pellucid::archive

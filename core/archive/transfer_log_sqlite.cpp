@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/archive/transfer_log.h"
 
-#include <csignal>
+#include <cstdlib>
+#include <fstream>
 #include <sstream>
-#include <sys/types.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include "core/files/user_folders.h"
@@ -108,8 +109,27 @@ Transfer transferOf(const Statement &row) {
     return transfer;
 }
 
-bool isRunning(std::int64_t process) {
-    return process > 0 && (::kill(pid_t(process), 0) == 0 || errno == EPERM);
+// Distinguishes a process from later ones with the same number: number, start and boot. Empty if
+// there is none.
+std::string identityOf(long process) {
+    std::ifstream file(fmt::format("/proc/{}/stat", process)),
+        bootFile("/proc/sys/kernel/random/boot_id");
+    std::string status, boot;
+    std::getline(file, status);
+    std::getline(bootFile, boot);
+    // The name, in parentheses, may contain spaces; the start is the 20th value after it.
+    const auto name = status.rfind(')');
+    if (name == std::string::npos)
+        return {};
+    std::istringstream values(status.substr(name + 1));
+    std::string start;
+    for (int n = 0; n < 20; ++n)
+        values >> start;
+    return fmt::format("{} {} {}", process, start, boot);
+}
+
+bool isRunning(const std::string &process) {
+    return !process.empty() && identityOf(std::strtol(process.c_str(), nullptr, 10)) == process;
 }
 
 } // namespace
@@ -138,8 +158,8 @@ TransferLog::TransferLog(const fs::path &file) : m_file(file) {
           "CREATE TABLE IF NOT EXISTS transfers (id INTEGER PRIMARY KEY, server TEXT, study TEXT, "
           "series TEXT, title TEXT, folder TEXT, state INTEGER, total INTEGER DEFAULT 0, received "
           "INTEGER DEFAULT 0, bytes INTEGER DEFAULT 0, seconds REAL DEFAULT 0, reason TEXT DEFAULT "
-          "'', created TEXT DEFAULT (strftime('%Y-%m-%dT%H:%M:%SZ', 'now')), process INTEGER "
-          "DEFAULT 0, UNIQUE (server, study, series, folder))",
+          "'', created TEXT DEFAULT (strftime('%Y-%m-%dT%H:%M:%SZ', 'now')), process TEXT "
+          "DEFAULT '', run INTEGER DEFAULT 0, UNIQUE (server, study, series, folder))",
           "CREATE TABLE IF NOT EXISTS arrivals (path TEXT PRIMARY KEY, study TEXT, series TEXT, "
           "instance TEXT, class TEXT, bytes INTEGER, sender TEXT)"})
         Statement(database, m_file, sql).run();
@@ -184,37 +204,51 @@ std::optional<Transfer> TransferLog::transfer(std::int64_t id) const {
 
 bool TransferLog::claim(std::int64_t id) {
     Statement(m_database.get(), m_file, "BEGIN IMMEDIATE").run();
-    std::int64_t state = -1, process = 0;
+    std::int64_t state = -1, run = 0;
+    std::string process;
     {
         Statement select(m_database.get(), m_file,
-                         "SELECT state, process FROM transfers WHERE id = ?");
+                         "SELECT state, process, run FROM transfers WHERE id = ?");
         select.bind(id);
         if (select.next()) {
             state = select.number(0);
-            process = select.number(1);
+            process = select.text(1);
+            run = select.number(2);
         }
     }
+    const std::string own = identityOf(::getpid());
     const bool isFree = state >= 0 && (TransferState(state) != TransferState::running ||
-                                       process == ::getpid() || !isRunning(process));
+                                       process == own || !isRunning(process));
     if (isFree) {
+        m_runs[id] = run + 1;
         Statement update(m_database.get(), m_file,
-                         "UPDATE transfers SET state = 1, process = ?, reason = '' WHERE id = ?");
-        update.bind(std::int64_t(::getpid())).bind(id);
+                         "UPDATE transfers SET state = 1, process = ?, run = ?, reason = '' WHERE "
+                         "id = ?");
+        update.bind(own).bind(run + 1).bind(id);
         update.run();
     }
     Statement(m_database.get(), m_file, "COMMIT").run();
     return isFree;
 }
 
+bool TransferLog::hasClaim(std::int64_t id) const {
+    Statement select(m_database.get(), m_file, "SELECT state, run FROM transfers WHERE id = ?");
+    select.bind(id);
+    const auto run = m_runs.find(id);
+    return select.next() && TransferState(select.number(0)) == TransferState::running &&
+           run != m_runs.end() && select.number(1) == run->second;
+}
+
 void TransferLog::update(std::int64_t id, const RetrievalState &state, double seconds) {
     Statement update(m_database.get(), m_file,
                      "UPDATE transfers SET total = ?, received = ?, bytes = ?, seconds = ? "
-                     "WHERE id = ?");
+                     "WHERE id = ? AND run = ?");
     update.bind(std::int64_t(state.wanted))
         .bind(std::int64_t(state.present + state.received))
         .bind(std::int64_t(state.bytes))
         .bind(seconds)
-        .bind(id);
+        .bind(id)
+        .bind(m_runs[id]);
     update.run();
 }
 
@@ -223,8 +257,9 @@ void TransferLog::finish(std::int64_t id, TransferState state, const RetrievalSt
     if (reached.wanted > 0)
         update(id, reached, seconds);
     Statement finish(m_database.get(), m_file,
-                     "UPDATE transfers SET state = ?, reason = ?, process = 0 WHERE id = ?");
-    finish.bind(std::int64_t(state)).bind(reason).bind(id);
+                     "UPDATE transfers SET state = ?, reason = ?, process = '' WHERE id = ? "
+                     "AND run = ?");
+    finish.bind(std::int64_t(state)).bind(reason).bind(id).bind(m_runs[id]);
     finish.run();
 }
 

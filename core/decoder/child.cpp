@@ -82,7 +82,12 @@ Child::~Child() {
 }
 
 void Child::start(const std::filesystem::path &program, const task::Progress &progress) {
-    m_arena = Descriptor(::memfd_create("pellucid-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    {
+        // Above the standard streams, which may be closed: prints would go into it.
+        constexpr int aboveStreams = 10;
+        const Descriptor lowest(::memfd_create("pellucid-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+        m_arena = Descriptor(lowest ? ::fcntl(lowest.get(), F_DUPFD_CLOEXEC, aboveStreams) : -1);
+    }
     // The arena must never shrink: reading beyond its end would kill the program.
     if (!m_arena || ::ftruncate(m_arena.get(), off_t(firstArenaBytes)) != 0 ||
         ::fcntl(m_arena.get(), F_ADD_SEALS, F_SEAL_SHRINK) != 0)
@@ -106,7 +111,10 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
             std::string("decoders: resource limits ") +
             ((m_confinement & helper::limitsHold) != 0 ? "in force" : "NOT in force") +
             ", system calls " +
-            ((m_confinement & helper::callsAreFiltered) != 0 ? "filtered" : "NOT filtered"));
+            ((m_confinement & helper::callsAreFiltered) != 0 ? "filtered" : "NOT filtered") +
+            ", files " +
+            ((m_confinement & helper::filesAreFiltered) != 0 ? "closed"
+                                                             : "not closed by Landlock"));
     });
     m_isUsable = true;
 }

@@ -204,7 +204,7 @@ DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress)
             samples = {reinterpret_cast<const std::uint16_t *>(answer.data.data()), count};
             return h;
         });
-        return DecodedFile{std::move(header), samples, {std::move(child), *this}};
+        return DecodedFile{std::move(header), samples, HeldDecoder(std::move(child), *this)};
     });
 }
 

@@ -38,7 +38,7 @@ struct DecodedFile {
     /// As in DecodedImage. A compromised decoder may change them while they are read, so read each
     /// sample only once.
     std::span<const std::uint16_t> samples;
-    HeldDecoder decoder;
+    std::optional<HeldDecoder> decoder; ///< none if the samples are held elsewhere
 };
 
 /// A decoded segmentation.

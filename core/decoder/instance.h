@@ -45,9 +45,10 @@ struct PetHeader {
     double weightKg = 0.0, injectedBq = 0.0, halfLifeS = 0.0;
     /// FrameReferenceTime, from the start that a decay correction refers to; ActualFrameDuration.
     double frameReferenceS = 0.0, frameDurationS = 0.0;
-    int injections = 0; ///< items of the sequence that describes them
-    double uptakePerCount = 0.0;         ///< Philips' private factor (7053,1000)
-    bool isAttenuationCorrected = false; ///< Corrected Image has ATTN
+    int injections = 0;          ///< items of the sequence that describes them
+    double uptakePerCount = 0.0; ///< Philips' private factor (7053,1000)
+    std::string corrections;     ///< Corrected Image: ATTN, DECY ..., joined with backslashes
+    bool isDynamic = false;      ///< Series Type is DYNAMIC
     bool operator==(const PetHeader &) const = default;
 };
 

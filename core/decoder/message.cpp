@@ -30,14 +30,14 @@ template <class A> void pass(A &archive, volume::ValueWindow &window) {
 template <class A> void pass(A &archive, PetHeader &pet) {
     for (std::string *const text :
          {&pet.units, &pet.uptakeType, &pet.decayCorrection, &pet.seriesDate, &pet.seriesTime,
-          &pet.acquisitionDate, &pet.acquisitionTime, &pet.injectionTime, &pet.injectionDateTime, &pet.timezone, &pet.radionuclide})
+          &pet.acquisitionDate, &pet.acquisitionTime, &pet.injectionTime, &pet.injectionDateTime,
+          &pet.timezone, &pet.radionuclide, &pet.corrections})
         pass(archive, *text);
-    for (double *const number :
-         {&pet.weightKg, &pet.injectedBq, &pet.halfLifeS, &pet.uptakePerCount, &pet.frameReferenceS,
-          &pet.frameDurationS})
+    for (double *const number : {&pet.weightKg, &pet.injectedBq, &pet.halfLifeS,
+                                 &pet.uptakePerCount, &pet.frameReferenceS, &pet.frameDurationS})
         pass(archive, *number);
     pass(archive, pet.injections);
-    pass(archive, pet.isAttenuationCorrected);
+    pass(archive, pet.isDynamic);
 }
 
 template <class A> void pass(A &archive, FrameHeader &frame) {

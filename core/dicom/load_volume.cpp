@@ -41,8 +41,10 @@ constexpr auto previewInterval = std::chrono::milliseconds(400);
 // Decodes the files of an entry. Thread-safe.
 class EntryDecoder {
 public:
-    EntryDecoder(const VolumeEntry &entry, const task::Progress &progress)
-        : m_files(filesOf(entry)), m_size(entry.geometry.lattice.size()), m_progress(progress) {}
+    EntryDecoder(const VolumeEntry &entry, const task::Progress &progress,
+                 const DecodedFiles *decoded)
+        : m_files(filesOf(entry)), m_size(entry.geometry.lattice.size()), m_progress(progress),
+          m_decoded(decoded) {}
 
     const std::vector<EntryFile> &files() const { return m_files; }
 
@@ -82,7 +84,10 @@ public:
 private:
     decoder::DecodedFile decoded(const std::filesystem::path &path) {
         try {
-            decoder::DecodedFile image = decoder::Decoder::shared().image(path, m_progress);
+            auto known = m_decoded != nullptr ? m_decoded->find(path)
+                                              : std::optional<decoder::DecodedFile>();
+            decoder::DecodedFile image =
+                known ? std::move(*known) : decoder::Decoder::shared().image(path, m_progress);
             if (image.header.columns != m_size.i || image.header.rows != m_size.j)
                 throw Error(ErrorCode::unusable, because::changedWhileRead, path);
             return image;
@@ -97,6 +102,7 @@ private:
     std::vector<EntryFile> m_files;
     volume::GridSize m_size;
     const task::Progress &m_progress;
+    const DecodedFiles *m_decoded; ///< or null
     std::atomic<bool> m_lacksMemory = false;
     std::size_t m_keptFile = 0;
     std::optional<decoder::DecodedFile> m_kept;
@@ -278,8 +284,10 @@ private:
 
 class Loader {
 public:
-    Loader(const VolumeEntry &entry, const task::Progress &progress, const LoadObserver &observer)
-        : m_entry(entry), m_decoder(entry, progress), m_progress(progress), m_observer(observer) {}
+    Loader(const VolumeEntry &entry, const task::Progress &progress, const LoadObserver &observer,
+           const DecodedFiles *decoded)
+        : m_entry(entry), m_decoder(entry, progress, decoded), m_progress(progress),
+          m_observer(observer), m_decoded(decoded) {}
 
     // The first readable file decides the type; a value that does not fit switches to float.
     LoadedVolume load() {
@@ -307,7 +315,7 @@ private:
         } // frees the samples before the rest is loaded
         const RemainingStack rest = remainingStack(m_entry, m_decoder.files(), failures,
                                                    m_decoder.codeIfNoneReadable(), m_progress);
-        LoadedVolume loaded = loadVolume(rest.entry, m_progress, m_observer);
+        LoadedVolume loaded = loadVolume(rest.entry, m_progress, m_observer, m_decoded);
         loaded.skipped.insert(loaded.skipped.begin(), rest.skipped.begin(), rest.skipped.end());
         return loaded;
     }
@@ -316,16 +324,17 @@ private:
     EntryDecoder m_decoder;
     const task::Progress &m_progress;
     const LoadObserver &m_observer;
+    const DecodedFiles *m_decoded; ///< or null
 };
 
 } // namespace
 
 LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress,
-                        const LoadObserver &observer) {
+                        const LoadObserver &observer, const DecodedFiles *decoded) {
     try {
         if (!entry.volumeFile.empty())
             return {decoder::readVolumeFile(entry.volumeFile, progress, entry.fileVolume), {}};
-        return Loader(entry, progress, observer).load();
+        return Loader(entry, progress, observer, decoded).load();
     } catch (const std::bad_alloc &) {
         const volume::GridSize n = entry.geometry.lattice.size();
         throw Error(ErrorCode::outOfMemory, because::noMemoryForAVolume(n.i, n.j, n.k));

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "core/dicom/catalogue.h"
+#include "core/dicom/decoded_files.h"
 #include "core/task/progress.h"
 #include "core/volume/volume.h"
 
@@ -23,9 +24,10 @@ struct LoadedVolume {
 
 /// Decodes and assembles a volume: applies the rescale of each frame, replaces padding by the
 /// lowest real value, and resamples uneven stacks along the stack. Samples are int16 if every value
-/// fits, else float32. *Throws* Error{unusable} if nothing can be decoded or the rest makes no
-/// volume, Error{outOfMemory}, Cancelled.
+/// fits, else float32. `decoded`: files that are not decoded again; may be null. *Throws*
+/// Error{unusable} if nothing can be decoded or the rest makes no volume, Error{outOfMemory},
+/// Cancelled.
 LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress = {},
-                        const LoadObserver &observer = {});
+                        const LoadObserver &observer = {}, const DecodedFiles *decoded = nullptr);
 
 } // namespace pellucid::dicom

@@ -297,7 +297,10 @@ private:
     }
 
     void readInstance(const fs::path &path, FileContents &contents) {
-        InstanceHeader header = decoder::Decoder::shared().header(path, m_progress);
+        const auto known =
+            m_options.decoded != nullptr ? m_options.decoded->header(path) : std::nullopt;
+        InstanceHeader header =
+            known ? *known : decoder::Decoder::shared().header(path, m_progress);
         std::error_code unknown;
         const auto bytes = fs::file_size(path, unknown);
         contents.reason = decoder::whyUnusable(header);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/dicom/catalogue.h"
+#include "core/dicom/decoded_files.h"
 #include "core/task/progress.h"
 
 namespace pellucid::dicom {
@@ -13,6 +14,8 @@ struct ScanOptions {
     /// Also uses images that are unusually large, or need far more memory than their files have
     /// bytes.
     bool includesHuge = false;
+    /// Files whose headers are known already; may be null.
+    const DecodedFiles *decoded = nullptr;
 };
 
 /// Searches files, folders (recursively, without following links to folders), DICOMDIRs, ZIP

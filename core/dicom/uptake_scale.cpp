@@ -25,7 +25,7 @@ constexpr double minWeightKg = 0.5, maxWeightKg = 500.0;
 constexpr double minInjectedBq = 1e5, minHumanBq = 1e6, humanKg = 20.0, maxInjectedBq = 1e11;
 // The date of an injection that is further away has been changed by an anonymiser.
 constexpr double maxStatedDays = 60.0;
-// With a longer half-life, an injection without a date may have been days before.
+// With a longer half-life, an injection without a date may have been days earlier.
 constexpr double longestWithoutDateS = 4.0 * 3600.0;
 
 UptakeScale refused(ValueUnit unit, double factor, const task::Reason &reason) {
@@ -56,16 +56,19 @@ std::optional<double> zoneOf(const std::string &text) {
     return (text[sign] == '-' ? -1.0 : 1.0) * (3600.0 * *hours + 60.0 * *minutes);
 }
 
-// The injection as its date and time state it, in the zone of the other times.
+// The injection as its date and time state it, in the time zone of the file; nothing if that is not
+// known.
 std::optional<double> statedInjection(const PetHeader &pet) {
-    if (pet.injectionDateTime.size() <= 8)
-        return std::nullopt;
     const std::string local =
         pet.injectionDateTime.substr(0, pet.injectionDateTime.find_first_of("+-"));
+    if (local.size() <= 8)
+        return std::nullopt;
     auto at = secondsAt(local.substr(0, 8), local.substr(8));
     const auto zone = zoneOf(pet.injectionDateTime), zoneOfFile = zoneOf(pet.timezone);
     if (at && zone && zoneOfFile)
         *at += *zoneOfFile - *zone;
+    else if (zone && !zoneOfFile && pet.injectionTime.empty())
+        return std::nullopt; // the other times may be of another zone
     return at;
 }
 
@@ -74,10 +77,10 @@ double betweenTimesOfDay(double a, double b) {
     return std::remainder(a - b, secondsPerDay);
 }
 
-// Half-lives from the injection to `referenceS`, a few less than 0 if the scan began before the
-// injection; nothing if the times do not tell.
+// Half-lives from the injection to `referenceS`, slightly negative if a dynamic scan began before
+// the injection; nothing if the times are missing or contradictory.
 std::optional<double> halfLivesSince(const PetHeader &pet, double referenceS) {
-    constexpr double mostBeforeS = 1800.0; // of a dynamic scan that begins before the injection
+    const double mostBeforeS = pet.isDynamic ? std::min(1800.0, pet.halfLifeS) : 0.0;
     constexpr double sameS = 60.0;
     const auto accepted = [&](double at) -> std::optional<double> {
         const double halfLives = (referenceS - at) / pet.halfLifeS;
@@ -86,22 +89,22 @@ std::optional<double> halfLivesSince(const PetHeader &pet, double referenceS) {
         return std::nullopt;
     };
     const auto stated = statedInjection(pet);
-    auto ofDay = secondsAt(pet.seriesDate, pet.injectionTime);
+    const auto ofDay = secondsAt(pet.seriesDate, pet.injectionTime);
     if (stated && std::abs(referenceS - *stated) < maxStatedDays * secondsPerDay) {
         if (ofDay && std::abs(betweenTimesOfDay(*stated, *ofDay)) > sameS)
             return std::nullopt; // two statements, one of which is wrong
-        return accepted(*stated);
+        if (const auto halfLives = accepted(*stated))
+            return halfLives;
     }
     // Anonymisers shift some dates and forget others, but keep the times of day. Such a time
     // belongs to the day of the series or to the night before; which one is clear for short
     // half-lives only.
     if (pet.halfLifeS > longestWithoutDateS)
         return std::nullopt;
-    if (!ofDay && stated)
-        ofDay = referenceS + betweenTimesOfDay(*stated, referenceS);
-    if (!ofDay)
+    if (!ofDay && !stated)
         return std::nullopt;
-    return accepted(*ofDay > referenceS + mostBeforeS ? *ofDay - secondsPerDay : *ofDay);
+    const double nearest = referenceS + betweenTimesOfDay(ofDay ? *ofDay : *stated, referenceS);
+    return accepted(nearest > referenceS + mostBeforeS ? nearest - secondsPerDay : nearest);
 }
 
 // When the scan of an image began, to which the values are decay-corrected: the image refers to a
@@ -119,21 +122,26 @@ double scanBegin(const PetHeader &pet, double acquisitionS) {
 // carries the time of that reconstruction; its scan then began earlier. Nothing if the times
 // contradict each other, as dates that do not change at midnight do.
 std::optional<double> decayReference(const std::vector<const InstanceHeader *> &files) {
-    constexpr double longestScanS = 12.0 * 3600.0;
+    constexpr double longestScanS = 12.0 * 3600.0, sameBeginS = 60.0;
     const auto series = secondsAt(files.front()->pet->seriesDate, files.front()->pet->seriesTime);
-    std::optional<double> first, last, begin;
+    std::optional<double> first, last, begin, lastBegin;
     for (const InstanceHeader *const h : files)
         if (const auto at = secondsAt(h->pet->acquisitionDate, h->pet->acquisitionTime)) {
             first = first ? std::min(*first, *at) : at;
             last = last ? std::max(*last, *at) : at;
             const double scan = scanBegin(*h->pet, *at);
             begin = begin ? std::min(*begin, scan) : scan;
+            lastBegin = lastBegin ? std::max(*lastBegin, scan) : scan;
         }
     if (!first)
         return series;
     if (*last - *first > longestScanS)
         return std::nullopt;
-    return series && *series <= *first ? series : begin;
+    // A date of the series that is days off has been changed by an anonymiser.
+    if (series && *series <= *first && *first - *series <= longestScanS)
+        return series;
+    // Frame Reference Times are used only if all of them tell the same.
+    return *lastBegin - *begin <= sameBeginS ? begin : first;
 }
 
 // The share of the injected activity that is left at the time which the values refer to.
@@ -174,8 +182,8 @@ bool isSameScale(const PetHeader &a, const PetHeader &b) {
     const auto of = [](const PetHeader &pet) {
         return std::tie(pet.units, pet.uptakeType, pet.decayCorrection, pet.injectionTime,
                         pet.injectionDateTime, pet.radionuclide, pet.weightKg, pet.injectedBq,
-                        pet.halfLifeS, pet.uptakePerCount, pet.injections,
-                        pet.isAttenuationCorrected);
+                        pet.halfLifeS, pet.uptakePerCount, pet.injections, pet.isDynamic,
+                        pet.corrections);
     };
     return of(a) == of(b);
 }
@@ -226,13 +234,18 @@ UptakeScale uptakeScale(const std::vector<const InstanceHeader *> &files) {
     const bool isCounts = pet.units == "CNTS" && pet.uptakePerCount > 0.0;
     if (!isActivity && !isUptake && !isCounts)
         return lacking(because::petUnitIs(pet.units));
-    if (!pet.isAttenuationCorrected)
+    const auto isCorrectedFor = [&](const char *what) {
+        return pet.corrections.find(what) != std::string::npos;
+    };
+    // Values that are SUV already may come from programs that drop the list of corrections.
+    if (!isCorrectedFor("ATTN") && !(isUptake && pet.corrections.empty()))
         return lacking(because::notAttenuationCorrected);
     if (isUptake)
         return pet.uptakeType.empty() || pet.uptakeType == "BW"
                    ? UptakeScale{ValueUnit::uptake, 1.0, std::nullopt}
                    : lacking(because::uptakeIsOfType(pet.uptakeType));
-    if (pet.decayCorrection != "ADMIN" && pet.decayCorrection != "START")
+    if ((pet.decayCorrection != "ADMIN" && pet.decayCorrection != "START") ||
+        !isCorrectedFor("DECY"))
         return lacking(because::notDecayCorrected);
     if (isCounts)
         return {ValueUnit::uptake, pet.uptakePerCount, std::nullopt};
@@ -243,7 +256,8 @@ UptakeScale uptakeScale(const std::vector<const InstanceHeader *> &files) {
     const double leastBq = pet.weightKg >= humanKg ? minHumanBq : minInjectedBq;
     if (!(pet.injectedBq >= leastBq && pet.injectedBq <= maxInjectedBq))
         return lacking(because::noInjectedActivity);
-    if (!isHalfLifePlausible(pet))
+    const bool needsHalfLife = pet.decayCorrection != "ADMIN";
+    if (needsHalfLife && pet.halfLifeS > 0.0 && !isHalfLifePlausible(pet))
         return lacking(because::halfLifeIsWrong);
     const auto left = activityLeft(files);
     if (!left)

@@ -27,6 +27,7 @@ constexpr double slackSeconds = 10.0; // beyond the helper's own patience
 constexpr double cancelSeconds = 4.0; // the helper gives the server two
 
 constexpr std::uint16_t refusedByCancel = 0xa700;
+constexpr std::uint64_t mostBytes = std::uint64_t(1) << 42; // of an object
 
 void logConfinement(int bits) {
     static std::once_flag once;
@@ -148,10 +149,15 @@ Message Link::converse(const task::Progress &progress, Receiver *receiver,
             m_confinement = message.code;
             logConfinement(m_confinement);
             break;
+        case Kind::progress:
+            if (receiver != nullptr && m_isArriving && message.number > 0 &&
+                message.number <= mostBytes)
+                receiver->receive(message.number);
+            break;
         case Kind::arrival:
         case Kind::received:
-        case Kind::progress:
-            if (receiver == nullptr)
+            if (receiver == nullptr || m_isArriving != (message.kind == Kind::received) ||
+                message.number > mostBytes)
                 fail({Kind::done, 0, 0, {}});
             take(*packet, *receiver);
             break;
@@ -163,16 +169,17 @@ Message Link::converse(const task::Progress &progress, Receiver *receiver,
 
 void Link::take(const Packet &packet, Receiver &receiver) {
     const Message &message = packet.message;
-    if (message.kind == Kind::progress) {
-        receiver.receive(message.number);
-    } else if (message.kind == Kind::arrival) {
+    if (message.kind == Kind::arrival) {
         m_arrival = unpackArrival(message.body);
         const auto answer = receiver.open(m_arrival);
-        if (const int *const file = std::get_if<int>(&answer))
+        const int *const file = std::get_if<int>(&answer);
+        m_isArriving = file != nullptr;
+        if (file != nullptr)
             send({Kind::file, 0, 0, {}}, *file);
         else
             send({Kind::refused, std::get<std::uint16_t>(answer), 0, {}});
     } else {
+        m_isArriving = false;
         const std::uint16_t status = receiver.keep(m_arrival, message.number);
         send({status == 0 ? Kind::kept : Kind::refused, status, 0, {}});
     }

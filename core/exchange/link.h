@@ -74,7 +74,8 @@ private:
     double m_patienceSeconds;
     int m_confinement = 0;
     bool m_isUsable = false;
-    Arrival m_arrival; ///< the current object
+    Arrival m_arrival;         ///< the current object
+    bool m_isArriving = false; ///< it has a file
 };
 
 /// Serves a client that has connected, in a `pellucid-net` of its own, until the client ends the

@@ -70,6 +70,7 @@ template <class A> void pass(A &archive, RetrievalEnd &end) {
     for (std::uint32_t *const number : {&end.completed, &end.failed, &end.warnings})
         pass(archive, *number);
     pass(archive, end.failedInstances);
+    pass(archive, end.reason);
 }
 
 template <class A> void pass(A &archive, Arrival &arrival) {
@@ -197,6 +198,8 @@ RetrievalEnd unpackRetrievalEnd(const std::string &body) {
     auto end = unpacked<RetrievalEnd>(body);
     for (const std::string &uid : end.failedInstances)
         requireUid(uid);
+    if (!end.reason.empty())
+        end.reason = unpackReason(end.reason).encoded();
     return end;
 }
 

@@ -36,10 +36,9 @@ struct Message {
         match,       ///< body: Attributes
         arrival,     ///< body: Arrival; waits for `file`
         received,    ///< `number`: bytes of the file
-        progress,    ///< `number`: bytes received so far of the current object
+        progress,    ///< work goes on; `number`: bytes received so far of the current object, or 0
         done,        ///< the end of a request. body: QueryEnd, RetrievalEnd or none
-        failed,      ///< body: Reason; `code`: a Failure; the connection is of no more use if its
-                     ///< `isLost`
+        failed,      ///< body: Reason; `code`: a Failure
     };
     Kind kind = Kind::ready;
     std::int32_t code = 0;

@@ -59,6 +59,8 @@ struct Retrieval {
 struct RetrievalEnd {
     std::uint32_t completed = 0, failed = 0, warnings = 0;
     std::vector<std::string> failedInstances;
+    std::string
+        reason; ///< why some failed: an encoded task::Reason; empty if the server does not tell
     bool operator==(const RetrievalEnd &) const = default;
 };
 

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <fcntl.h>
+#include <fstream>
 #include <string>
 #include <sys/random.h>
 #include <sys/sendfile.h>
@@ -25,10 +26,14 @@ std::string hiddenNameFor(const std::filesystem::path &path, const std::string &
     return (path.parent_path() / ("." + path.filename().string() + "." + ending)).string();
 }
 
+// Not by setting it: meanwhile, other threads would create files that anybody may write.
 mode_t currentMask() {
-    const mode_t mask = umask(0);
-    umask(mask);
-    return mask;
+    constexpr mode_t usual = 022;
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("Umask:"))
+            return mode_t(std::strtoul(line.c_str() + 6, nullptr, 8));
+    return usual;
 }
 
 // A nameless file that can get a name later; -1 if the file system has none.

@@ -14,10 +14,10 @@ namespace pellucid::files {
 /// file would replace a device or a pipe.
 std::filesystem::path targetOf(const std::filesystem::path &path);
 
-/// A file that appears under its name only when it is complete. Until `commit` has flushed them to
-/// the disk, its bytes are in a nameless file, which disappears if the program is killed; on file
-/// systems without such files, in a hidden file in the same folder. Not QSaveFile: core does not
-/// use Qt, and a killed program leaves QSaveFile's unfinished file behind.
+/// A file that appears under its name only when it is complete. Until `commit`, its bytes are in a
+/// nameless file, which disappears if the program is killed; on file systems without such files, in
+/// a hidden file in the same folder. Not QSaveFile: core does not use Qt, and a killed program
+/// leaves QSaveFile's unfinished file behind.
 class AtomicFile {
 public:
     /// *Throws* Error{output} if the folder cannot be written.
@@ -31,7 +31,8 @@ public:
     void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
     /// The open file, for another process that writes it.
     int descriptor() const;
-    /// Chooses a different path before the file appears, on the same file system.
+    /// Chooses a different path before the file appears, on the same file system. *Throws* as
+    /// `targetOf`.
     void moveTo(const std::filesystem::path &path) { m_path = targetOf(path); }
     /// `unflushed`: many files are flushed together, by `flush` of their folder.
     enum class Bytes { flushed, unflushed };

@@ -7,7 +7,7 @@
 
 namespace pellucid::helper {
 
-/// What a helper confines itself with, as bits of the code with which it reports that it is ready.
+/// The protections in force, as bits of the code with which it reports that it is ready.
 enum Confinement : std::int32_t { limitsHold = 1, callsAreFiltered = 2, filesAreFiltered = 4 };
 
 struct ResourceLimits {
@@ -20,11 +20,17 @@ struct ResourceLimits {
 /// memory runs out. *Shape*: whether all limits are in force.
 bool limitResources(const ResourceLimits &limits);
 
-/// Forbids all system calls except those that computing and talking through open sockets need, and
-/// `more`. Calls that only a compromised helper makes end the process; others fail with EPERM, so a
-/// library that tries to read a table continues without it. *Shape*: whether the filter is in
-/// force.
-bool filterCalls(std::initializer_list<int> more = {});
+/// A system call that is allowed with this second argument only.
+struct AllowedCommand {
+    int call = 0, argument = 0;
+};
+
+/// Forbids all system calls except those that computing and talking through open sockets need,
+/// `more` and `commands`. Calls that only a compromised helper makes end the process; others fail
+/// with EPERM, so a library that tries to read a table continues without it. *Shape*: whether the
+/// filter is in force.
+bool filterCalls(std::initializer_list<int> more = {},
+                 std::initializer_list<AllowedCommand> commands = {});
 
 /// Forbids opening, creating, and changing any file, where the kernel has Landlock. *Shape*:
 /// whether that is in force.

@@ -116,13 +116,16 @@ bool limitResources(const ResourceLimits &limits) {
     return holds;
 }
 
-bool filterCalls(std::initializer_list<int> more) {
+bool filterCalls(std::initializer_list<int> more, std::initializer_list<AllowedCommand> commands) {
     const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ERRNO(EPERM));
     if (filter == nullptr)
         return false;
     int failed = allowCalls(filter);
     for (const int call : more)
         failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
+    for (const AllowedCommand &command : commands)
+        failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, command.call, 1,
+                                     SCMP_A1(SCMP_CMP_EQ, scmp_datum_t(command.argument)));
     failed |= allowMemory(filter);
     failed |= killForbiddenCalls(filter);
     failed |= ::seccomp_load(filter); // also forbids new privileges

@@ -119,6 +119,8 @@ Process::~Process() {
 }
 
 std::optional<int> Process::endSignal() {
+    if (m_pid <= 0) // it would be any child
+        return 0;
     return statusWithin(endPatience);
 }
 

@@ -211,7 +211,7 @@ void Association::negotiate(const exchange::Connection &connection, const std::s
         failRequest(requested.text());
     }
     if (ASC_countAcceptedPresentationContexts(m_parameters) == 0)
-        throw Lost{because::serverOffersNothing};
+        throw task::Error(task::ErrorCode::unusable, because::serverLacksTheService);
 }
 
 void Association::failRequest(const char *text) const {

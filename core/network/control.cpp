@@ -26,6 +26,14 @@ bool Control::isCancelled() {
     return wait().message.kind == Message::Kind::cancel;
 }
 
+void Control::heartbeat() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - m_lastBeat < std::chrono::seconds(1))
+        return;
+    m_lastBeat = now;
+    send({Message::Kind::progress, 0, 0, {}});
+}
+
 void Control::step(exchange::Step step, const std::string &found) {
     send({Message::Kind::step, std::int32_t(step), 0, found});
 }
@@ -67,8 +75,10 @@ void Storage::write(std::span<const std::byte> bytes) {
         if (!m_hasFailed)
             bytes = bytes.subspan(std::size_t(written));
     }
-    if (m_bytes - m_reported < reportedAtOnce)
+    if (m_bytes - m_reported < reportedAtOnce) {
+        m_control.heartbeat();
         return;
+    }
     m_reported = m_bytes;
     m_control.send({Message::Kind::progress, 0, m_bytes, {}});
 }

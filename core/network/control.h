@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -30,12 +31,15 @@ public:
     /// a request runs.
     bool isCancelled();
 
+    /// Tells the program that work goes on, once a second.
+    void heartbeat();
     void step(exchange::Step step, const std::string &found);
     void done(const std::string &body = {});
     void failed(exchange::Failure failure, const task::Reason &reason);
 
 private:
     int m_socket;
+    std::chrono::steady_clock::time_point m_lastBeat = std::chrono::steady_clock::now();
 };
 
 /// An object on its way into a file that the program opens.

@@ -42,7 +42,7 @@ std::string textOf(const Json &value) {
 
 std::string valueOf(const Json &attribute) {
     if (!attribute.is_object() || !attribute.contains("Value") || !attribute["Value"].is_array() ||
-        attribute.value("vr", "") == "SQ")
+        (attribute.contains("vr") && attribute["vr"] == "SQ"))
         return {};
     std::string text;
     for (const Json &value : attribute["Value"])

@@ -62,13 +62,17 @@ void encode(DcmDataset &identifier, const exchange::Attributes &keys, const std:
         return;
     identifier.putAndInsertString(DCM_SpecificCharacterSet, "ISO_IR 192");
     if (!set.empty() && set != "ISO_IR 192")
-        identifier.convertCharacterSet("ISO_IR 192", set.c_str());
+        identifier.convertCharacterSet("ISO_IR 192", set.c_str(), 0, OFTrue);
+}
+
+void isStillSending(void *control, unsigned long) {
+    static_cast<Control *>(control)->heartbeat();
 }
 
 void send(Association &association, unsigned char context, T_DIMSE_Message &message,
-          DcmDataset *dataset) {
-    const OFCondition sent = DIMSE_sendMessageUsingMemoryData(association.get(), context, &message,
-                                                              nullptr, dataset, nullptr, nullptr);
+          DcmDataset *dataset, Control &control) {
+    const OFCondition sent = DIMSE_sendMessageUsingMemoryData(
+        association.get(), context, &message, nullptr, dataset, &isStillSending, &control);
     if (sent.bad())
         association.fail(sent.text());
 }
@@ -180,14 +184,18 @@ exchange::RetrievalEnd retrieve(Association &association, unsigned char context,
         if (hasData)
             takeFailed(*receiveDataset(association, command->context), end);
         if (isPending(status)) {
-            control.send({Message::Kind::progress, 0, end.completed, {}});
+            control.heartbeat();
             continue;
         }
         if (cancelling.hasBegun() || isCancel(status))
             throw CancelledByProgram();
-        // Objects that fail are counted and listed; the rest has come.
-        if (status != 0 && !isWarning(status) && end.completed == 0)
-            throw Error(ErrorCode::unusable, statusReason(status, command->comment));
+        if (status != 0 && !isWarning(status)) {
+            const task::Reason reason = statusReason(status, command->comment);
+            if (end.completed == 0)
+                throw Error(ErrorCode::unusable, reason);
+            // Objects that fail are counted and listed; the rest has come.
+            end.reason = reason.encoded();
+        }
         return end;
     }
 }
@@ -201,7 +209,7 @@ void echo(Association &association, Control &control) {
     OFStandard::strlcpy(request.msg.CEchoRQ.AffectedSOPClassUID, UID_VerificationSOPClass,
                         sizeof request.msg.CEchoRQ.AffectedSOPClassUID);
     request.msg.CEchoRQ.DataSetType = DIMSE_DATASET_NULL;
-    send(association, association.contextFor(UID_VerificationSOPClass), request, nullptr);
+    send(association, association.contextFor(UID_VerificationSOPClass), request, nullptr, control);
     const std::optional<Command> answer = nextCommand(association, control);
     if (!answer)
         throw CancelledByProgram();
@@ -233,7 +241,7 @@ exchange::QueryEnd find(Association &association, const exchange::Query &query, 
     OFStandard::strlcpy(find.AffectedSOPClassUID, model, sizeof find.AffectedSOPClassUID);
     find.Priority = DIMSE_PRIORITY_MEDIUM;
     find.DataSetType = DIMSE_DATASET_PRESENT;
-    send(association, context, request, &identifier);
+    send(association, context, request, &identifier, control);
 
     exchange::QueryEnd end;
     Cancelling cancelling;
@@ -287,7 +295,7 @@ exchange::RetrievalEnd get(Association &association, const exchange::Retrieval &
     OFStandard::strlcpy(get.AffectedSOPClassUID, model, sizeof get.AffectedSOPClassUID);
     get.Priority = DIMSE_PRIORITY_MEDIUM;
     get.DataSetType = DIMSE_DATASET_PRESENT;
-    send(association, context, request, &identifier);
+    send(association, context, request, &identifier, control);
     return retrieve(association, context, get.MessageID, control);
 }
 
@@ -305,7 +313,7 @@ exchange::RetrievalEnd move(Association &association, const exchange::Retrieval 
     move.DataSetType = DIMSE_DATASET_PRESENT;
     OFStandard::strlcpy(move.MoveDestination, retrieval.destinationAe.c_str(),
                         sizeof move.MoveDestination);
-    send(association, context, request, &identifier);
+    send(association, context, request, &identifier, control);
     return retrieve(association, context, move.MessageID, control);
 }
 
@@ -338,7 +346,7 @@ void store(Association &association, int file, std::uint64_t bytes, Control &con
                         sizeof store.AffectedSOPInstanceUID);
     store.Priority = DIMSE_PRIORITY_MEDIUM;
     store.DataSetType = DIMSE_DATASET_PRESENT;
-    send(association, *context, request, &dataset);
+    send(association, *context, request, &dataset, control);
     const std::optional<Command> answer = nextCommand(association, control);
     if (!answer) {
         association.abort();

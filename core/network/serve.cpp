@@ -162,10 +162,11 @@ private:
         } catch (const CancelledByProgram &) {
             m_control.failed(Failure::lost, because::wasCancelled);
         } catch (const task::Error &error) {
-            m_control.failed(Failure::invalid, error.path().empty()
-                                                   ? error.reason()
-                                                   : task::Reason(because::ofFile(
-                                                         error.path().string(), error.reason())));
+            const bool isRefused = error.reason().is(because::serverLacksTheService);
+            m_control.failed(isRefused ? Failure::refused : Failure::invalid,
+                             error.path().empty() ? error.reason()
+                                                  : task::Reason(because::ofFile(
+                                                        error.path().string(), error.reason())));
         }
     }
 

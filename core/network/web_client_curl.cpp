@@ -18,6 +18,7 @@
 #include <poll.h>
 #include <set>
 #include <sstream>
+#include <strings.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -298,8 +299,15 @@ private:
     std::string pathAt(const std::string &location) const {
         if (location.starts_with("/"))
             return location;
-        if (location.starts_with(m_origin + "/"))
-            return location.substr(m_origin.size());
+        // Servers leave out the port of their protocol; the case of hosts does not matter.
+        std::string withoutPort = m_origin;
+        for (const char *const port : {":443", ":80"})
+            if (withoutPort.ends_with(port) && withoutPort.starts_with("https") == (port[1] == '4'))
+                withoutPort.resize(withoutPort.size() - std::strlen(port));
+        for (const std::string &origin : {m_origin, withoutPort})
+            if (location.size() > origin.size() && location[origin.size()] == '/' &&
+                ::strncasecmp(location.c_str(), origin.c_str(), origin.size()) == 0)
+                return location.substr(origin.size());
         throw Error(ErrorCode::unusable, because::serverPointsElsewhere);
     }
 
@@ -479,6 +487,7 @@ private:
         try {
             if (!transfer.failure && transfer.curl->m_control.isCancelled())
                 throw CancelledByProgram();
+            transfer.curl->m_control.heartbeat();
         } catch (...) {
             transfer.failure = std::current_exception();
         }

@@ -129,9 +129,9 @@ void readPet(DcmDataset &dataset, InstanceHeader &h) {
     pet.injectionDateTime = readText(dose, DCM_RadiopharmaceuticalStartDateTime);
     pet.timezone = readText(&dataset, DCM_TimezoneOffsetFromUTC);
     pet.radionuclide = readText(sequenceItem(dose, DCM_RadionuclideCodeSequence), DCM_CodeMeaning);
-    constexpr double perSecond = 1000.0;
-    pet.frameReferenceS = number(&dataset, DCM_FrameReferenceTime) / perSecond;
-    pet.frameDurationS = number(&dataset, DCM_ActualFrameDuration) / perSecond;
+    constexpr double msPerSecond = 1000.0;
+    pet.frameReferenceS = number(&dataset, DCM_FrameReferenceTime) / msPerSecond;
+    pet.frameDurationS = number(&dataset, DCM_ActualFrameDuration) / msPerSecond;
     if (DcmSequenceOfItems *all = nullptr;
         dataset.findAndGetSequence(DCM_RadiopharmaceuticalInformationSequence, all).good())
         pet.injections = int(all->card());
@@ -139,9 +139,9 @@ void readPet(DcmDataset &dataset, InstanceHeader &h) {
     pet.halfLifeS = number(dose, DCM_RadionuclideHalfLife);
     pet.uptakePerCount = philipsUptakePerCount(dataset);
     OFString corrections;
-    pet.isAttenuationCorrected =
-        dataset.findAndGetOFStringArray(DCM_CorrectedImage, corrections).good() &&
-        corrections.find("ATTN") != OFString_npos;
+    if (dataset.findAndGetOFStringArray(DCM_CorrectedImage, corrections).good())
+        pet.corrections = corrections.c_str();
+    pet.isDynamic = readText(&dataset, DCM_SeriesType).rfind("DYNAMIC", 0) == 0;
     h.pet = pet;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "core/picture/compose.h"
@@ -35,7 +36,8 @@ double quantile(std::vector<float> &values, double share) {
 
 // A picture that the exposure is measured from, and the limit above which its pixels are body.
 struct Measured {
-    Measured(const ProjectionImage &image, Background background) : picture(image) {
+    Measured(const ProjectionImage &image, Background background, double outlineMm2)
+        : picture(image) {
         values = brightnessOf(image);
         float most = 0.0F;
         for (const float value : values)
@@ -46,7 +48,7 @@ struct Measured {
             return;
         const double bright = quantile(seen, brightQuantile);
         if (background == Background::measured)
-            axis.air = airBeside(1e-3 * double(most), bright);
+            axis.air = airBeside(1e-3 * double(most), bright, outlineMm2);
         const double leastOfBody = axis.air + airShare * (bright - axis.air);
         std::vector<float> body = valuesAbove(leastOfBody);
         axis.dark = quantile(body, darkQuantile);
@@ -67,8 +69,9 @@ struct Measured {
 
     // The level at the left and the right of what is seen. If it is not much lower than the body,
     // it is the body, which the volume cuts off.
-    double airBeside(double limit, double bright) const {
-        constexpr double quarter = 0.25, mostOfBright = 0.5, mostOfAColumn = 0.6;
+    double airBeside(double limit, double bright, double outlineMm2) const {
+        constexpr double quarter = 0.25, half = 0.5, mostOfBright = 0.5, mostOfAColumn = 0.6,
+                         mostOfAll = 0.9;
         int first = picture.width, last = -1, top = picture.height, bottom = -1;
         for (int r = 0; r < picture.height; ++r)
             for (int c = 0; c < picture.width; ++c)
@@ -79,20 +82,36 @@ struct Measured {
                     bottom = r;
                 }
         // The outermost columns also contain the edge of the volume.
-        const int inward = std::max(3, (last - first) / 20);
+        int inward = std::max(3, (last - first) / 20);
         if (last - first <= 4 * inward)
             return 0.0;
-        std::vector<float> beside;
-        for (int r = 0; r < picture.height; ++r)
-            for (const int c : {first + inward, last - inward})
-                if (double(at(r, c)) > limit)
-                    beside.push_back(at(r, c));
-        // Air fills the volume from top to bottom; the flank of a body without air does not.
-        if (beside.empty() || double(beside.size()) < mostOfAColumn * 2.0 * (bottom - top + 1))
+        const auto besideAt = [&](int columns) {
+            std::vector<float> beside;
+            for (int r = 0; r < picture.height; ++r)
+                for (const int c : {first + columns, last - columns})
+                    if (double(at(r, c)) > limit)
+                        beside.push_back(at(r, c));
+            return beside;
+        };
+        const auto isTall = [&](const std::vector<float> &beside, double part) {
+            return double(beside.size()) >= part * 2.0 * double(bottom - top + 1);
+        };
+        std::vector<float> beside = besideAt(inward);
+        double share = quarter;
+        // Air fills the volume, or a part of it from top to bottom; a body without air does not.
+        // The outer columns of an oblique volume only show its corners.
+        const double seenMm2 =
+            double(valuesAbove(limit).size()) * picture.pixelMm * picture.pixelMm;
+        if (outlineMm2 > 0.0 && seenMm2 > mostOfAll * outlineMm2)
+            for (; !isTall(beside, mostOfAll) && 4 * inward < last - first; ++inward) {
+                beside = besideAt(inward);
+                share = half;
+            }
+        if (beside.empty() || !isTall(beside, mostOfAColumn))
             return 0.0;
         // Where the volume is cut off, its interpolation overshoots.
         constexpr double overshoot = 1.1;
-        const double air = overshoot * quantile(beside, quarter);
+        const double air = overshoot * quantile(beside, share);
         return air < mostOfBright * bright ? air : 0.0;
     }
     float at(int row, int column) const {
@@ -308,12 +327,23 @@ void include(const Measured &measured, const glm::dquat &orientation, glm::dvec3
 
 } // namespace
 
-scene::Exposure measureExposure(Projector &projector, double radiusMm,
+double outlineMm2(const volume::Lattice &lattice, const glm::dquat &orientation) {
+    // The outline of a parallelepiped is made of its edges, as seen.
+    const glm::dvec3 sight = glm::mat3_cast(orientation)[2];
+    const auto edge = [&](int axis) { return lattice.step(axis) * double(lattice.size()[axis]); };
+    double area = 0.0;
+    for (int n = 0; n < 3; ++n)
+        area += std::abs(glm::dot(glm::cross(edge(n), edge((n + 1) % 3)), sight));
+    return area;
+}
+
+scene::Exposure measureExposure(Projector &projector, const volume::Lattice &lattice,
                                 const scene::ImageDefinition &image,
                                 const shading::Shading &shading, const scene::Tone &tone,
                                 Background background) {
     constexpr std::array views{scene::StandardView::left, scene::StandardView::front,
                                scene::StandardView::top};
+    const double radiusMm = lattice.radiusMm();
     std::array<ProjectionImage, 3> pictures;
     for (std::size_t n = 0; n < views.size(); ++n) {
         scene::Camera camera;
@@ -323,8 +353,9 @@ scene::Exposure measureExposure(Projector &projector, double radiusMm,
         pictures[n] = projector.render(camera, image, shading);
     }
     std::vector<Measured> measured;
-    for (const ProjectionImage &picture : pictures)
-        measured.emplace_back(picture, background);
+    for (std::size_t n = 0; n < views.size(); ++n)
+        measured.emplace_back(pictures[n], background,
+                              outlineMm2(lattice, scene::viewOrientation(views[n])));
     scene::Exposure exposure = exposureOf(measured, radiusMm, tone);
     if (std::none_of(measured.begin(), measured.end(),
                      [](const Measured &one) { return one.isEmpty(); })) {
@@ -342,8 +373,8 @@ Background backgroundOf(const volume::Volume &volume) {
 }
 
 scene::Exposure exposureOf(const ProjectionImage &picture, const scene::Tone &tone,
-                           Background background) {
-    return exposureOf({Measured(picture, background)},
+                           Background background, double outlineMm2) {
+    return exposureOf({Measured(picture, background, outlineMm2)},
                       0.5 * picture.pixelMm * std::max(picture.width, picture.height), tone);
 }
 

@@ -14,8 +14,8 @@ enum class Background { zero, measured };
 /// Measures the brightness of a study from three small projections of the whole volume, along the
 /// patient's x, y and z, in which only the body counts. The same study, look and shading always
 /// have the same exposure, whatever the view. `tone`: its detail and latitude; automatic ones are
-/// chosen from the projections. `radiusMm`: of the volume. *Throws* as `Projector::render`.
-scene::Exposure measureExposure(Projector &projector, double radiusMm,
+/// chosen from the projections. `lattice`: of the volume. *Throws* as `Projector::render`.
+scene::Exposure measureExposure(Projector &projector, const volume::Lattice &lattice,
                                 const scene::ImageDefinition &image,
                                 const shading::Shading &shading, const scene::Tone &tone,
                                 Background background);
@@ -23,7 +23,11 @@ scene::Exposure measureExposure(Projector &projector, double radiusMm,
 Background backgroundOf(const volume::Volume &volume);
 
 /// From one picture, for every line of sight: for a picture that will not turn. Its box is empty.
+/// `outlineMm2`: the area of the volume in it; 0 if unknown.
 scene::Exposure exposureOf(const ProjectionImage &picture, const scene::Tone &tone,
-                           Background background = Background::zero);
+                           Background background = Background::zero, double outlineMm2 = 0.0);
+
+/// The area of a volume's outline in a parallel projection.
+double outlineMm2(const volume::Lattice &lattice, const glm::dquat &orientation);
 
 } // namespace pellucid::picture

@@ -313,7 +313,7 @@ Patient patientOf(const volume::Volume &volume, Mask dense, const task::Progress
         patient[n] = std::uint8_t((patient[n] & apart[n]) | core[n]);
     patient = withShortParts(lattice, std::move(patient), apart, progress.part(0.74, 0.78));
     if (!shells.empty()) {
-        // The patient's own share of the rim.
+        // Give the patient's part of the rim back.
         remove(shells, tissue);
         const Mask near = dilated(lattice, patient, rimMm, progress.part(0.78, 0.8));
         for (std::size_t n = 0; n < patient.size(); ++n)

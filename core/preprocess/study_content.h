@@ -16,8 +16,9 @@ struct StudyContent {
 
 /// Finds out what a study shows. Regions come from the header, or, if it names none, from the
 /// values of CT: head, chest and abdomen differ in area, bone and lung of their slices. Contrast
-/// medium is found by value: at least 8 ml of 150 to 600 HU outside bone. Searches means of 3 mm.
-/// *Throws* Error{outOfMemory}, Error{internal}, Cancelled.
+/// medium is found by value: at least 8 ml of 150 to 600 HU outside bone, in parts that are as
+/// uniform as blood. Searches means of 3 mm. *Throws* Error{outOfMemory}, Error{internal},
+/// Cancelled.
 StudyContent contentOf(const volume::Volume &volume, const task::Progress &progress = {});
 
 } // namespace pellucid::preprocess

@@ -102,6 +102,21 @@ bool Lattice::contains(VoxelIndex n) const {
     return n.i >= 0 && n.j >= 0 && n.k >= 0 && n.i < m_size.i && n.j < m_size.j && n.k < m_size.k;
 }
 
+bool Lattice::isNear(const Lattice &other) const {
+    if (m_size != other.m_size)
+        return false;
+    const double limit = 0.1 * shortestStepMm();
+    // The distance is largest at a corner.
+    for (int corner = 0; corner < 8; ++corner) {
+        const VoxelIndex n{(corner & 1) != 0 ? m_size.i - 1 : 0,
+                           (corner & 2) != 0 ? m_size.j - 1 : 0,
+                           (corner & 4) != 0 ? m_size.k - 1 : 0};
+        if (glm::distance(patient(n).mm, other.patient(n).mm) > limit)
+            return false;
+    }
+    return true;
+}
+
 Lattice Lattice::cropped(const VoxelBox &box) const {
     assert(contains(box.lo) && contains({box.hi.i - 1, box.hi.j - 1, box.hi.k - 1}));
     Lattice part = *this;

@@ -2886,10 +2886,6 @@
         <translation>伺服器拒絕連結</translation>
     </message>
     <message>
-        <source>the server does not offer this service</source>
-        <translation>伺服器不提供此服務</translation>
-    </message>
-    <message>
         <source>the server has sent nothing for %1 s</source>
         <translation>伺服器已有 %1 秒沒有傳送任何資料</translation>
     </message>
@@ -3140,6 +3136,26 @@
     <message>
         <source>The projection is not prepared; F5 prepares it</source>
         <translation>投影尚未準備；F5 可重新準備</translation>
+    </message>
+    <message>
+        <source>the number of answers must be at most %1</source>
+        <translation>答案數最多為 %1</translation>
+    </message>
+    <message>
+        <source>the server sends more than was asked for</source>
+        <translation>伺服器傳送的內容多於所要求者</translation>
+    </message>
+    <message>
+        <source>the server only sends to other computers (C-MOVE): to receive with TLS, this program needs a certificate and a key</source>
+        <translation>伺服器僅能傳送至其他電腦（C-MOVE）：若要以 TLS 接收，本程式需要憑證與金鑰</translation>
+    </message>
+    <message>
+        <source>another object with its UID is here already</source>
+        <translation>已有另一個物件使用其 UID</translation>
+    </message>
+    <message>
+        <source>%1 of %2 slices are here</source>
+        <translation>已收到 %2 張切片中的 %1 張</translation>
     </message>
 </context>
 <context>
@@ -5667,6 +5683,10 @@
         <source>%1 of %2 sent to %3</source>
         <translation>已傳送 %1／%2 至 %3</translation>
     </message>
+    <message>
+        <source>There are no files to send</source>
+        <translation>沒有可傳送的檔案</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::ServerSearch</name>
@@ -6233,6 +6253,18 @@
     <message>
         <source>images only</source>
         <translation>僅有影像</translation>
+    </message>
+    <message>
+        <source>Arriving</source>
+        <translation>接收中</translation>
+    </message>
+    <message>
+        <source>Waiting for the first slices</source>
+        <translation>等待最初的切片</translation>
+    </message>
+    <message>
+        <source>%1 of %2 slices</source>
+        <translation>%2 張切片中的 %1 張</translation>
     </message>
 </context>
 <context>

@@ -158,6 +158,10 @@ TEST_F(Pacs, EveryServiceOfBothServers) {
         EXPECT_TRUE(report.isComplete());
         EXPECT_EQ(report.state.received, 24U);
         EXPECT_EQ(dataSetsIn(m_folder / to), dataSetsIn(sent));
+        std::uintmax_t bytes = 0;
+        for (const fs::path &file : filesIn(m_folder / to))
+            bytes += fs::file_size(file);
+        EXPECT_EQ(report.state.bytes, bytes);
         // A second time, there is nothing to do.
         const RetrievalReport again = get(server, study, to);
         EXPECT_EQ(again.state.present, 24U);

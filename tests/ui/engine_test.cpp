@@ -184,7 +184,9 @@ private slots:
         const auto next = [&]() -> std::shared_ptr<const ui::RenderedFrame> {
             frames.clear();
             worker.request(scene.camera, scene.image, {}, {},
-                           ui::RenderWorker::Exposed{100.0, {}, {}}, true);
+                           ui::RenderWorker::Exposed{
+                               volume::Lattice::centred({100, 100, 100}, {1.2, 1.2, 1.2}), {}, {}},
+                           true);
             return QTest::qWaitFor([&] { return !frames.empty(); }, patienceMs) ? frames.front()
                                                                                 : nullptr;
         };

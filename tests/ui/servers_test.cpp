@@ -112,6 +112,71 @@ private slots:
         QCOMPARE(rows(), QStringList{"Secret Name"});
     }
 
+    // A study is looked at while it arrives, and nothing is lost when the rest comes.
+    void aSeriesIsSeenWhileItArrives() {
+        std::vector<std::filesystem::path> files;
+        for (const auto &entry : std::filesystem::directory_iterator(m_folder / "head"))
+            files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        ui::StudyFacts study;
+        study.uid = "1.2.3";
+        study.patientName = "Secret^Name";
+        const auto series = std::make_shared<dicom::ArrivingSeries>(files.size());
+        bench().study.opener.openArriving(study, series);
+        const auto order = archive::coarseToFine(files.size());
+        std::size_t sent = 0;
+        const auto send = [&](std::size_t count) {
+            for (; sent < count; ++sent)
+                series->add(order[sent], files[order[sent]]);
+        };
+        QVERIFY(!document().volume());
+        send(2);
+        QTRY_VERIFY_WITH_TIMEOUT(document().volume(), patienceMs);
+        QVERIFY(document().isPreview());
+        QCOMPARE(document().volume()->lattice().size().k, 80);
+        // Every eighth slice: the projection is there and turns.
+        send(12);
+        QTRY_VERIFY_WITH_TIMEOUT(!projection()->picture().isNull(), patienceMs);
+        QVERIFY(document().isPreview());
+        save("arriving");
+        projection()->showStandardView(scene::StandardView::left);
+        QVERIFY(!find<QAction>("exportPictureAction")->isEnabled());
+        send(files.size());
+        waitForVolume();
+        settle();
+        QCOMPARE(document().pose().orientation, scene::viewOrientation(scene::StandardView::left));
+        const volume::Volume arrived = *document().volume();
+        QVERIFY(arrived.notes().warnings.empty());
+        QCOMPARE(list().rowCount(), 1); // one study, and nothing that stands for it
+        // As from the disk, bit by bit.
+        const auto catalogue = dicom::scan({m_folder / "head"});
+        const volume::Volume expected =
+            dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
+        QVERIFY(arrived.lattice() == expected.lattice());
+        expected.visit([&](auto wanted) {
+            arrived.visit([&](auto found) {
+                QVERIFY(std::equal(wanted.begin(), wanted.end(), found.begin(), found.end()));
+            });
+        });
+    }
+
+    // A part does not stay when the rest does not come.
+    void aCancelledArrivalLeavesNothing() {
+        std::vector<std::filesystem::path> files;
+        for (const auto &entry : std::filesystem::directory_iterator(m_folder / "head"))
+            files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        const auto series = std::make_shared<dicom::ArrivingSeries>(files.size());
+        bench().study.opener.openArriving({}, series);
+        series->add(0, files.front());
+        series->add(files.size() - 1, files.back());
+        QTRY_VERIFY_WITH_TIMEOUT(document().volume(), patienceMs);
+        QTest::keyClick(&mainWindow(), Qt::Key_Escape);
+        QTRY_VERIFY_WITH_TIMEOUT(!document().volume(), patienceMs);
+        QCOMPARE(document().currentSource(), -1);
+        QCOMPARE(list().rowCount(), 0);
+    }
+
     // What an interrupted program left in the queue is continued by the next one.
     void aQueuedTransferIsContinued() {
         addServer("archive", m_dcmqrscp->port());

@@ -108,14 +108,14 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
                          const classify::FieldWindow &fieldWindow, bool preview) {
     m_initialWindow = initialWindow;
     m_fieldWindow = fieldWindow;
-    const bool same = m_volume && m_preview && m_volume->lattice() == volume.lattice();
+    const bool same = m_volume && m_preview && m_volume->lattice().isNear(volume.lattice());
     m_volume = volume;
     m_preview = preview;
+    m_exposure.reset(); // that of a preview, which lacks slices, is another one
     if (!same) {
         // Edits belong to their study.
         m_undo.clear();
         m_isWindowSet = false;
-        m_exposure.reset();
         m_traits = {presets::regionsNamed(volume.notes().bodyPart, volume.notes().title)};
         m_crosshair = middleSample(volume.lattice());
         // Other planes would cut only a strip out of a few slices.

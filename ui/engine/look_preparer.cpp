@@ -76,10 +76,18 @@ void LookPreparer::adopt(const PreparedFor &preparedFor, const prepare::Prepared
     take(Step::showFull, preparedFor);
 }
 
+void LookPreparer::cancel() {
+    const bool isPreparing = m_have.underway.has_value();
+    m_jobs.cancel();
+    if (isPreparing)
+        returnToShown();
+}
+
 void LookPreparer::returnToShown() {
     if (!m_have.full || !m_have.givenUp || wantedOf(m_document) == *m_have.full)
         return;
-    const auto returned = [shown = *m_have.full](scene::Scene &scene) {
+    const auto returned = [shown = *m_have.full, shading = m_fullShading](scene::Scene &scene) {
+        scene.shading = shading;
         scene.fieldWindow = shown.window;
         scene.look = shown.look;
         scene.crop = shown.crop;
@@ -114,6 +122,8 @@ void LookPreparer::act(Occasion occasion) {
         return;
     for (bool isDecided = false; !isDecided;) {
         const PreparedFor wanted = wantedOf(m_document);
+        if (m_have.full && wanted == *m_have.full)
+            m_fullShading = m_document.scene().shading;
         const Step step = prepare::next({wanted, occasion}, m_have);
         take(step, wanted);
         if (step == Step::awaitRest || step == Step::startLayers ||
@@ -242,6 +252,16 @@ LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, d
         };
         makeEngine({volume, wanted, steps, segments}, first, deliver,
                    job.progress().part(from, 1.0));
+    };
+}
+
+LookPreparer::PartialPreparation LookPreparer::partialPreparation(const PreparedFor &wanted) {
+    return [this, steps = m_steps, wanted](const Job &job, const volume::Volume &volume, int side,
+                                           const task::Progress &progress) {
+        const auto deliver = [&](const prepare::PreparedEngine &engine, Detail detail) {
+            job.deliver([this, wanted, engine, detail] { takeEngine(wanted, engine, detail); });
+        };
+        makeCoarseEngine({volume, wanted, steps, nullptr}, side, deliver, progress);
     };
 }
 

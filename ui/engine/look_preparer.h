@@ -54,10 +54,10 @@ public:
     /// The last full engine and what it was made for, if there is one.
     const std::optional<PreparedFor> &preparedFor() const { return m_have.full; }
     const std::optional<prepare::PreparedEngine> &fullEngine() const { return m_full; }
-    /// After a cancel, returns the scene to what the full engine shows, as an edit that can be
-    /// undone: no picture stays on the screen under the name of another look. Does nothing if there
-    /// is no full engine, or the scene differs from it in more than its contents.
-    void returnToShown();
+    /// Cancels the running job. If it prepared the projection of another look, the scene returns to
+    /// the look that is shown, as an edit that can be undone: no picture stays on the screen under
+    /// the name of another look.
+    void cancel();
     /// Takes over and shows an engine that was made before.
     void adopt(const PreparedFor &preparedFor, const prepare::PreparedEngine &engine);
     /// Emits the signals of the present state, for a new window.
@@ -67,6 +67,11 @@ public:
     /// progress beyond `from`. It refers to the preparer only where it delivers.
     using Preparation = std::function<void(const Job &job, const volume::Volume &volume)>;
     Preparation preparation(const PreparedFor &wanted, double from, prepare::Detail first);
+    /// A function that makes and delivers a coarse engine of a part of the volume, of at most
+    /// `side` samples along each axis.
+    using PartialPreparation = std::function<void(const Job &job, const volume::Volume &volume,
+                                                  int side, const task::Progress &progress)>;
+    PartialPreparation partialPreparation(const PreparedFor &wanted);
     /// Announces that another job, which runs or is about to start, uses `preparation` to make this
     /// engine. Its `onEnd` has to call `jobEnded`.
     void expect(const PreparedFor &wanted);
@@ -87,6 +92,7 @@ private:
     void start(prepare::Step step, const PreparedFor &wanted, const QString &title,
                JobRunner::Work work);
     JobRunner::Work layersWork(const PreparedFor &wanted);
+    void returnToShown();
     void takeEngine(const PreparedFor &of, const prepare::PreparedEngine &engine,
                     prepare::Detail detail);
     void takeLayers(const PreparedFor &of, const std::shared_ptr<prepare::LayerSet> &layers,
@@ -101,6 +107,7 @@ private:
     prepare::Have m_have;
     bool m_hasFailed = false; ///< the given-up engine failed and was not cancelled
     std::optional<prepare::PreparedEngine> m_full;
+    shading::Shading m_fullShading; ///< the last one of the look of the full engine
     std::shared_ptr<prepare::LayerSet> m_layers;
     bool m_layersAreCoarse = false; ///< of a small volume
 };

@@ -46,7 +46,9 @@ QImage pictureOf(const volume::Volume &volume, const classify::FieldWindow &wind
     const auto prepared = prepare::prepareEngine(scene, std::move(fields), {}, progress, scale);
     const auto image = prepared.engine->render(scene.camera, scene.image, scene.shading);
     scene::Tone tone;
-    tone.exposure = picture::exposureOf(image, tone, picture::backgroundOf(volume));
+    tone.exposure =
+        picture::exposureOf(image, tone, picture::backgroundOf(volume),
+                            picture::outlineMm2(volume.lattice(), scene.camera.orientation));
     const auto rgba = picture::compose(image, picture::displayOf(tone, scene.camera.orientation));
     return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
 }

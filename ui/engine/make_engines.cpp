@@ -62,7 +62,7 @@ public:
     void make(Detail first) {
         requireMemory();
         if (first == Detail::coarse && isLarge(m_source.volume))
-            makeCoarse();
+            makeCoarse(coarseSide);
         auto fields = fieldsOf(m_source.volume, m_progress.part(0.1, 0.3));
         const plan::Budget budget = budgetFor(fields);
         auto shaded = prepare::shadedFields(std::move(fields), m_scene.shading, m_scale,
@@ -72,6 +72,17 @@ public:
         m_take(
             prepare::prepareEngine(m_scene, std::move(shaded), budget, m_progress.part(0.35, 1.0)),
             Detail::full);
+    }
+
+    // The steps of classes take no time on a small volume.
+    void makeCoarse(int side) {
+        const auto fields = fieldsOf(classify::coarseVolume(m_source.volume, side), {});
+        const auto shaded = prepare::shadedFields(fields, m_scene.shading, m_scale);
+        m_coarse =
+            prepare::prepareEngine(m_scene, shaded, budgetFor(fields), m_progress.part(0.0, 0.1));
+        m_coarse->isCoarse = true;
+        m_take(*m_coarse, Detail::coarse);
+        m_coarseProjections = projectionsOf(shaded, m_progress);
     }
 
 private:
@@ -100,17 +111,6 @@ private:
         return {free > light ? free - light : 0};
     }
 
-    // The steps of classes take no time on a small volume.
-    void makeCoarse() {
-        const auto fields = fieldsOf(classify::coarseVolume(m_source.volume, coarseSide), {});
-        const auto shaded = prepare::shadedFields(fields, m_scene.shading, m_scale);
-        m_coarse =
-            prepare::prepareEngine(m_scene, shaded, budgetFor(fields), m_progress.part(0.0, 0.1));
-        m_coarse->isCoarse = true;
-        m_take(*m_coarse, Detail::coarse);
-        m_coarseProjections = projectionsOf(shaded, m_progress);
-    }
-
     // Meanwhile the coarse picture is on the screen.
     void addErrorOfCoarse(const prepare::ShadedFields &shaded) {
         m_coarse->detailLoss = std::make_shared<const accuracy::DetailLoss>(
@@ -135,6 +135,11 @@ private:
 void makeEngine(const EngineSource &source, Detail first, const TakeEngine &take,
                 const task::Progress &progress) {
     EngineMaker(source, take, progress).make(first);
+}
+
+void makeCoarseEngine(const EngineSource &source, int side, const TakeEngine &take,
+                      const task::Progress &progress) {
+    EngineMaker(source, take, progress).makeCoarse(side);
 }
 
 void makeLayers(const EngineSource &source, const TakeLayers &take,

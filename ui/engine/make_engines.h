@@ -29,6 +29,10 @@ using TakeLayers = std::function<void(const std::shared_ptr<prepare::LayerSet> &
 void makeEngine(const EngineSource &source, prepare::Detail first, const TakeEngine &take,
                 const task::Progress &progress);
 
+/// Makes only a coarse engine, of at most `side` samples along each axis. *Throws* as above.
+void makeCoarseEngine(const EngineSource &source, int side, const TakeEngine &take,
+                      const task::Progress &progress);
+
 /// Makes the layers of a look; a large volume gets coarse ones first. *Throws* Error{outOfMemory},
 /// Cancelled.
 void makeLayers(const EngineSource &source, const TakeLayers &take, const task::Progress &progress);

@@ -129,7 +129,7 @@ void RenderWorker::makeFrame(const Request &request) {
         if (const auto &exposed = request.exposed) {
             frame->exposed = exposed->of;
             frame->exposure =
-                picture::measureExposure(*request.prepared.engine, exposed->radiusMm, request.image,
+                picture::measureExposure(*request.prepared.engine, exposed->lattice, request.image,
                                          request.shading, exposed->tone, exposed->background);
         }
         if (const auto &other = request.compared)

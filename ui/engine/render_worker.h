@@ -63,8 +63,8 @@ public:
     };
     /// The study whose exposure is measured with a frame: that takes three small ones.
     struct Exposed {
-        double radiusMm;  ///< of the volume
-        scene::Tone tone; ///< its contrast
+        volume::Lattice lattice; ///< of the volume
+        scene::Tone tone;        ///< its contrast
         picture::ToneSubject of;
         picture::Background background = picture::Background::zero;
     };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/jobs/job_strip.h"
 
+#include <utility>
+
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
@@ -10,7 +12,8 @@
 
 namespace pellucid::ui {
 
-JobStrip::JobStrip(JobRunner &jobs, const QString &name, QWidget *parent)
+JobStrip::JobStrip(JobRunner &jobs, const QString &name, std::function<void()> cancel,
+                   QWidget *parent)
     : QWidget(parent), m_progress(new QProgressBar), m_title(new QLabel),
       m_cancel(new QPushButton(tr("Cancel"))) {
     setObjectName(name + "Strip");
@@ -31,7 +34,12 @@ JobStrip::JobStrip(JobRunner &jobs, const QString &name, QWidget *parent)
     hide();
     if (jobs.isRunning()) // a previous window started it
         showStarted(jobs.title());
-    connect(m_cancel, &QPushButton::clicked, &jobs, &JobRunner::cancel);
+    connect(m_cancel, &QPushButton::clicked, this, [&jobs, cancel = std::move(cancel)] {
+        if (cancel)
+            cancel();
+        else
+            jobs.cancel();
+    });
     connect(&jobs, &JobRunner::started, this, &JobStrip::showStarted);
     connect(&jobs, &JobRunner::progressed, this,
             [this](double fraction) { m_progress->setValue(int(1000 * fraction)); });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include <QWidget>
 
 class QLabel;
@@ -16,7 +18,9 @@ class JobRunner;
 class JobStrip : public QWidget {
     Q_OBJECT
 public:
-    JobStrip(JobRunner &jobs, const QString &name, QWidget *parent = nullptr);
+    /// `cancel`: what the button does; by default, it cancels the job.
+    JobStrip(JobRunner &jobs, const QString &name, std::function<void()> cancel = {},
+             QWidget *parent = nullptr);
 
 private:
     void showStarted(const QString &title);

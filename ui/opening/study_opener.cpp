@@ -366,14 +366,7 @@ void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
         source.place());
 }
 
-void StudyOpener::openSource(int index, JobRunner::OnEnd onEnd) {
-    // It is open, or being opened.
-    if (index == m_document.currentSource() && (m_document.volume() || m_jobs.isRunning())) {
-        if (m_document.volume())
-            m_preparer.prepareAgain(); // a scan may have stopped it
-        return;
-    }
-    const StudySource source = m_document.sources().at(std::size_t(index));
+PreparedFor StudyOpener::leaveFor(int index) {
     // First: the end of the former job changes the document.
     m_jobs.cancel();
     keepCurrent();
@@ -382,6 +375,18 @@ void StudyOpener::openSource(int index, JobRunner::OnEnd onEnd) {
     const PreparedFor wanted = m_preparer.forgetVolume();
     m_document.setCurrentSource(index);
     m_document.closeVolume();
+    return wanted;
+}
+
+void StudyOpener::openSource(int index, JobRunner::OnEnd onEnd) {
+    // It is open, or being opened.
+    if (index == m_document.currentSource() && (m_document.volume() || m_jobs.isRunning())) {
+        if (m_document.volume())
+            m_preparer.prepareAgain(); // a scan may have stopped it
+        return;
+    }
+    const StudySource source = m_document.sources().at(std::size_t(index));
+    const PreparedFor wanted = leaveFor(index);
     if (const auto kept = m_kept.take(index)) {
         m_former.reset(); // it cannot fail
         show(*kept, std::nullopt);
@@ -405,19 +410,25 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
     QStringList segmentations;
     if (m_resumption && source.digest() == m_resumption->digest)
         segmentations = m_resumption->segmentations;
-    // What is shown at first of a study that has a couch.
-    PreparedFor bare = wanted;
-    classify::removeCouch(bare.look, classify::ctFieldWindow);
-    return [this, source, segmentations, bare,
-            prepareBare = m_preparer.preparation(bare, 0.6, prepare::Detail::coarse),
-            prepare =
-                m_preparer.preparation(wanted, 0.6, prepare::Detail::coarse)](const Job &job) {
+    return [this, source, finish = finishing(segmentations, wanted)](const Job &job) {
         dicom::LoadObserver observer;
         observer.preview = [&](const volume::Volume &soFar) {
             const volume::ValueWindow window = initialWindow(soFar);
             job.deliver([this, soFar, window] { m_document.setVolume(soFar, window, {}, true); });
         };
-        const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), observer);
+        finish(job, source.load(job.progress().part(0.0, 0.6), observer));
+    };
+}
+
+StudyOpener::Finish StudyOpener::finishing(const QStringList &segmentations,
+                                           const PreparedFor &wanted) {
+    // What is shown at first of a study that has a couch.
+    PreparedFor bare = wanted;
+    classify::removeCouch(bare.look, classify::ctFieldWindow);
+    return [this, segmentations, bare,
+            prepareBare = m_preparer.preparation(bare, 0.6, prepare::Detail::coarse),
+            prepare = m_preparer.preparation(wanted, 0.6, prepare::Detail::coarse)](
+               const Job &job, const dicom::LoadedVolume &loaded) {
         const volume::Volume volume = loaded.volume;
         const volume::ValueWindow window = initialWindow(volume);
         const classify::FieldWindow field = classify::defaultFieldWindow(volume);
@@ -453,6 +464,61 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
         job.stage(tr("Preparing the projection"));
         (content.hasCouch ? prepareBare : prepare)(job, volume);
     };
+}
+
+void StudyOpener::openArriving(const StudyFacts &study,
+                               const std::shared_ptr<dicom::ArrivingSeries> &series) {
+    // It stands for the series until the files tell which it is.
+    StudySource source;
+    source.study = study;
+    source.volume.description = tr("Arriving");
+    source.load = [series](const task::Progress &progress, const dicom::LoadObserver &) {
+        return series->load(progress, {}).loaded;
+    };
+    const int index = m_document.addSources({source}).front();
+    const PreparedFor wanted = leaveFor(index);
+    m_preparer.expect(wanted);
+    m_jobs.start(
+        tr("Waiting for the first slices"),
+        [this, series, index, finish = finishing({}, wanted),
+         project = m_preparer.partialPreparation(wanted)](const Job &job) {
+            const auto show = [&](const dicom::PartialVolume &partial,
+                                  const task::Progress &progress) {
+                const volume::Volume &soFar = partial.volume;
+                job.stage(tr("%1 of %2 slices").arg(partial.slices).arg(partial.count));
+                job.deliver([this, soFar, window = initialWindow(soFar)] {
+                    m_document.setVolume(soFar, window, classify::defaultFieldWindow(soFar), true);
+                });
+                // As fine as the slices allow, in a part of the time until the next ones.
+                if (partial.stride <= 8)
+                    project(job, soFar,
+                            partial.stride <= 2   ? 192
+                            : partial.stride <= 4 ? 128
+                                                  : 96,
+                            progress);
+            };
+            const dicom::ArrivedSeries arrived = series->load(job.progress().part(0.0, 0.6), show);
+            job.deliver([this, index, catalogue = arrived.catalogue] {
+                m_document.addProblems(catalogue->skipped);
+                const auto indices = m_document.addSources(sourcesFrom(catalogue));
+                for (const int known : indices) // it may have had fewer files
+                    m_kept.take(known);
+                m_document.setCurrentSource(indices[defaultSource(*catalogue)]);
+                m_document.closeSource(index);
+            });
+            finish(job, arrived.loaded);
+        },
+        [this, index](const Outcome &outcome) {
+            m_preparer.jobEnded(outcome);
+            // A part of a series does not stay.
+            if (m_document.currentSource() == index) {
+                m_document.closeVolume();
+                m_document.setCurrentSource(-1);
+            }
+            if (!m_document.sources()[std::size_t(index)].isClosed)
+                m_document.closeSource(index);
+        },
+        {});
 }
 
 } // namespace pellucid::ui

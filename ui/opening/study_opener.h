@@ -7,6 +7,7 @@
 #include <QObject>
 #include <QStringList>
 
+#include "core/dicom/arriving_series.h"
 #include "core/dicom/scan.h"
 #include "ui/document/document.h"
 #include "ui/jobs/job_runner.h"
@@ -62,6 +63,9 @@ public:
     /// key of the one to open.
     void openFromLibrary(const StudyFacts &study, const std::vector<VolumeFacts> &series,
                          const QString &volume, const std::vector<dicom::InstanceFile> &files);
+    /// Opens a series while it arrives: what is there is a preview, also in the projection.
+    void openArriving(const StudyFacts &study,
+                      const std::shared_ptr<dicom::ArrivingSeries> &series);
     /// Takes a source off the list, and closes it if it is open.
     void closeSource(int index);
 
@@ -82,6 +86,11 @@ signals:
 private:
     /// The work that loads a volume and prepares its projection.
     JobRunner::Work loading(const StudySource &source, const PreparedFor &wanted);
+    /// What follows when the volume is loaded.
+    using Finish = std::function<void(const Job &, const dicom::LoadedVolume &)>;
+    Finish finishing(const QStringList &segmentations, const PreparedFor &wanted);
+    /// Leaves what is open for another source, and returns what its projection is made for.
+    PreparedFor leaveFor(int index);
     /// Lets the preparer continue.
     void endScan();
     /// The source among them that is to be resumed, or their difference.

@@ -22,6 +22,7 @@
 
 #include "ui/document/document.h"
 #include "ui/jobs/job_strip.h"
+#include "ui/language/plain_tooltip.h"
 #include "ui/language/reasons.h"
 #include "ui/panels/header_dialog.h"
 #include "ui/panels/problem_list.h"
@@ -126,10 +127,10 @@ void StudyPanel::connectControls() {
         if (text.isEmpty())
             m_servers.clear();
     });
-    connect(&m_resting, &QTimer::timeout, this, &StudyPanel::searchServers);
+    connect(&m_resting, &QTimer::timeout, this, [this] { searchServers(nullptr); });
     connect(m_search, &QLineEdit::returnPressed, this, [this] {
         m_list.setSearch(m_search->text());
-        searchServers();
+        searchServers(window());
         m_tree->setFocus();
     });
     connect(&m_servers, &ServerSearch::changed, this, &StudyPanel::showServers);
@@ -183,9 +184,10 @@ QWidget *StudyPanel::corner() {
     return m_corner;
 }
 
-void StudyPanel::searchServers() {
+// Only Enter asks for passwords: `asking` is null while the user types.
+void StudyPanel::searchServers(QWidget *asking) {
     m_resting.stop();
-    m_servers.search(m_search->text().trimmed(), window());
+    m_servers.search(m_search->text().trimmed(), asking);
 }
 
 void StudyPanel::showServers() {
@@ -206,7 +208,7 @@ void StudyPanel::showServers() {
         }
     }
     m_serverStates->setText(texts.join(QString::fromUtf8(" \u00B7 ")));
-    m_serverStates->setToolTip(tips.join("\n"));
+    m_serverStates->setToolTip(plainToolTip(tips.join("\n")));
     m_serverStates->setVisible(!texts.isEmpty());
     showEmpty();
 }
@@ -323,9 +325,12 @@ void StudyPanel::addServersTo(QMenu &menu, const QModelIndex &index) {
             QStringList files;
             if (m_list.volume(row) != nullptr)
                 files = filesOf(row);
-            else
+            else {
+                if (m_list.canFetchMore(row)) // it has never been expanded
+                    m_list.fetchMore(row);
                 for (int n = 0; n < m_list.rowCount(row); ++n)
                     files << filesOf(m_list.index(n, 0, row));
+            }
             files.removeDuplicates();
             emit sendRequested(files, server);
         });

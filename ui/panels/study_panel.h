@@ -63,7 +63,7 @@ private:
     void close(const StudyFacts &study);
     void connectControls();
     QMenu *orderMenu();
-    void searchServers();
+    void searchServers(QWidget *asking);
     void showServers();
     void addServersTo(QMenu &menu, const QModelIndex &index);
 

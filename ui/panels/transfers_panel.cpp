@@ -8,6 +8,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include "ui/language/plain_tooltip.h"
 #include "ui/language/reasons.h"
 #include "ui/servers/transfer_queue.h"
 
@@ -93,7 +94,7 @@ void TransfersPanel::list() {
                              QString::fromStdString(transfer.server));
         item->setText(1, state);
         item->setData(0, idRole, qint64(transfer.id));
-        const QString tip = reason ? translated(*reason) : QString();
+        const QString tip = reason ? plainToolTip(translated(*reason)) : QString();
         item->setToolTip(0, tip);
         item->setToolTip(1, tip);
     }

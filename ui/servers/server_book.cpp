@@ -19,12 +19,15 @@ namespace {
 
 const QString service = "Pellucid";
 
-QString secretKey(const QString &server) {
-    return server + "/secret";
+// With its address: the secret of one server is never sent to another one of the same name.
+QString secretKey(const archive::Server &server) {
+    return QString("%1/secret/%2:%3")
+        .arg(QString::fromStdString(server.name), QString::fromStdString(server.peer.host))
+        .arg(server.peer.port);
 }
 
-QString keyPasswordKey(const QString &server) {
-    return server + "/key";
+QString keyPasswordKey(const archive::Server &server) {
+    return QString::fromStdString(server.name) + "/key";
 }
 
 bool isEncrypted(const std::string &path) {
@@ -98,21 +101,22 @@ void ServerBook::put(const archive::Server &server) {
         job->setTextData(text);
         job->start();
     };
-    const QString name = QString::fromStdString(server.name);
-    keep(secretKey(name), server.peer.secret);
-    keep(keyPasswordKey(name), server.peer.keyPassword);
+    keep(secretKey(server), server.peer.secret);
+    keep(keyPasswordKey(server), server.peer.keyPassword);
     load();
     emit changed();
 }
 
 void ServerBook::remove(const QString &name) {
     archive::ServerList::ofUser().remove(name.toStdString());
-    for (const QString &key : {secretKey(name), keyPasswordKey(name)}) {
-        m_known.remove(key);
-        auto *job = new QKeychain::DeletePasswordJob(service, this);
-        job->setKey(key);
-        job->start();
-    }
+    for (const archive::Server &server : m_servers)
+        if (QString::fromStdString(server.name) == name)
+            for (const QString &key : {secretKey(server), keyPasswordKey(server)}) {
+                m_known.remove(key);
+                auto *job = new QKeychain::DeletePasswordJob(service, this);
+                job->setKey(key);
+                job->start();
+            }
     load();
     emit changed();
 }
@@ -131,12 +135,12 @@ void ServerBook::withSecrets(const QStringList &names, QWidget *asking, const Us
         const exchange::Peer &peer = server.peer;
         if (peer.authentication == exchange::Authentication::basic)
             pending->needs.push_back(
-                {at, false, secretKey(name),
+                {at, false, secretKey(server),
                  tr("Password of %1 at %2").arg(QString::fromStdString(peer.user), name)});
         else if (peer.authentication == exchange::Authentication::bearer)
-            pending->needs.push_back({at, false, secretKey(name), tr("Token for %1").arg(name)});
+            pending->needs.push_back({at, false, secretKey(server), tr("Token for %1").arg(name)});
         if (isEncrypted(peer.key))
-            pending->needs.push_back({at, true, keyPasswordKey(name),
+            pending->needs.push_back({at, true, keyPasswordKey(server),
                                       tr("Password of the private key for %1").arg(name)});
     }
     fetchNext(pending);
@@ -172,8 +176,19 @@ void ServerBook::fetchNext(const std::shared_ptr<Pending> &pending) {
     pending->use(servers);
 }
 
+void ServerBook::forgetSecret(const QString &name) {
+    for (const archive::Server &server : m_servers)
+        if (QString::fromStdString(server.name) == name)
+            m_known.remove(secretKey(server));
+}
+
 void ServerBook::ask(const std::shared_ptr<Pending> &pending, const QString &key,
                      const QString &question) {
+    if (pending->asking == nullptr) {
+        pending->leaveOut();
+        fetchNext(pending);
+        return;
+    }
     auto *dialog = new QInputDialog(pending->asking);
     dialog->setObjectName("secretDialog");
     dialog->setAttribute(Qt::WA_DeleteOnClose);

@@ -32,8 +32,12 @@ public:
 
     using Use = std::function<void(const std::vector<archive::Server> &)>;
     /// Calls `use` with these servers and their secrets, at once or after the user has entered
-    /// those that no keychain has. Servers whose secrets the user does not enter are left out.
+    /// those that no keychain has. Servers whose secrets the user does not enter are left out, as
+    /// are all that lack one if `asking` is null.
     void withSecrets(const QStringList &names, QWidget *asking, const Use &use);
+
+    /// After a server has not accepted it: it is asked for again.
+    void forgetSecret(const QString &name);
 
 signals:
     void changed();

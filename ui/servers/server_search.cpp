@@ -32,26 +32,40 @@ void ServerSearch::start(const archive::SearchTerms &terms,
     for (const archive::Server &server : servers)
         m_states[QString::fromStdString(server.name)] = {};
     emit changed();
-    m_jobs.start(tr("Searching servers"), [this, terms, servers](const Job &job) {
-        archive::SearchObserver observer;
-        observer.found = [&](const archive::FoundEntry &entry, std::size_t index) {
-            job.deliver([this, remote = remoteStudy(entry), index] {
-                if (index < m_found.size())
-                    m_found[index] = remote;
-                else
-                    m_found.push_back(remote);
-            });
-        };
-        observer.ended = [&](const archive::ServerOutcome &outcome) {
-            job.deliver([this, outcome] {
-                m_states[QString::fromStdString(outcome.server)] = {
-                    outcome.failure ? ServerState::Kind::failed : ServerState::Kind::answered,
-                    outcome.reachedLimit, outcome.failure};
-                emit changed();
-            });
-        };
-        archive::search(servers, terms, observer, job.progress());
-    });
+    m_jobs.start(
+        tr("Searching servers"),
+        [this, terms, servers](const Job &job) {
+            archive::SearchObserver observer;
+            observer.found = [&](const archive::FoundEntry &entry, std::size_t index) {
+                job.deliver([this, remote = remoteStudy(entry), index] {
+                    if (index < m_found.size())
+                        m_found[index] = remote;
+                    else
+                        m_found.push_back(remote);
+                });
+            };
+            observer.ended = [&](const archive::ServerOutcome &outcome) {
+                job.deliver([this, outcome] {
+                    m_states[QString::fromStdString(outcome.server)] = {
+                        outcome.failure ? ServerState::Kind::failed : ServerState::Kind::answered,
+                        outcome.reachedLimit, outcome.failure};
+                    if (outcome.failure &&
+                        outcome.failure->is(task::because::serverDoesNotAcceptTheLogin))
+                        m_book.forgetSecret(QString::fromStdString(outcome.server));
+                    emit changed();
+                });
+            };
+            archive::search(servers, terms, observer, job.progress());
+        },
+        [this](const Outcome &outcome) {
+            if (outcome.kind != Outcome::Kind::failed)
+                return;
+            // Words that no server can be asked for, such as a backslash.
+            for (auto &[name, state] : m_states)
+                if (state.kind == ServerState::Kind::searching)
+                    state = {ServerState::Kind::failed, false, outcome.reason};
+            emit changed();
+        });
 }
 
 } // namespace pellucid::ui

@@ -2,8 +2,10 @@
 #include "ui/servers/transfer_queue.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
+#include "core/files/user_folders.h"
 #include "core/task/error.h"
 
 namespace pellucid::ui {
@@ -13,6 +15,46 @@ namespace {
 using archive::Transfer;
 using archive::TransferLog;
 using archive::TransferState;
+
+// Without one, nothing has ever been retrieved; looking does not make it.
+bool hasLog() {
+    std::error_code unknown;
+    return files::userDataFolder() && std::filesystem::exists(TransferLog::fileOfUser(), unknown);
+}
+
+// The series of a transfer that is shown while it arrives, as objects are told one at a time.
+class SeriesToShow {
+public:
+    ~SeriesToShow() {
+        if (m_series)
+            m_series->end();
+    }
+
+    /// *Requires*: the largest series comes first.
+    std::shared_ptr<dicom::ArrivingSeries> begin(const std::vector<archive::Instance> &instances,
+                                                 const std::filesystem::path &folder) {
+        for (const archive::Instance &instance : instances)
+            if (instance.seriesUid == instances.front().seriesUid)
+                m_numbers.emplace(instance.sopInstanceUid, m_numbers.size());
+        m_series = std::make_shared<dicom::ArrivingSeries>(m_numbers.size());
+        const archive::ObjectFolder objects(folder,
+                                            archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
+        for (const archive::Instance &instance : instances)
+            if (objects.has(instance.studyUid, instance.seriesUid, instance.sopInstanceUid))
+                add(instance.sopInstanceUid,
+                    objects.pathOf(instance.studyUid, instance.seriesUid, instance.sopInstanceUid));
+        return m_series;
+    }
+    void add(const std::string &sopInstanceUid, const std::filesystem::path &path) {
+        const auto number = m_numbers.find(sopInstanceUid);
+        if (number != m_numbers.end())
+            m_series->add(number->second, path);
+    }
+
+private:
+    std::map<std::string, std::size_t> m_numbers;
+    std::shared_ptr<dicom::ArrivingSeries> m_series;
+};
 
 } // namespace
 
@@ -32,17 +74,14 @@ template <class F> void TransferQueue::attempt(const F &what) {
 }
 
 void TransferQueue::read() {
-    std::error_code unknown; // nothing has ever been retrieved: no list is made
-    if (std::filesystem::exists(TransferLog::fileOfUser(), unknown))
+    if (hasLog())
         m_transfers = TransferLog(TransferLog::fileOfUser()).transfers();
     emit changed();
 }
 
 void TransferQueue::resume(QWidget *asking) {
     attempt([this] {
-        std::error_code unknown;
-        if (std::filesystem::exists(TransferLog::fileOfUser(), unknown) &&
-            !TransferLog(TransferLog::fileOfUser()).arrivals().empty())
+        if (hasLog() && !TransferLog(TransferLog::fileOfUser()).arrivals().empty())
             listArrivals();
     });
     startNext(asking);
@@ -55,7 +94,7 @@ void TransferQueue::add(const RemoteStudy &study, QWidget *asking) {
         transfer.wanted.studyUid = study.study.uid.toStdString();
         transfer.title = studyText(study.study).toStdString();
         transfer.folder = archive::libraryObjectFolder();
-        TransferLog(TransferLog::fileOfUser()).add(transfer);
+        m_elsewhere.erase(TransferLog(TransferLog::fileOfUser()).add(transfer));
         read();
     });
     startNext(asking);
@@ -64,6 +103,7 @@ void TransferQueue::add(const RemoteStudy &study, QWidget *asking) {
 void TransferQueue::retry(qint64 id, QWidget *asking) {
     attempt([&] {
         TransferLog(TransferLog::fileOfUser()).setState(id, TransferState::waiting);
+        m_elsewhere.erase(id);
         read();
     });
     startNext(asking);
@@ -89,12 +129,12 @@ void TransferQueue::startNext(QWidget *asking) {
     m_asking = asking;
     if (m_jobs.isRunning() || m_isWaitingForSecrets)
         return;
-    // Another program's running transfer is refused when it is claimed.
+    // Another program's running transfer is refused when it is claimed, and left to it.
     if (m_transfers.empty())
         return;
     const auto next =
-        std::find_if(m_transfers.begin(), m_transfers.end(), [](const Transfer &transfer) {
-            return transfer.state <= TransferState::running &&
+        std::find_if(m_transfers.begin(), m_transfers.end(), [this](const Transfer &transfer) {
+            return transfer.state <= TransferState::running && !m_elsewhere.contains(transfer.id) &&
                    transfer.folder == archive::libraryObjectFolder();
         });
     if (next == m_transfers.end())
@@ -141,6 +181,16 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
                 shown = now;
                 job.deliver([show, state] { show(state); });
             };
+            SeriesToShow arrivals;
+            observer.listed = [&](const std::vector<archive::Instance> &instances) {
+                job.deliver([this, uid = QString::fromStdString(transfer.wanted.studyUid),
+                             series = arrivals.begin(instances, transfer.folder)] {
+                    emit arriving(uid, series);
+                });
+            };
+            observer.stored = [&](const archive::StoredObject &object) {
+                arrivals.add(object.sopInstanceUid, object.path);
+            };
             TransferLog log(TransferLog::fileOfUser());
             archive::runTransfer(log, transfer.id, server, observer, job.progress());
         },
@@ -156,10 +206,10 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
                     QString::fromStdString((transfer.folder / transfer.wanted.studyUid).string()));
             if (outcome.kind == Outcome::Kind::failed)
                 emit failed(*outcome.reason, QString::fromStdString(transfer.server));
-            // One that another program works on stays in the list.
-            if (outcome.kind != Outcome::Kind::failed || ended == m_transfers.end() ||
-                ended->state > TransferState::running)
-                startNext(m_asking);
+            if (outcome.kind == Outcome::Kind::failed && ended != m_transfers.end() &&
+                ended->state <= TransferState::running)
+                m_elsewhere.insert(transfer.id);
+            startNext(m_asking);
         });
 }
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+#include <set>
 #include <vector>
 
 #include <QHash>
 #include <QObject>
 
 #include "core/archive/run_transfer.h"
+#include "core/dicom/arriving_series.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/library/study_library.h"
 #include "ui/servers/remote_study.h"
@@ -36,6 +39,8 @@ public:
 
 signals:
     void changed();
+    /// The largest series of a study begins to arrive.
+    void arriving(const QString &studyUid, const std::shared_ptr<dicom::ArrivingSeries> &series);
     /// All of a study is here.
     void completed(const QString &folder);
     void failed(const pellucid::task::Reason &what, const QString &path);
@@ -52,6 +57,8 @@ private:
     std::vector<archive::Transfer> m_transfers;
     /// The running one, whose state is newer than on disk.
     qint64 m_running = 0;
+    /// Those that another program works on.
+    std::set<qint64> m_elsewhere;
     bool m_isWaitingForSecrets = false;
     QWidget *m_asking = nullptr;
     JobRunner m_jobs;

@@ -159,6 +159,8 @@ bool arePhases(const VolumeFacts &a, const VolumeFacts &b) {
 }
 
 QString seriesText(const VolumeFacts &volume) {
+    if (volume.size.count() == 0) // it begins to arrive, and nothing more is known
+        return volume.description;
     QString result = QString("%1 %2")
                          .arg(volume.seriesNumber)
                          .arg(volume.description.isEmpty() ? volume.modality : volume.description);
@@ -170,6 +172,8 @@ QString seriesText(const VolumeFacts &volume) {
 }
 
 QString sizeText(const VolumeFacts &v) {
+    if (v.size.count() == 0)
+        return {};
     QString result = QString::fromUtf8("%1 × %2 × %3").arg(v.size.i).arg(v.size.j).arg(v.size.k);
     if (v.spacingMm.x > 0.0)
         result += QString::fromUtf8("\n%1 × %2")

@@ -68,7 +68,7 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
     });
     connect(&document, &Document::volumeChanged, this, [this] {
         const auto &volume = m_document.volume();
-        const bool isSameLattice = volume && m_lattice == volume->lattice();
+        const bool isSameLattice = volume && m_lattice.isNear(volume->lattice());
         dropTextFields(*this); // their texts belong to the former volume
         // A volume that replaces its own preview does not interrupt a drag.
         if (!isSameLattice || !m_wasPreview)

@@ -25,6 +25,10 @@ struct OverlayTexts {
 
 } // namespace
 
+bool isPartial(const volume::VolumeNotes &notes) {
+    return !notes.warnings.empty() && notes.warnings.front().is(task::because::slicesOfSeries);
+}
+
 QStringList warningLines(const volume::VolumeNotes &notes, Names names, std::size_t most) {
     if (names == Names::hidden && !notes.warnings.empty())
         return {OverlayTexts::tr("Warnings omitted")};

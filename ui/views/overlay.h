@@ -38,6 +38,9 @@ struct Overlays {
     bool operator==(const Overlays &) const = default;
 };
 
+/// Whether a volume is shown while it arrives. Its warning says how much of it is there, and is
+/// always shown in words.
+bool isPartial(const volume::VolumeNotes &notes);
 /// The first `most` warnings of a volume, one per line. With hidden names, only a note that there
 /// are warnings.
 QStringList warningLines(const volume::VolumeNotes &notes, Names names, std::size_t most);

@@ -178,11 +178,11 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
     if (notes.hasSpacing)
         drawScaleBar(painter, QPoint(10, area.bottom() - 9), mapping.pixelsPerMm(),
                      std::min(110, area.width() / 2 - 74), colors);
-    if (reader == TextsFor::pane && !notes.warnings.empty())
+    const bool areWords = reader == TextsFor::picture || isPartial(notes);
+    if (!areWords && !notes.warnings.empty())
         drawWarningMark(painter, notes.lossy ? area.adjusted(0, 0, 0, -line) : area,
                         notes.warnings.size(), colors);
-    if (const QStringList warnings = warningLines(notes, names, 1);
-        reader == TextsFor::picture && !warnings.isEmpty())
+    if (const QStringList warnings = warningLines(notes, names, 1); areWords && !warnings.isEmpty())
         drawText(painter, inner.adjusted(0, 0, 0, -16), Qt::AlignRight | Qt::AlignBottom,
                  painter.fontMetrics().elidedText(warnings.front(), Qt::ElideRight,
                                                   area.width() / 2 - 16),

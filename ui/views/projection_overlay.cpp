@@ -116,7 +116,7 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping, Mar
     // Warnings about the geometry belong on every picture; in the window, a mark does.
     QRect warning = second.adjusted(0, line, -width() / 2 - 24, 0);
     const volume::VolumeNotes &notes = m_document.volume()->notes();
-    const bool areWords = marks <= Marks::plain;
+    const bool areWords = marks <= Marks::plain || isPartial(notes);
     if (!areWords && !notes.warnings.empty())
         drawWarningMark(painter, markArea(), notes.warnings.size(), colors);
     for (const QString &w : warningLines(notes, names, areWords ? notes.warnings.size() : 0)) {

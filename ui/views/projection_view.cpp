@@ -200,6 +200,7 @@ void ProjectionView::fitView() {
 }
 
 void ProjectionView::fitOrResetView() {
+    m_body = m_tone.exposure();
     if (fittedToBody(m_document.pose()) == m_document.pose())
         resetView();
     else
@@ -284,8 +285,7 @@ void ProjectionView::requestFrame(bool moving) {
         compared = {before->engine, before->image, before->shading};
     std::optional<RenderWorker::Exposed> exposed;
     if (m_tone.isWanted())
-        exposed = {lattice.radiusMm(), m_document.scene().tone,
-                   picture::ToneSubject(m_document.scene()),
+        exposed = {lattice, m_document.scene().tone, picture::ToneSubject(m_document.scene()),
                    picture::backgroundOf(*m_document.volume())};
     m_requested =
         m_worker.request(m_document.scene().camera, m_document.scene().image, shading,

@@ -79,6 +79,12 @@ FileMenu::FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &
     add(menu, tr("Pri&nt..."), "printAction", QKeySequence::Print, [this] { printPicture(); });
     add(menu, tr("Export &measurements..."), "exportMeasurementsAction", {},
         [this] { exportMeasurements(); });
+    // Nothing is made of a part of a study.
+    connect(&bench.study.document, &Document::volumeChanged, this, [this] {
+        for (const char *const name : {"saveSceneAction", "saveSegmentsAction", "savePictureAction",
+                                       "exportPictureAction", "copyPictureAction", "printAction"})
+            m_window.findChild<QAction *>(name)->setEnabled(!m_bench.study.document.isPreview());
+    });
     QAction *const header = add(menu, tr("&DICOM header..."), "headerAction",
                                 QKeySequence("Ctrl+D"), [this] { showHeader(); });
     connect(&bench.study.document, &Document::volumeChanged, this,
@@ -96,7 +102,7 @@ void FileMenu::attempt(const std::function<void()> &what) {
     try {
         what();
     } catch (const task::Error &error) {
-        // What cannot be done now is no problem of a study.
+        // An action that is not possible now is not a problem of the study.
         if (error.code() == task::ErrorCode::usage && error.path().empty())
             emit messageShown(translated(error.reason()));
         else

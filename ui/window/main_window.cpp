@@ -315,7 +315,8 @@ void MainWindow::createStatusBar() {
     m_engine->setObjectName("engineLabel");
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_readout);
-    statusBar()->addWidget(new JobStrip(m_bench.study.jobs, "job"));
+    statusBar()->addWidget(
+        new JobStrip(m_bench.study.jobs, "job", [this] { m_bench.study.preparer.cancel(); }));
     statusBar()->addWidget(new JobStrip(m_bench.exports, "export"));
     statusBar()->addPermanentWidget(m_engine);
     connect(&m_bench.study.jobs, &JobRunner::failed, this, &MainWindow::reportLoad);
@@ -454,10 +455,9 @@ void MainWindow::compareLooks(bool isComparing) {
 }
 
 void MainWindow::keyPressEvent(QKeyEvent *event) {
-    if (event->key() == Qt::Key_Escape && m_bench.study.jobs.isRunning()) {
-        m_bench.study.jobs.cancel();
-        m_bench.study.preparer.returnToShown();
-    } else
+    if (event->key() == Qt::Key_Escape && m_bench.study.jobs.isRunning())
+        m_bench.study.preparer.cancel();
+    else
         QMainWindow::keyPressEvent(event);
 }
 

@@ -3,6 +3,7 @@
 
 #include <QDockWidget>
 #include <QMainWindow>
+#include <QPointer>
 
 #include "core/archive/sending.h"
 #include "ui/panels/study_panel.h"
@@ -18,7 +19,17 @@ ServerCommands::ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks
             [this, &docks](const RemoteStudy &study) {
                 docks.transfers().show();
                 docks.transfers().raise();
+                m_awaited = study;
                 m_bench.transfers.add(study, &m_window);
+            });
+    connect(&bench.study.document, &Document::currentSourceChanged, this,
+            [this] { m_awaited.reset(); });
+    connect(&bench.transfers, &TransferQueue::arriving, this,
+            [this](const QString &uid, const std::shared_ptr<dicom::ArrivingSeries> &series) {
+                if (m_awaited && m_awaited->study.uid == uid) {
+                    const RemoteStudy study = *m_awaited;
+                    m_bench.study.opener.openArriving(study.study, series);
+                }
             });
     connect(&docks.studies(), &StudyPanel::sendRequested, this, &ServerCommands::send);
     connect(&bench.servers, &ServerBook::failed, this, &ServerCommands::failed);
@@ -30,7 +41,9 @@ ServerCommands::ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks
         else
             emit messageShown(tr("A study has arrived"));
     });
-    bench.transfers.resume(&window);
+    // After the window has connected to the signals.
+    QMetaObject::invokeMethod(
+        this, [this] { m_bench.transfers.resume(&m_window); }, Qt::QueuedConnection);
 }
 
 void ServerCommands::showServers() {
@@ -43,13 +56,20 @@ void ServerCommands::showServers() {
 }
 
 void ServerCommands::send(const QStringList &files, const QString &server) {
+    if (files.isEmpty()) {
+        emit messageShown(tr("There are no files to send"));
+        return;
+    }
     if (m_bench.exports.isRunning()) { // another job would cancel it
         emit messageShown(tr("Another export is running"));
         return;
     }
     m_bench.servers.withSecrets(
-        {server}, &m_window, [this, files](const std::vector<archive::Server> &servers) {
-            if (servers.empty())
+        {server}, &m_window,
+        [self = QPointer<ServerCommands>(this), this,
+         files](const std::vector<archive::Server> &servers) {
+            // Meanwhile the window may have been closed, or another export started.
+            if (self == nullptr || servers.empty() || m_bench.exports.isRunning())
                 return;
             std::vector<std::filesystem::path> paths;
             for (const QString &file : files)

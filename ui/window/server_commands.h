@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include <QObject>
 #include <QStringList>
 
 #include "core/task/reason.h"
+#include "ui/servers/remote_study.h"
 
 class QMainWindow;
 
@@ -33,6 +36,8 @@ private:
 
     QMainWindow &m_window;
     Workbench &m_bench;
+    /// The study that was asked for last, unless another one has been opened since.
+    std::optional<RemoteStudy> m_awaited;
 };
 
 } // namespace pellucid::ui

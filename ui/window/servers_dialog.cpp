@@ -9,6 +9,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QPointer>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSpinBox>
@@ -73,6 +74,7 @@ ServersDialog::ServersDialog(ServerBook &book, QWidget *parent)
     m_test->setObjectName("testServerButton");
     m_test->setToolTip(tr("Connect step by step, and show the step that fails"));
     m_save->setObjectName("saveServerButton");
+    m_message->setTextFormat(Qt::PlainText); // of servers, too
     m_message->setObjectName("serverMessage");
     m_message->setWordWrap(true);
     m_message->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -363,8 +365,9 @@ void ServersDialog::test() {
         return;
     }
     m_book.withSecrets({shown(server.name)}, this,
-                       [server, run](const std::vector<Server> &saved) mutable {
-                           if (saved.empty())
+                       [self = QPointer<ServersDialog>(this), server,
+                        run](const std::vector<Server> &saved) mutable {
+                           if (self == nullptr || saved.empty()) // closed meanwhile
                                return;
                            server.peer.secret = saved.front().peer.secret;
                            if (server.peer.keyPassword.empty())

@@ -51,9 +51,29 @@ TEST(TransferLog, RemembersTransfersAndArrivals) {
     EXPECT_EQ(log.arrivals().front().sopInstanceUid, "1.2.3.4.5");
     log.removeArrivals(log.arrivals());
     EXPECT_TRUE(log.arrivals().empty());
+    EXPECT_FALSE(log.hasClaim(id)); // that was the former program's
+    EXPECT_TRUE(log.claim(id));
+    EXPECT_TRUE(log.hasClaim(id));
     log.finish(id, TransferState::complete, {}, 4.0, {});
     log.clearFinished();
     EXPECT_TRUE(log.transfers().empty());
+}
+
+// Cancelled and tried again while the first attempt still ends: its end changes nothing.
+TEST(TransferLog, AnAttemptThatIsOverDoesNotEndTheNext) {
+    const test::TemporaryFolder folder;
+    TransferLog first(folder / "transfers.sqlite"), second(folder / "transfers.sqlite");
+    const std::int64_t id = first.add(sample());
+    ASSERT_TRUE(first.claim(id));
+    second.setState(id, TransferState::cancelled);
+    EXPECT_FALSE(first.hasClaim(id));
+    second.setState(id, TransferState::waiting);
+    ASSERT_TRUE(second.claim(id));
+    EXPECT_FALSE(first.hasClaim(id));
+    first.finish(id, TransferState::cancelled, {}, 1.0, {});
+    EXPECT_TRUE(second.hasClaim(id));
+    second.finish(id, TransferState::complete, {}, 1.0, {});
+    EXPECT_EQ(first.transfer(id)->state, TransferState::complete);
 }
 
 // A transfer belongs to one program, until that has ended.

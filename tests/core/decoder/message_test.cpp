@@ -72,11 +72,11 @@ auto fieldsOf(IsA<PetHeader> auto &p) {
     auto &[units, uptakeType, decayCorrection, seriesDate, seriesTime, acquisitionDate,
            acquisitionTime, injectionTime, injectionDateTime, timezone, radionuclide, weightKg,
            injectedBq, halfLifeS, frameReferenceS, frameDurationS, injections, uptakePerCount,
-           isAttenuationCorrected] = p;
+           corrections, isDynamic] = p;
     return std::tie(units, uptakeType, decayCorrection, seriesDate, seriesTime, acquisitionDate,
                     acquisitionTime, injectionTime, injectionDateTime, timezone, radionuclide,
                     weightKg, injectedBq, halfLifeS, frameReferenceS, frameDurationS, injections,
-                    uptakePerCount, isAttenuationCorrected);
+                    uptakePerCount, corrections, isDynamic);
 }
 auto fieldsOf(IsA<VolumeLayout> auto &l) {
     auto &[size, volumes, originMm, stepsMm, scalar, slope, intercept, isDeflated, isSwapped,

@@ -30,7 +30,7 @@ PetHeader fdg() {
     pet.weightKg = 70.0;
     pet.injectedBq = 3.7e8;
     pet.halfLifeS = 6586.2;
-    pet.isAttenuationCorrected = true;
+    pet.corrections = "DECY\\ATTN";
     return pet;
 }
 
@@ -94,10 +94,12 @@ TEST(UptakeScale, OtherUnitsOfTheFilesAreKept) {
     pet.uptakePerCount = 0.0004;
     EXPECT_EQ(scaleOf(pet).unit, ValueUnit::uptake);
     EXPECT_EQ(scaleOf(pet).factor, 0.0004);
-    pet.isAttenuationCorrected = false;
+    pet.corrections = "DECY";
     EXPECT_TRUE(scaleOf(pet).notUptake->is(task::because::notAttenuationCorrected));
     pet.units = "GML";
     EXPECT_TRUE(scaleOf(pet).notUptake->is(task::because::notAttenuationCorrected));
+    pet.corrections.clear(); // nothing is said
+    EXPECT_EQ(scaleOf(pet).unit, ValueUnit::uptake);
 }
 
 TEST(UptakeScale, SaysWhatIsMissing) {
@@ -114,9 +116,8 @@ TEST(UptakeScale, SaysWhatIsMissing) {
     EXPECT_TRUE(reason([](PetHeader &p) { p.weightKg = 70000.0; }).is(because::noPlausibleWeight));
     EXPECT_TRUE(reason([](PetHeader &p) { p.injectedBq = 0.0; }).is(because::noInjectedActivity));
     EXPECT_TRUE(reason([](PetHeader &p) { p.injectedBq = 370.0; }).is(because::noInjectedActivity));
-    EXPECT_TRUE(reason([](PetHeader &p) {
-                    p.isAttenuationCorrected = false;
-                }).is(because::notAttenuationCorrected));
+    EXPECT_TRUE(
+        reason([](PetHeader &p) { p.corrections = "DECY"; }).is(because::notAttenuationCorrected));
     EXPECT_TRUE(reason([](PetHeader &p) { p.injectedBq = 3.7e5; }).is(because::noInjectedActivity));
     // Two statements that contradict each other.
     EXPECT_TRUE(reason([](PetHeader &p) {
@@ -142,7 +143,7 @@ TEST(UptakeScale, FilesThatDifferHaveNone) {
     for (const auto &change : std::initializer_list<void (*)(PetHeader &)>{
              [](PetHeader &p) { p.weightKg = 80.0; },
              [](PetHeader &p) { p.decayCorrection = "NONE"; },
-             [](PetHeader &p) { p.isAttenuationCorrected = false; },
+             [](PetHeader &p) { p.corrections = "DECY"; },
              [](PetHeader &p) { p.injectionTime = "083000"; },
              [](PetHeader &p) { p.halfLifeS = 1221.8; }}) {
         InstanceHeader first, second;
@@ -170,11 +171,37 @@ TEST(UptakeScale, AnInjectionDaysBeforeHasADate) {
     EXPECT_NEAR(scaleOf(pet).factor, expected, 1e-12);
 }
 
+// Texts that are no DICOM date, and one whose zone the other times may not share.
+TEST(UptakeScale, AnInjectionThatIsNotUnderstoodIsNotUsed) {
+    PetHeader pet = fdg();
+    for (const char *const stated : {"2026-01-15 09:30:00", "2026+0100", "20260115083000+0000"}) {
+        pet.injectionDateTime = stated;
+        pet.injectionTime.clear();
+        EXPECT_TRUE(scaleOf(pet).notUptake->is(task::because::noDecayTime)) << stated;
+    }
+    pet.injectionTime = "093000";
+    pet.injectionDateTime = "2026-01-15 09:30:00";
+    EXPECT_NEAR(scaleOf(pet).factor, factorAtInjection * std::exp2(3600.0 / 6586.2), 1e-12);
+}
+
+// An anonymiser moved the dates of the series by 20 days and forgot that of the injection.
+TEST(UptakeScale, TimesOfDayReplaceADateThatCannotBe) {
+    PetHeader pet = fdg();
+    pet.injectionDateTime = "20251226093000";
+    EXPECT_NEAR(scaleOf(pet).factor, factorAtInjection * std::exp2(3600.0 / 6586.2), 1e-12);
+    pet.injectionDateTime.clear();
+    pet.seriesDate = "20251226"; // of the series only
+    pet.seriesTime = "150000";
+    EXPECT_NEAR(scaleOf(pet).factor, factorAtInjection * std::exp2(3600.0 / 6586.2), 1e-12);
+}
+
 // A dynamic scan begins just before the injection: the dose is what it would have been then.
 TEST(UptakeScale, ADynamicScanMayBeginBeforeTheInjection) {
     PetHeader pet = fdg();
     pet.injectionTime = "103010";
     pet.injectionDateTime = "20260115103010";
+    EXPECT_TRUE(scaleOf(pet).notUptake->is(task::because::noDecayTime)); // it is a static scan
+    pet.isDynamic = true;
     for (const double halfLifeS : {6586.2, 45724.0, 282276.0}) {
         pet.halfLifeS = halfLifeS;
         EXPECT_NEAR(scaleOf(pet).factor, factorAtInjection * std::exp2(-10.0 / halfLifeS), 1e-12);
@@ -184,7 +211,7 @@ TEST(UptakeScale, ADynamicScanMayBeginBeforeTheInjection) {
     EXPECT_TRUE(scaleOf(pet).notUptake->is(task::because::noDecayTime));
 }
 
-// A scan over midnight whose writer kept the date of its begin.
+// A scan over midnight whose writer kept the date of its start.
 TEST(UptakeScale, DatesThatDoNotChangeAtMidnightAreNotBelieved) {
     InstanceHeader first, second;
     first.pet = second.pet = fdg();

@@ -56,6 +56,7 @@ TEST(NetworkConfinement, NothingElseIsReached) {
               }),
               -SIGSYS);
     EXPECT_EQ(confined([&] { return ::listen(socket, 1) == 0; }), -SIGSYS);
+    EXPECT_EQ(confined([&] { return ::fcntl(socket, F_SETOWN, ::getppid()) == 0; }), 0);
     ::close(socket);
     // What it needs remains: open sockets and files.
     std::array<int, 2> ends{};

@@ -27,8 +27,8 @@ struct Study {
                      .engine;
     }
     scene::Exposure exposure(const scene::Tone &tone = {}) const {
-        return measureExposure(*engine, volume.lattice().radiusMm(), scene.image, scene.shading,
-                               tone, backgroundOf(volume));
+        return measureExposure(*engine, volume.lattice(), scene.image, scene.shading, tone,
+                               backgroundOf(volume));
     }
     ProjectionImage seen(const glm::dquat &orientation) const {
         scene::Camera camera = scene.camera;
@@ -188,8 +188,44 @@ TEST(Exposure, AirOfValuesWithoutAUnitIsBlack) {
     EXPECT_NEAR(tone.exposure->lowMm.x, -54.0, 5.0);
 }
 
-// A class without air: the flank of a dim body beside something bright is not air, so the body stays
-// visible.
+// The same in an oblique volume, whose corners are all that its outer columns show.
+TEST(Exposure, AirOfAnObliqueVolumeIsFound) {
+    constexpr int side = 60;
+    std::vector<float> samples(std::size_t(side) * side * side, 0.15F);
+    for (int k = 20; k < 40; ++k)
+        for (int j = 20; j < 40; ++j)
+            for (int i = 20; i < 40; ++i)
+                samples[std::size_t((k * side + j) * side + i)] = 3.0F;
+    const glm::dmat3 turn =
+        glm::mat3_cast(glm::normalize(glm::dquat(1.0, 0.07, 0.07, 0.07))); // 14 degrees
+    const auto lattice = volume::Lattice::make(
+        {side, side, side}, {turn * glm::dvec3(-88.5)},
+        {turn * glm::dvec3(3, 0, 0), turn * glm::dvec3(0, 3, 0), turn * glm::dvec3(0, 0, 3)});
+    Study study(phantom::Kind::cube, 8);
+    study.volume = volume::Volume(lattice, samples, volume::ValueUnit::none);
+    study.scene.camera = scene::defaultCamera(lattice);
+    study.engine =
+        prepare::prepareEngine(study.scene,
+                               classify::shownFields(study.volume, {0.0, 1.0}, {}, nullptr), {})
+            .engine;
+    scene::Tone tone;
+    tone.exposure = study.exposure();
+    const auto front = scene::viewOrientation(scene::StandardView::front);
+    const ProjectionImage image = study.seen(front);
+    const auto greyAt = [&](double x) {
+        const Pixels pixels = compose(image, displayOf(tone, front));
+        const int c = int(std::lround(0.5 * (image.width - 1) + x / image.pixelMm));
+        return int(pixels[4 * (std::size_t(image.height / 2) * std::size_t(image.width) +
+                               std::size_t(c))]);
+    };
+    for (const scene::Exposure::Axis &axis : tone.exposure->axes)
+        EXPECT_NEAR(axis.air, 1.1 * 0.15 * 184, 6.0); // the cube is 180 mm thick, or somewhat more
+    EXPECT_GE(greyAt(0.0), 180);
+    EXPECT_LE(greyAt(-65.0), 12); // within the volume, beside the body
+}
+
+// A class without air: the flank of a dim body beside something bright is not air, so the body
+// stays visible.
 TEST(Exposure, ABodyWithoutAirIsNotTakenForAir) {
     constexpr int side = 100;
     ProjectionImage image{side, side, 1.0, Samples(std::size_t(side) * side, 0.0F)};

@@ -7,7 +7,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/dicom/load_volume.h"
+#include "core/dicom/scan.h"
 #include "core/phantom/phantom.h"
+#include "tests/support/test_data.h"
 
 namespace pellucid {
 
@@ -76,6 +79,17 @@ TEST(StudyContent, ContrastMediumIsFound) {
     EXPECT_FALSE(preprocess::contentOf(trunk(50)).traits.hasContrast);
     EXPECT_TRUE(preprocess::contentOf(trunk(300)).traits.hasContrast);
     EXPECT_FALSE(preprocess::contentOf(phantomOf(phantom::Kind::head)).traits.hasContrast);
+}
+
+// A chest without contrast medium, whose vertebrae have the values of vessels.
+TEST(StudyContent, ARealChestWithoutContrastMediumHasNone) {
+    PELLUCID_NEEDS_TEST_DATA();
+    const auto catalogue = dicom::scan({test::testData() / "ct_chest_philips_64"});
+    const auto traits =
+        preprocess::contentOf(dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume)
+            .traits;
+    EXPECT_FALSE(traits.hasContrast);
+    EXPECT_TRUE(traits.regions.contains(BodyRegion::chest));
 }
 
 } // namespace pellucid

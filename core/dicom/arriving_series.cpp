@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/dicom/arriving_series.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <type_traits>
+
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include "core/decoder/decoder.h"
+#include "core/dicom/modality_values.h"
+#include "core/dicom/scan.h"
+#include "core/system/memory.h"
+#include "core/task/error.h"
+
+namespace pellucid::dicom {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace because = task::because;
+using task::Error;
+using task::ErrorCode;
+
+// Fewer slices come in an instant, and every eighth of them shows nothing.
+constexpr std::size_t leastToShow = 16;
+// With fewer than every eighth slice, there is no projection, and one partial volume is enough.
+constexpr std::size_t coarsestToProject = 8;
+
+// A slice that is there.
+struct Slice {
+    std::size_t number = 0;
+    fs::path path;
+    glm::dvec3 positionMm{0.0};
+};
+
+// Where slice 0 and the step from slice to slice are.
+struct Line {
+    glm::dvec3 originMm, stepMm;
+};
+
+// The line that the slices lie on, if they lie on one by their numbers. *Requires*: sorted by
+// number; at least two.
+std::optional<Line> lineThrough(const std::vector<Slice> &slices) {
+    constexpr double tolerance = 0.25; // of a step
+    const Slice &first = slices.front(), &last = slices.back();
+    const glm::dvec3 step =
+        (last.positionMm - first.positionMm) / double(last.number - first.number);
+    const Line line{first.positionMm - step * double(first.number), step};
+    const double limit = tolerance * glm::length(step);
+    const bool isEven =
+        limit > 0.0 && std::all_of(slices.begin(), slices.end(), [&](const Slice &s) {
+            const glm::dvec3 expected = line.originMm + line.stepMm * double(s.number);
+            return glm::distance(expected, s.positionMm) <= limit;
+        });
+    return isEven ? std::optional(line) : std::nullopt;
+}
+
+// The samples of `count` slices, interpolated between those that are there; nothing if a value does
+// not fit T.
+template <class T>
+std::optional<std::vector<T>>
+interpolated(const std::vector<Slice> &slices, std::size_t count, std::size_t plane,
+             const ValueScale &scale, const DecodedFiles &decoded, const task::Progress &progress) {
+    system::requireMemory(sizeof(T) * double(plane) * double(slices.size() + count));
+    std::vector<T> here(slices.size() * plane);
+    std::atomic<bool> fits = true;
+    tbb::parallel_for(std::size_t(0), slices.size(), [&](std::size_t n) {
+        progress.check();
+        volume::Narrowing ignored(plane);
+        const auto file = decoded.find(slices[n].path);
+        if (!file || !writeValues(*file, 0, scale, here.data() + n * plane, ignored))
+            fits = false;
+    });
+    if (!fits)
+        return std::nullopt;
+    fillMissing(here);
+    std::vector<T> all(count * plane);
+    tbb::parallel_for(std::size_t(0), count, [&](std::size_t k) {
+        progress.check();
+        const auto above = std::find_if(slices.begin(), slices.end(),
+                                        [&](const Slice &s) { return s.number >= k; });
+        const std::size_t upper = std::size_t(std::min(above, slices.end() - 1) - slices.begin());
+        const std::size_t lower = upper > 0 && slices[upper].number > k ? upper - 1 : upper;
+        const T *a = here.data() + lower * plane, *b = here.data() + upper * plane;
+        T *const out = all.data() + k * plane;
+        const std::size_t gap = slices[upper].number - slices[lower].number;
+        const float weight = gap > 0 && k > slices[lower].number
+                                 ? float(k - slices[lower].number) / float(gap)
+                                 : 0.0F;
+        for (std::size_t n = 0; n < plane; ++n) {
+            const float value = float(a[n]) + weight * (float(b[n]) - float(a[n]));
+            if constexpr (std::is_integral_v<T>)
+                out[n] = T(std::lrintf(value));
+            else
+                out[n] = value;
+        }
+    });
+    return all;
+}
+
+} // namespace
+
+std::size_t finestStride(const std::vector<bool> &isHere) {
+    if (isHere.empty() || !isHere.front() || !isHere.back())
+        return 0;
+    std::size_t stride = 1;
+    for (std::size_t n = 0; n < isHere.size(); ++n)
+        while (!isHere[n] && n % stride == 0)
+            stride *= 2;
+    return stride;
+}
+
+ArrivingSeries::ArrivingSeries(std::size_t count)
+    : m_isHere(count), m_missing(count), m_paths(count) {}
+
+void ArrivingSeries::add(std::size_t number, const fs::path &path) {
+    {
+        const std::lock_guard lock(m_mutex);
+        if (m_isHere.at(number))
+            return;
+        m_isHere[number] = true;
+        m_pending.emplace_back(number, path);
+        --m_missing;
+        if (m_missing == 0)
+            m_complete.request_stop();
+    }
+    m_changed.notify_all();
+}
+
+void ArrivingSeries::end() {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_hasEnded = true;
+        m_complete.request_stop();
+    }
+    m_changed.notify_all();
+}
+
+// The files that came since; empty when all are decoded.
+std::vector<ArrivingSeries::Arrival> ArrivingSeries::await(const task::Progress &progress) {
+    constexpr std::chrono::milliseconds pause(20); // after a cancel
+    std::unique_lock lock(m_mutex);
+    while (m_pending.empty() && m_missing > 0 && !m_hasEnded) {
+        progress.check();
+        m_changed.wait_for(lock, pause);
+    }
+    return std::exchange(m_pending, {});
+}
+
+void ArrivingSeries::decode(const std::vector<Arrival> &arrivals, const task::Progress &progress) {
+    tbb::parallel_for(std::size_t(0), arrivals.size(), [&](std::size_t n) {
+        progress.check();
+        const fs::path &path = arrivals[n].second;
+        try {
+            m_decoded.keep(path, decoder::Decoder::shared().image(path, progress));
+        } catch (const Error &error) {
+            // It is read again with the others, where its reason is told.
+            if (error.code() != ErrorCode::unusable && error.code() != ErrorCode::outOfMemory)
+                throw;
+        }
+    });
+    for (const auto &[number, path] : arrivals)
+        m_paths[number] = path;
+}
+
+void ArrivingSeries::showPartial(std::size_t stride, const task::Progress &progress,
+                                 const Show &show) const {
+    std::map<fs::path, std::size_t> numbers;
+    std::vector<fs::path> paths;
+    for (std::size_t n = 0; n < m_paths.size(); ++n)
+        if (!m_paths[n].empty() && m_decoded.header(m_paths[n])) {
+            numbers.emplace(m_paths[n], n);
+            paths.push_back(m_paths[n]);
+        }
+    const Catalogue catalogue = scan(paths, progress, {.decoded = &m_decoded});
+    if (catalogue.empty())
+        return;
+    const VolumeEntry &entry = *defaultSelection(catalogue).volume;
+    std::vector<Slice> slices;
+    for (const FrameReference &frame : entry.frames) {
+        const auto header = m_decoded.header(frame.path);
+        if (!entry.placed || !header || header->frames.size() != 1 ||
+            !header->frames.front().positionMm)
+            return;
+        slices.push_back({numbers.at(frame.path), frame.path, *header->frames.front().positionMm});
+    }
+    std::sort(slices.begin(), slices.end(),
+              [](const Slice &a, const Slice &b) { return a.number < b.number; });
+    if (slices.size() < 2)
+        return;
+    std::size_t count = m_paths.size();
+    // Stacks are sorted along the normal of their slices, which numbers may run against.
+    const volume::Lattice &found = entry.geometry.lattice;
+    if (glm::dot(slices.back().positionMm - slices.front().positionMm, found.sliceNormal()) < 0.0) {
+        std::reverse(slices.begin(), slices.end());
+        for (Slice &slice : slices)
+            slice.number = count - 1 - slice.number;
+    }
+    const auto line = lineThrough(slices);
+    if (!line)
+        return;
+    volume::GridSize size = found.size();
+    size.k = int(count);
+    const volume::Lattice lattice =
+        volume::Lattice::make(size, {line->originMm}, {found.step(0), found.step(1), line->stepMm});
+    volume::VolumeNotes notes = entry.notes;
+    notes.warnings = {because::slicesOfSeries(slices.size(), count)};
+    const std::size_t plane = size.offsetOf(0, 0, 1);
+    const ValueScale scale{entry.unit, entry.valueFactor};
+    const auto deliver = [&](auto samples) {
+        show({volume::Volume(lattice, std::move(samples), entry.unit, std::move(notes)),
+              slices.size(), count, stride},
+             progress);
+    };
+    if (auto whole = interpolated<std::int16_t>(slices, count, plane, scale, m_decoded, progress))
+        deliver(std::move(*whole));
+    else if (auto real = interpolated<float>(slices, count, plane, scale, m_decoded, progress))
+        deliver(std::move(*real));
+}
+
+ArrivedSeries ArrivingSeries::load(const task::Progress &progress, const Show &show) {
+    decoder::Decoder::shared().beginOpening();
+    // Ends what is made of a part, when all is there.
+    std::stop_source stop;
+    const auto forward = [&stop] { stop.request_stop(); };
+    const std::stop_callback cancelled(progress.stopToken(), forward);
+    const std::stop_callback completed(m_complete.get_token(), forward);
+    const task::Progress whileItArrives(stop.get_token());
+    std::size_t shown = 0, done = 0;
+    for (std::vector<Arrival> arrivals; !(arrivals = await(progress)).empty();) {
+        decode(arrivals, progress);
+        done += arrivals.size();
+        progress.report(0.9 * double(done) / double(count()));
+        std::vector<bool> isHere;
+        for (const fs::path &path : m_paths)
+            isHere.push_back(!path.empty());
+        const std::size_t stride = finestStride(isHere);
+        const bool isFiner =
+            stride > 0 && (shown == 0 || (stride < shown && stride <= coarsestToProject));
+        if (!show || !isFiner || count() < leastToShow || stop.stop_requested())
+            continue;
+        shown = stride;
+        try {
+            showPartial(stride, whileItArrives, show);
+        } catch (const task::Cancelled &) {
+            progress.check(); // all is there
+        } catch (const Error &error) {
+            if (error.code() == ErrorCode::internal)
+                throw;
+        }
+    }
+    std::vector<fs::path> paths = m_paths;
+    std::erase_if(paths, [](const fs::path &path) { return path.empty(); });
+    if (paths.empty())
+        throw Error(ErrorCode::unusable, because::holdsNoImages);
+    // In the order of a folder: volumes are told apart by the order of files if by nothing else.
+    std::sort(paths.begin(), paths.end());
+    ArrivedSeries arrived;
+    // Whoever retrieves a huge image wants it.
+    arrived.catalogue = std::make_shared<const Catalogue>(
+        scan(paths, progress.part(0.9, 0.92), {.includesHuge = true, .decoded = &m_decoded}));
+    arrived.loaded = loadVolume(*defaultSelection(*arrived.catalogue).volume,
+                                progress.part(0.92, 1.0), {}, &m_decoded);
+    return arrived;
+}
+
+} // namespace pellucid::dicom

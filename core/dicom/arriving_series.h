@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+#include "core/dicom/catalogue.h"
+#include "core/dicom/decoded_files.h"
+#include "core/dicom/load_volume.h"
+#include "core/task/progress.h"
+
+namespace pellucid::dicom {
+
+/// A volume of which slices lack. They are interpolated between those that are there, which are at
+/// their true places.
+struct PartialVolume {
+    volume::Volume volume; ///< its only warning says how much of it is there
+    std::size_t slices = 0, count = 0;
+    /// Every slice whose number is a multiple of this is there.
+    std::size_t stride = 1;
+};
+
+/// A series, all of which is there.
+struct ArrivedSeries {
+    /// Of the series alone, as a scan of its files makes it.
+    std::shared_ptr<const Catalogue> catalogue;
+    /// The volume that is opened by default, as `loadVolume` loads it.
+    LoadedVolume loaded;
+};
+
+/// A series whose files come one after the other, from coarse to fine. They are decoded as they
+/// come, so that the volume is complete a moment after the last of them, and can be shown before.
+class ArrivingSeries {
+public:
+    /// *Shape*: `count` files, which are numbered in the order of slices, as far as their sender
+    /// knows it. *Requires*: at least one.
+    explicit ArrivingSeries(std::size_t count);
+
+    std::size_t count() const { return m_isHere.size(); }
+    /// A file is there. One that comes again is ignored. Thread-safe.
+    void add(std::size_t number, const std::filesystem::path &path);
+    /// No other file comes. Thread-safe.
+    void end();
+
+    /// Receives what is there at first, and when every eighth, fourth and second slice is there.
+    /// Its progress stops when the series is complete: then a partial volume is of no more use.
+    using Show = std::function<void(const PartialVolume &, const task::Progress &)>;
+    /// Waits for all files, then assembles the volume of those that came. Only series of single
+    /// images whose places follow their numbers evenly are shown before. *Throws* as `scan` and
+    /// `loadVolume`; Error{unusable} if nothing came; Cancelled.
+    ArrivedSeries load(const task::Progress &progress, const Show &show);
+
+private:
+    using Arrival = std::pair<std::size_t, std::filesystem::path>; ///< number and file
+    std::vector<Arrival> await(const task::Progress &progress);
+    void decode(const std::vector<Arrival> &arrivals, const task::Progress &progress);
+    void showPartial(std::size_t stride, const task::Progress &progress, const Show &show) const;
+
+    std::mutex m_mutex;
+    std::condition_variable m_changed;
+    std::vector<bool> m_isHere; ///< by number
+    std::size_t m_missing;
+    std::vector<Arrival> m_pending; ///< not yet decoded
+    bool m_hasEnded = false;
+    std::stop_source m_complete;
+
+    // Of the thread that loads.
+    std::vector<std::filesystem::path> m_paths; ///< by number; empty: not there
+    DecodedFiles m_decoded;
+};
+
+/// The smallest power of two such that every flag whose index is a multiple of it is set, and the
+/// last flag is; 0 if there is none, not even the flags at both ends.
+std::size_t finestStride(const std::vector<bool> &isHere);
+
+} // namespace pellucid::dicom

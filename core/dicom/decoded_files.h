@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "core/decoder/decoder.h"
+
+namespace pellucid::dicom {
+
+/// Files that were decoded before their volume is known, held in memory. Thread-safe.
+class DecodedFiles {
+public:
+    /// Copies a decoded file, unless memory is short: then it is decoded again when it is needed.
+    void keep(const std::filesystem::path &path, const decoder::DecodedFile &file);
+    /// As `Decoder::header` reads it; none if the file is not kept.
+    std::optional<decoder::InstanceHeader> header(const std::filesystem::path &path) const;
+    /// Its samples are valid as long as this object.
+    std::optional<decoder::DecodedFile> find(const std::filesystem::path &path) const;
+
+private:
+    struct Kept {
+        decoder::InstanceHeader header;
+        std::vector<std::uint16_t> samples;
+    };
+    mutable std::mutex m_mutex;
+    std::map<std::filesystem::path, Kept> m_files;
+};
+
+} // namespace pellucid::dicom

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <thread>
+
+#include "core/archive/instance_list.h"
+#include "core/dicom/arriving_series.h"
+#include "core/dicom/scan.h"
+#include "core/task/error.h"
+#include "tests/support/dicom_writer.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid {
+
+namespace {
+
+namespace fs = std::filesystem;
+using dicom::ArrivingSeries;
+using dicom::PartialVolume;
+
+constexpr int slices = 65;
+
+// The files of a series, in the order of their slices.
+std::vector<fs::path> filesOfSeries(const fs::path &folder, const test::SeriesKnobs &knobs) {
+    test::writeSeries(folder, knobs);
+    std::vector<fs::path> files;
+    for (const auto &entry : fs::directory_iterator(folder))
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+test::SeriesKnobs unevenValues() {
+    test::SeriesKnobs knobs;
+    knobs.slices = slices;
+    knobs.value = [](int i, int j, int k) { return 10 * k * k % 977 + 3 * j - i; };
+    return knobs;
+}
+
+std::vector<double> valuesOf(const volume::Volume &volume) {
+    std::vector<double> values;
+    volume.visit([&](auto samples) { values.assign(samples.begin(), samples.end()); });
+    return values;
+}
+
+// Sends files one by one, each after the one before has been looked at, and returns what was shown.
+struct Shown {
+    std::vector<PartialVolume> partial;
+    dicom::ArrivedSeries arrived;
+};
+Shown arrive(const std::vector<fs::path> &files, const std::vector<std::size_t> &order) {
+    ArrivingSeries series(files.size());
+    Shown shown;
+    std::jthread sender([&] {
+        for (const std::size_t n : order) {
+            series.add(n, files[n]);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        series.end();
+    });
+    shown.arrived = series.load({}, [&](const PartialVolume &partial, const task::Progress &) {
+        shown.partial.push_back(partial);
+    });
+    return shown;
+}
+
+TEST(ArrivingSeries, FinestStride) {
+    std::vector<bool> here(17);
+    EXPECT_EQ(dicom::finestStride(here), 0U);
+    here[0] = true;
+    EXPECT_EQ(dicom::finestStride(here), 0U); // the other end lacks
+    here[16] = true;
+    EXPECT_EQ(dicom::finestStride(here), 16U);
+    here[8] = here[4] = true;
+    EXPECT_EQ(dicom::finestStride(here), 8U);
+    here[12] = true;
+    EXPECT_EQ(dicom::finestStride(here), 4U);
+    EXPECT_EQ(dicom::finestStride(std::vector<bool>(17, true)), 1U);
+    EXPECT_EQ(dicom::finestStride({}), 0U);
+}
+
+// Whatever way it came, it is what opening its folder gives, bit by bit.
+TEST(ArrivingSeries, IsInTheEndWhatItIsOnDisk) {
+    const test::TemporaryFolder folder;
+    const auto files = filesOfSeries(folder / "series", unevenValues());
+    const auto catalogue = dicom::scan({folder / "series"});
+    const volume::Volume expected =
+        dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
+    const Shown shown = arrive(files, archive::coarseToFine(files.size()));
+    const volume::Volume &found = shown.arrived.loaded.volume;
+    EXPECT_TRUE(found.lattice() == expected.lattice());
+    EXPECT_EQ(valuesOf(found), valuesOf(expected));
+    EXPECT_EQ(found.unit(), expected.unit());
+    EXPECT_EQ(found.notes().warnings, expected.notes().warnings);
+    EXPECT_EQ(dicom::defaultSelection(*shown.arrived.catalogue).volume->frames,
+              dicom::defaultSelection(catalogue).volume->frames);
+}
+
+// A part is the right box from the first slices on; those that are there are true, those between
+// are interpolated, and it says how many there are.
+TEST(ArrivingSeries, PartsAreInPlaceAndBecomeFiner) {
+    const test::TemporaryFolder folder;
+    const auto files = filesOfSeries(folder / "series", unevenValues());
+    for (const bool isReversed : {false, true}) {
+        std::vector<fs::path> listed = files;
+        if (isReversed) // numbers may run against the positions
+            std::reverse(listed.begin(), listed.end());
+        const Shown shown = arrive(listed, archive::coarseToFine(listed.size()));
+        const volume::Volume &whole = shown.arrived.loaded.volume;
+        ASSERT_GE(shown.partial.size(), 4U);
+        EXPECT_GT(shown.partial.front().stride, 8U);
+        EXPECT_EQ(shown.partial.back().stride, 2U);
+        std::size_t stride = std::size_t(slices);
+        for (const PartialVolume &part : shown.partial) {
+            EXPECT_LT(part.stride, stride);
+            stride = part.stride;
+            EXPECT_EQ(part.count, std::size_t(slices));
+            EXPECT_TRUE(part.volume.lattice().isNear(whole.lattice()));
+            EXPECT_EQ(part.volume.unit(), volume::ValueUnit::hounsfield);
+            ASSERT_EQ(part.volume.notes().warnings.size(), 1U);
+            EXPECT_TRUE(part.volume.notes().warnings[0].is(task::because::slicesOfSeries));
+            const int step = int(stride);
+            for (int k = 0; k < slices; k += step)
+                EXPECT_EQ(part.volume.value({4, 3, k}), whole.value({4, 3, k})) << k;
+        }
+        // Of the last part, the odd slices are means of their neighbors, but for those that came.
+        const volume::Volume &last = shown.partial.back().volume;
+        int means = 0;
+        for (int k = 1; k < slices; k += 2)
+            means += std::abs(last.value({4, 3, k}) - 0.5 * (whole.value({4, 3, k - 1}) +
+                                                             whole.value({4, 3, k + 1}))) <= 0.5
+                         ? 1
+                         : 0;
+        EXPECT_GE(means, slices / 2 - 4);
+    }
+}
+
+TEST(ArrivingSeries, WhatDoesNotComeOrCannotBeReadLacks) {
+    const test::TemporaryFolder folder;
+    auto files = filesOfSeries(folder / "series", unevenValues());
+    std::ofstream(files[10], std::ios::trunc) << "no image";
+    auto order = archive::coarseToFine(files.size());
+    std::erase(order, 20U);
+    const Shown shown = arrive(files, order);
+    EXPECT_EQ(shown.arrived.loaded.volume.lattice().size().k, slices); // two holes, interpolated
+    ASSERT_EQ(shown.arrived.catalogue->skipped.size(), 1U);
+    EXPECT_EQ(shown.arrived.catalogue->skipped[0].path, files[10]);
+    EXPECT_FALSE(shown.arrived.loaded.volume.notes().warnings.empty());
+}
+
+TEST(ArrivingSeries, NothingAndCancelAreErrors) {
+    ArrivingSeries nothing(4);
+    nothing.end();
+    EXPECT_THROW((void)nothing.load({}, {}), task::Error);
+    ArrivingSeries waiting(4);
+    std::stop_source stop;
+    std::jthread canceller([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        stop.request_stop();
+    });
+    EXPECT_THROW((void)waiting.load(task::Progress(stop.get_token()), {}), task::Cancelled);
+}
+
+// Phases at the same places, and pictures without places, are not interpolated.
+TEST(ArrivingSeries, SeriesThatAreNoStackAreNotShownBefore) {
+    const test::TemporaryFolder folder;
+    test::SeriesKnobs knobs = unevenValues();
+    knobs.change = [](test::DicomWriter &w, int) { w.remove({0x0020, 0x0032}); };
+    const auto files = filesOfSeries(folder / "unplaced", knobs);
+    EXPECT_TRUE(arrive(files, archive::coarseToFine(files.size())).partial.empty());
+}
+
+} // namespace
+
+} // namespace pellucid
