@@ -208,11 +208,11 @@ private:
             while (end < instances.size() && instances[end].seriesUid == instances[begin].seriesUid)
                 ++end;
             const std::size_t count = end - begin;
-            const std::size_t size = std::clamp(count / 16, leastOfABatch, mostOfABatch);
+            const std::size_t largest = std::clamp(count / 16, leastOfABatch, mostOfABatch);
             // Dealt out among the connections: together they bring coarse slices before fine ones.
             const Batch empty{instances[begin].studyUid, instances[begin].seriesUid, {}};
             std::vector<Batch> hands(m_connections, empty);
-            std::size_t dealt = 0;
+            std::size_t dealt = 0, taken = 0;
             const auto flush = [&] {
                 for (Batch &hand : hands)
                     if (!hand.uids.empty())
@@ -224,7 +224,9 @@ private:
                 if (!m_missing.contains(uid))
                     continue;
                 hands[dealt++ % hands.size()].uids.push_back(uid);
-                if (dealt == size * hands.size())
+                // Small ones first: what is shown is coarse at first, and must not wait.
+                const std::size_t size = ++taken <= count / 8 + 2 ? leastOfABatch : largest;
+                if (dealt >= size * hands.size())
                     flush();
             }
             flush();

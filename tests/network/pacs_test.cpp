@@ -4,18 +4,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <future>
 #include <iostream>
 #include <map>
 #include <random>
 #include <set>
+#include <thread>
 
 #include "core/archive/listener.h"
 #include "core/archive/receiving.h"
 #include "core/archive/retrieval.h"
 #include "core/archive/search.h"
 #include "core/archive/sending.h"
+#include "core/dicom/arriving_series.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/write_series.h"
 #include "core/phantom/phantom.h"
@@ -373,6 +378,62 @@ TEST_F(Pacs, ALongWayIsUsedByConnectionsTogether) {
     EXPECT_LT(four.seconds, 0.75 * one);
     std::cout << "64 objects at 20 ms: " << one << " s by one connection, " << four.seconds
               << " s by four\n";
+}
+
+// Over 100 Mbit/s: the panes open with the first slices, the projection after an eighth of them,
+// and the whole is there a moment after the last byte.
+TEST_F(Pacs, ASeriesIsSeenLongBeforeItIsHere) {
+    // dcmqrscp lets its connections wait for each other.
+    if (!test::isInstalled("Orthanc"))
+        GTEST_SKIP() << "Orthanc is not installed";
+    test::Orthanc orthanc;
+    archive::Server server = serverAt(orthanc.port(), "ORTHANC");
+    const int slices = std::getenv("PELLUCID_LONG_TESTS") != nullptr ? 512 : 96;
+    const fs::path sent = series("S", slices, 512);
+    put(server, sent);
+    test::Proxy proxy(orthanc.port());
+    proxy.set({.bytesPerSecond = 100e6 / 8.0 / server.connections});
+    server.peer.port = proxy.port();
+    const std::string study = studyIn(sent);
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    const auto since = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+    double first = 0.0, eighth = 0.0, whole = 0.0;
+    std::atomic<double> lastByte = 0.0;
+    std::map<std::string, std::size_t> numbers;
+    std::shared_ptr<dicom::ArrivingSeries> arriving;
+    std::promise<void> listed;
+    std::jthread loader([&] {
+        listed.get_future().wait();
+        const auto arrived =
+            arriving->load({}, [&](const dicom::PartialVolume &part, const task::Progress &) {
+                first = first == 0.0 ? since() : first;
+                if (part.stride <= 8 && eighth == 0.0)
+                    eighth = since();
+            });
+        whole = since();
+        EXPECT_EQ(arrived.loaded.volume.lattice().size().k, slices);
+    });
+    archive::RetrievalObserver observer;
+    observer.listed = [&](const std::vector<archive::Instance> &instances) {
+        for (const archive::Instance &instance : instances)
+            numbers.emplace(instance.sopInstanceUid, numbers.size());
+        arriving = std::make_shared<dicom::ArrivingSeries>(numbers.size());
+        listed.set_value();
+    };
+    observer.stored = [&](const archive::StoredObject &object) {
+        lastByte = since();
+        arriving->add(numbers.at(object.sopInstanceUid), object.path);
+    };
+    const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    EXPECT_TRUE(archive::retrieve(server, {study, {}}, folder, observer).isComplete());
+    loader.join();
+    std::cout << slices << " slices at 100 Mbit/s: the first shown after " << first
+              << " s, an eighth after " << eighth << " s, all here after " << lastByte
+              << " s, assembled " << whole - lastByte << " s later\n";
+    EXPECT_GT(first, 0.0);
+    EXPECT_GT(eighth, 0.0);
+    EXPECT_LT(eighth, 0.6 * lastByte);
 }
 
 TEST_F(Pacs, TheListenerConfirmsWhatItHas) {

@@ -164,7 +164,8 @@ private:
 /// What a proxy does to a connection, counted in bytes from the server. Not set: nothing.
 struct Mischief {
     long cutAfter = -1, stallAfter = -1, flipAt = -1;
-    int delayMs = 0; ///< of each direction
+    int delayMs = 0;             ///< of each direction
+    double bytesPerSecond = 0.0; ///< from the server, of each connection; 0: no limit
 };
 
 /// Stands between the program and a server. Thread-safe.
@@ -230,6 +231,8 @@ private:
         long fromServer = 0;
         std::vector<char> buffer(1 << 16);
         bool isStalled = false;
+        Clock::time_point lastDue = Clock::now();
+        constexpr std::size_t mostWaiting = 4; // then the server has to wait
         while (!stop.stop_requested()) {
             for (int way = 0; way < 2; ++way)
                 while (!queues[std::size_t(way)].empty() &&
@@ -251,6 +254,10 @@ private:
             for (int from = 0; from < 2; ++from) {
                 if (waiting[std::size_t(from)].revents == 0 || isStalled)
                     continue;
+                if (mischief.bytesPerSecond > 0.0 && queues[1].size() >= mostWaiting && from == 1) {
+                    ::usleep(500);
+                    continue;
+                }
                 const ssize_t got =
                     ::recv(from == 0 ? client : server, buffer.data(), buffer.size(), 0);
                 if (got <= 0)
@@ -268,8 +275,15 @@ private:
                         return;
                     isStalled = mischief.stallAfter >= 0 && fromServer > mischief.stallAfter;
                 }
-                queues[std::size_t(from)].push_back(
-                    {Clock::now() + std::chrono::milliseconds(mischief.delayMs), std::move(bytes)});
+                auto due = Clock::now() + std::chrono::milliseconds(mischief.delayMs);
+                if (from == 1 && mischief.bytesPerSecond > 0.0) {
+                    lastDue =
+                        std::max(lastDue, Clock::now()) +
+                        std::chrono::duration_cast<Clock::duration>(
+                            std::chrono::duration<double>(double(got) / mischief.bytesPerSecond));
+                    due = std::max(due, lastDue);
+                }
+                queues[std::size_t(from)].push_back({due, std::move(bytes)});
             }
             if (isStalled) {
                 if (std::array<char, 64> byte{};

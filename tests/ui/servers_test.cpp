@@ -44,7 +44,9 @@ private slots:
         enter(*dialog, "archive", m_dcmqrscp->port());
         auto *const message = dialog->findChild<QLabel *>("serverMessage");
         const auto test = [&] {
-            QTest::mouseClick(dialog->findChild<QPushButton *>("testServerButton"), Qt::LeftButton);
+            auto *const button = dialog->findChild<QPushButton *>("testServerButton");
+            QTRY_VERIFY_WITH_TIMEOUT(button->isEnabled(), patienceMs); // the last test has ended
+            QTest::mouseClick(button, Qt::LeftButton);
         };
         test();
         QTRY_VERIFY_WITH_TIMEOUT(message->text().contains("C-FIND"), patienceMs);
