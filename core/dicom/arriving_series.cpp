@@ -37,32 +37,31 @@ struct Slice {
     std::size_t number = 0;
     fs::path path;
     glm::dvec3 positionMm{0.0};
+    double depthMm = 0.0; ///< from the first slice that is there
 };
 
-// Where slice 0 and the step from slice to slice are.
-struct Line {
-    glm::dvec3 originMm, stepMm;
-};
-
-// The line that the slices lie on, if they lie on one by their numbers. *Requires*: sorted by
-// number; at least two.
-std::optional<Line> lineThrough(const std::vector<Slice> &slices) {
-    constexpr double tolerance = 0.25; // of a step
-    const Slice &first = slices.front(), &last = slices.back();
-    const glm::dvec3 step =
-        (last.positionMm - first.positionMm) / double(last.number - first.number);
-    const Line line{first.positionMm - step * double(first.number), step};
-    const double limit = tolerance * glm::length(step);
-    const bool isEven =
-        limit > 0.0 && std::all_of(slices.begin(), slices.end(), [&](const Slice &s) {
-            const glm::dvec3 expected = line.originMm + line.stepMm * double(s.number);
-            return glm::distance(expected, s.positionMm) <= limit;
-        });
-    return isEven ? std::optional(line) : std::nullopt;
+// Sets the depths along the line through the slices at both ends. False if they do not lie on it in
+// the order of their numbers. *Requires*: sorted by number; at least two.
+bool sortsAlongALine(std::vector<Slice> &slices) {
+    constexpr double tolerance = 0.25; // of the mean step
+    const glm::dvec3 whole = slices.back().positionMm - slices.front().positionMm;
+    const double length = glm::length(whole);
+    const double limit = tolerance * length / double(slices.back().number - slices.front().number);
+    if (!(length > 0.0))
+        return false;
+    double before = -length;
+    for (Slice &slice : slices) {
+        const glm::dvec3 from = slice.positionMm - slices.front().positionMm;
+        slice.depthMm = glm::dot(from, whole) / length;
+        if (slice.depthMm <= before || glm::distance(from, whole * slice.depthMm / length) > limit)
+            return false;
+        before = slice.depthMm;
+    }
+    return true;
 }
 
-// The samples of `count` slices, interpolated between those that are there; nothing if a value does
-// not fit T.
+// The samples of `count` slices at even depths, interpolated between those that are there; nothing
+// if a value does not fit T.
 template <class T>
 std::optional<std::vector<T>>
 interpolated(const std::vector<Slice> &slices, std::size_t count, std::size_t plane,
@@ -81,18 +80,21 @@ interpolated(const std::vector<Slice> &slices, std::size_t count, std::size_t pl
         return std::nullopt;
     fillMissing(here);
     std::vector<T> all(count * plane);
+    const double stepMm = slices.back().depthMm / double(count - 1);
     tbb::parallel_for(std::size_t(0), count, [&](std::size_t k) {
         progress.check();
-        const auto above = std::find_if(slices.begin(), slices.end(),
-                                        [&](const Slice &s) { return s.number >= k; });
+        constexpr double nearest = 1e-3; // of a step: written positions are rounded
+        const double depthMm = stepMm * double(k);
+        const auto above = std::find_if(slices.begin(), slices.end(), [&](const Slice &s) {
+            return s.depthMm >= depthMm - nearest * stepMm;
+        });
         const std::size_t upper = std::size_t(std::min(above, slices.end() - 1) - slices.begin());
-        const std::size_t lower = upper > 0 && slices[upper].number > k ? upper - 1 : upper;
+        const bool isThere = slices[upper].depthMm <= depthMm + nearest * stepMm;
+        const std::size_t lower = upper > 0 && !isThere ? upper - 1 : upper;
         const T *a = here.data() + lower * plane, *b = here.data() + upper * plane;
         T *const out = all.data() + k * plane;
-        const std::size_t gap = slices[upper].number - slices[lower].number;
-        const float weight = gap > 0 && k > slices[lower].number
-                                 ? float(k - slices[lower].number) / float(gap)
-                                 : 0.0F;
+        const double gapMm = slices[upper].depthMm - slices[lower].depthMm;
+        const float weight = gapMm > 0.0 ? float((depthMm - slices[lower].depthMm) / gapMm) : 0.0F;
         for (std::size_t n = 0; n < plane; ++n) {
             const float value = float(a[n]) + weight * (float(b[n]) - float(a[n]));
             if constexpr (std::is_integral_v<T>)
@@ -181,7 +183,8 @@ void ArrivingSeries::showPartial(std::size_t stride, const task::Progress &progr
     const Catalogue catalogue = scan(paths, progress, {.decoded = &m_decoded});
     if (catalogue.empty())
         return;
-    const VolumeEntry &entry = *defaultSelection(catalogue).volume;
+    // With its holes: most of them are slices that have yet to come.
+    const VolumeEntry &entry = *defaultSelection(catalogue, Holes::fill).volume;
     std::vector<Slice> slices;
     for (const FrameReference &frame : entry.frames) {
         const auto header = m_decoded.header(frame.path);
@@ -192,30 +195,30 @@ void ArrivingSeries::showPartial(std::size_t stride, const task::Progress &progr
     }
     std::sort(slices.begin(), slices.end(),
               [](const Slice &a, const Slice &b) { return a.number < b.number; });
-    if (slices.size() < 2)
-        return;
-    std::size_t count = m_paths.size();
     // Stacks are sorted along the normal of their slices, which numbers may run against.
     const volume::Lattice &found = entry.geometry.lattice;
+    if (slices.size() < 2 || !sortsAlongALine(slices))
+        return;
+    const std::size_t count = slices.back().number - slices.front().number + 1;
     if (glm::dot(slices.back().positionMm - slices.front().positionMm, found.sliceNormal()) < 0.0) {
         std::reverse(slices.begin(), slices.end());
+        const double length = slices.front().depthMm;
         for (Slice &slice : slices)
-            slice.number = count - 1 - slice.number;
+            slice.depthMm = length - slice.depthMm;
     }
-    const auto line = lineThrough(slices);
-    if (!line)
-        return;
+    const glm::dvec3 step =
+        (slices.back().positionMm - slices.front().positionMm) / double(count - 1);
     volume::GridSize size = found.size();
     size.k = int(count);
-    const volume::Lattice lattice =
-        volume::Lattice::make(size, {line->originMm}, {found.step(0), found.step(1), line->stepMm});
+    const volume::Lattice lattice = volume::Lattice::make(size, {slices.front().positionMm},
+                                                          {found.step(0), found.step(1), step});
     volume::VolumeNotes notes = entry.notes;
-    notes.warnings = {because::slicesOfSeries(slices.size(), count)};
+    notes.warnings = {because::slicesOfSeries(slices.size(), m_paths.size())};
     const std::size_t plane = size.offsetOf(0, 0, 1);
     const ValueScale scale{entry.unit, entry.valueFactor};
     const auto deliver = [&](auto samples) {
         show({volume::Volume(lattice, std::move(samples), entry.unit, std::move(notes)),
-              slices.size(), count, stride},
+              slices.size(), m_paths.size(), stride},
              progress);
     };
     if (auto whole = interpolated<std::int16_t>(slices, count, plane, scale, m_decoded, progress))
@@ -267,6 +270,7 @@ ArrivedSeries ArrivingSeries::load(const task::Progress &progress, const Show &s
         scan(paths, progress.part(0.9, 0.92), {.includesHuge = true, .decoded = &m_decoded}));
     arrived.loaded = loadVolume(*defaultSelection(*arrived.catalogue).volume,
                                 progress.part(0.92, 1.0), {}, &m_decoded);
+    m_decoded.clear(); // whoever holds this object does not hold the volume twice
     return arrived;
 }
 

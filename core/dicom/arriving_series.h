@@ -17,8 +17,8 @@
 
 namespace pellucid::dicom {
 
-/// A volume of which slices lack. They are interpolated between those that are there, which are at
-/// their true places.
+/// A volume of which slices lack. It has as many slices as it will have files, at even distances
+/// between its ends, interpolated between those that are there.
 struct PartialVolume {
     volume::Volume volume; ///< its only warning says how much of it is there
     std::size_t slices = 0, count = 0;
@@ -52,8 +52,9 @@ public:
     /// Its progress stops when the series is complete: then a partial volume is of no more use.
     using Show = std::function<void(const PartialVolume &, const task::Progress &)>;
     /// Waits for all files, then assembles the volume of those that came. Only series of single
-    /// images whose places follow their numbers evenly are shown before. *Throws* as `scan` and
-    /// `loadVolume`; Error{unusable} if nothing came; Cancelled.
+    /// images that lie on a line in the order of their numbers are shown before. *Requires*: it is
+    /// called once. *Throws* as `scan` and `loadVolume`; Error{unusable} if nothing came;
+    /// Cancelled.
     ArrivedSeries load(const task::Progress &progress, const Show &show);
 
 private:

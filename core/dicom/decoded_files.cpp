@@ -48,4 +48,9 @@ std::optional<decoder::DecodedFile> DecodedFiles::find(const std::filesystem::pa
     return decoder::DecodedFile{at->second.header, at->second.samples, std::nullopt};
 }
 
+void DecodedFiles::clear() {
+    const std::lock_guard lock(m_mutex);
+    m_files.clear();
+}
+
 } // namespace pellucid::dicom

@@ -18,8 +18,9 @@ public:
     void keep(const std::filesystem::path &path, const decoder::DecodedFile &file);
     /// As `Decoder::header` reads it; none if the file is not kept.
     std::optional<decoder::InstanceHeader> header(const std::filesystem::path &path) const;
-    /// Its samples are valid as long as this object.
+    /// Its samples are valid until `clear`.
     std::optional<decoder::DecodedFile> find(const std::filesystem::path &path) const;
+    void clear();
 
 private:
     struct Kept {

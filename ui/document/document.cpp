@@ -108,7 +108,8 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
                          const classify::FieldWindow &fieldWindow, bool preview) {
     m_initialWindow = initialWindow;
     m_fieldWindow = fieldWindow;
-    const bool same = m_volume && m_preview && m_volume->lattice().isNear(volume.lattice());
+    const bool same = m_volume && m_preview;
+    const bool isInPlace = same && m_volume->lattice().isNear(volume.lattice());
     m_volume = volume;
     m_preview = preview;
     m_exposure.reset(); // that of a preview, which lacks slices, is another one
@@ -138,6 +139,8 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
         m_pose = {};
         setSegments(nullptr);
     }
+    if (same && !isInPlace) // slices that were not there lie elsewhere than expected
+        m_crosshair = middleSample(volume.lattice());
     // A preview's quantiles are those of the slices that came first; a window that the user has set
     // meanwhile stays.
     if (!same || (!preview && !m_isWindowSet))

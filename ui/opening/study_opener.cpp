@@ -472,8 +472,8 @@ void StudyOpener::openArriving(const StudyFacts &study,
     StudySource source;
     source.study = study;
     source.volume.description = tr("Arriving");
-    source.load = [series](const task::Progress &progress, const dicom::LoadObserver &) {
-        return series->load(progress, {}).loaded;
+    source.load = [](const task::Progress &, const dicom::LoadObserver &) -> dicom::LoadedVolume {
+        throw task::Error(task::ErrorCode::unusable, task::because::seriesIsGone);
     };
     const int index = m_document.addSources({source}).front();
     const PreparedFor wanted = leaveFor(index);

@@ -2,6 +2,7 @@
 #include "ui/window/server_commands.h"
 
 #include <QDockWidget>
+#include <QFileInfo>
 #include <QMainWindow>
 #include <QPointer>
 
@@ -28,6 +29,7 @@ ServerCommands::ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks
             [this](const QString &uid, const std::shared_ptr<dicom::ArrivingSeries> &series) {
                 if (m_awaited && m_awaited->study.uid == uid) {
                     const RemoteStudy study = *m_awaited;
+                    m_seen = uid;
                     m_bench.study.opener.openArriving(study.study, series);
                 }
             });
@@ -36,7 +38,9 @@ ServerCommands::ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks
     connect(&bench.transfers, &TransferQueue::failed, this, &ServerCommands::failed);
     // What was asked for is shown, unless another study is open by then.
     connect(&bench.transfers, &TransferQueue::completed, this, [this](const QString &folder) {
-        if (m_bench.study.document.currentSource() < 0 && !m_bench.study.jobs.isRunning())
+        const bool isIdle =
+            m_bench.study.document.currentSource() < 0 && !m_bench.study.jobs.isRunning();
+        if (isIdle && QFileInfo(folder).fileName() != m_seen)
             emit studyArrived(folder);
         else
             emit messageShown(tr("A study has arrived"));

@@ -38,6 +38,8 @@ private:
     Workbench &m_bench;
     /// The study that was asked for last, unless another one has been opened since.
     std::optional<RemoteStudy> m_awaited;
+    /// The study that was opened last while it arrived: it is not opened again at its end.
+    QString m_seen;
 };
 
 } // namespace pellucid::ui

@@ -5,12 +5,16 @@
 #include <fstream>
 #include <thread>
 
+#include <glm/geometric.hpp>
+
 #include "core/archive/instance_list.h"
+#include "core/decoder/decoder.h"
 #include "core/dicom/arriving_series.h"
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
 #include "tests/support/dicom_writer.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
 
 namespace pellucid {
 
@@ -161,6 +165,41 @@ TEST(ArrivingSeries, NothingAndCancelAreErrors) {
         stop.request_stop();
     });
     EXPECT_THROW((void)waiting.load(task::Progress(stop.get_token()), {}), task::Cancelled);
+}
+
+// Real series, tilted ones, phases and odd ones among them: whatever is shown before is in place,
+// and what comes in the end is what is on the disk.
+TEST(ArrivingSeries, RealSeriesArriveAsTheyAre) {
+    PELLUCID_NEEDS_TEST_DATA();
+    int shownBefore = 0;
+    for (const char *const name :
+         {"ct_chest_philips_64", "ct_head_tilt_ge_28", "mr_t1_sag_siemens_35",
+          "nasty_mr_12bit_signed", "nasty_mr_duplicate_pos_ge_8", "nasty_ct_missing_slice_ge_4",
+          "nasty_ct_mixed_series_philips", "nasty_mr_enhanced_siemens_xa10"}) {
+        const auto catalogue = dicom::scan({test::testData() / name});
+        const dicom::Selection selected = dicom::defaultSelection(catalogue);
+        const volume::Volume expected = dicom::loadVolume(*selected.volume).volume;
+        std::vector<std::pair<int, fs::path>> numbered;
+        for (const dicom::InstanceFile &file : selected.series->files)
+            numbered.emplace_back(decoder::Decoder::shared().header(file.path).instanceNumber,
+                                  file.path);
+        std::sort(numbered.begin(), numbered.end());
+        std::vector<fs::path> files;
+        for (const auto &[number, path] : numbered)
+            files.push_back(path);
+        const Shown shown = arrive(files, archive::coarseToFine(files.size()));
+        const volume::Volume &found = shown.arrived.loaded.volume;
+        EXPECT_TRUE(found.lattice() == expected.lattice()) << name;
+        EXPECT_EQ(valuesOf(found), valuesOf(expected)) << name;
+        EXPECT_EQ(found.notes().warnings, expected.notes().warnings) << name;
+        shownBefore += shown.partial.empty() ? 0 : 1;
+        for (const PartialVolume &part : shown.partial)
+            EXPECT_LT(
+                glm::distance(part.volume.lattice().center().mm, expected.lattice().center().mm),
+                expected.lattice().longestStepMm())
+                << name;
+    }
+    EXPECT_GE(shownBefore, 3);
 }
 
 // Phases at the same places, and pictures without places, are not interpolated.
