@@ -110,7 +110,7 @@ void find(const Options &o, const Context &context) {
         for (const archive::FoundEntry &entry : result.entries)
             std::puts(printable(lineOf(entry, o.terms.level)).c_str());
     }
-    // Of several servers, those that answer are enough.
+    // One answer is enough to print; the exit code still says that some servers failed.
     const bool haveAllFailed =
         std::all_of(result.outcomes.begin(), result.outcomes.end(),
                     [](const archive::ServerOutcome &one) { return one.failure.has_value(); });

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -61,28 +60,17 @@ std::string summaryOf(const RetrievalReport &report) {
 void run(TransferLog &log, std::int64_t id, const Options &o, const Context &context) {
     const Transfer transfer = log.transfer(id).value();
     const archive::Server server = serverNamed(transfer.server);
-    archive::RetrievalObserver observer;
-    const bool isWatched = ::isatty(STDERR_FILENO) == 1;
-    observer.changed = [&](const archive::RetrievalState &state) {
-        if (isWatched)
-            fmt::print(stderr, "\r{} of {}  {:.1f} MB ", state.present + state.received,
-                       state.wanted, double(state.bytes) / 1e6);
-    };
     const RetrievalReport report = task::naming(server.name, [&] {
-        return archive::runTransfer(log, id, server, observer, task::Progress(context.stop),
-                                    o.destination);
+        return watched([&](const archive::RetrievalObserver &observer) {
+            return archive::runTransfer(log, id, server, observer, task::Progress(context.stop),
+                                        o.destination);
+        });
     });
-    if (isWatched)
-        std::fputs("\n", stderr);
     if (o.json)
         std::puts(jsonText(jsonOf(report, transfer.folder)).c_str());
     else
         std::puts(printable(summaryOf(report)).c_str());
-    if (!report.isComplete())
-        throw task::Error(
-            task::ErrorCode::incomplete,
-            task::because::objectsLack(report.lacking.size(), report.lacking.front().reason),
-            server.name);
+    requireComplete(report, server.name);
 }
 
 void get(const Options &o, const Context &context) {

@@ -204,22 +204,28 @@ void printHeaders(const std::vector<std::filesystem::path> &paths, bool asJson,
 void addInfoCommand(CLI::App &app, const Context &context) {
     struct Options {
         std::vector<std::string> paths;
+        RemoteOptions remote;
         bool json = false, large = false, header = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand(
         "info", "List patients, studies, series, geometry, warnings and skipped files");
-    command
-        ->add_option("PATH", options->paths,
-                     "Files, folders, DICOMDIRs, ZIP archives, or volumes in NRRD, NIfTI or "
-                     "MetaImage")
-        ->required();
+    CLI::Option *const path = command->add_option(
+        "PATH", options->paths,
+        "Files, folders, DICOMDIRs, ZIP archives, or volumes in NRRD, NIfTI or MetaImage");
+    addRemoteOptions(*command, options->remote, *path);
     command->add_flag("--json", options->json, "Print one JSON object");
-    command->add_flag("--header", options->header, "Print all attributes of DICOM files");
+    command->add_flag("--header", options->header, "Print all attributes of DICOM files")
+        ->needs(path);
     addLargeOption(*command, options->large);
     command->callback([options, context] {
-        const std::vector<std::filesystem::path> paths(options->paths.begin(),
-                                                       options->paths.end());
+        requirePathOrServer(!options->paths.empty(), options->remote);
+        std::vector<std::filesystem::path> paths(options->paths.begin(), options->paths.end());
+        std::optional<FetchedStudy> fetched;
+        if (options->remote.isGiven()) {
+            fetched.emplace(options->remote, "", context);
+            paths = {fetched->path()};
+        }
         if (options->header) {
             printHeaders(paths, options->json, context);
             return;

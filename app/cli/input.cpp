@@ -171,11 +171,10 @@ void addLargeOption(CLI::App &command, bool &large) {
 }
 
 void addInputOptions(CLI::App &command, InputOptions &options) {
-    command
-        .add_option("PATH", options.path,
-                    "A file, a folder, a DICOMDIR, a ZIP archive, or a volume in NRRD, NIfTI or "
-                    "MetaImage")
-        ->required();
+    CLI::Option *const path = command.add_option(
+        "PATH", options.path,
+        "A file, a folder, a DICOMDIR, a ZIP archive, or a volume in NRRD, NIfTI or MetaImage");
+    addRemoteOptions(command, options.remote, *path);
     command
         .add_option("--series", options.series,
                     "Series number or UID; default: the one whose volume has the most voxels")
@@ -196,10 +195,15 @@ namespace {
 
 Input openOne(const InputOptions &options, const std::vector<std::filesystem::path> &outs,
               const Context &context) {
-    const std::filesystem::path path = options.path;
     Stopwatch watch;
+    std::optional<FetchedStudy> fetched;
+    if (options.remote.isGiven())
+        fetched.emplace(options.remote, options.series, context);
+    const std::filesystem::path path =
+        options.remote.isGiven() ? options.remote.server : options.path;
     const task::Progress progress(context.stop);
-    const dicom::Catalogue catalogue = dicom::scan({path}, progress, {options.large});
+    const dicom::Catalogue catalogue =
+        dicom::scan({fetched ? fetched->path() : path}, progress, {options.large});
     Input input;
     input.skipped = catalogue.skipped;
     input.scanMs = watch.lapMs();
@@ -293,6 +297,7 @@ void subtractFrom(Input &input, const InputOptions &options,
 
 Input openInput(const InputOptions &options, const std::vector<std::filesystem::path> &outs,
                 const Context &context) {
+    requirePathOrServer(!options.path.empty(), options.remote);
     Input input = openOne(options, outs, context);
     if (!options.subtract.empty())
         subtractFrom(input, options, outs, context);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/cli/commands.h"
+#include "app/cli/fetched_study.h"
 #include "core/classify/density_field.h"
 #include "core/dicom/catalogue.h"
 #include "core/dicom/load_volume.h"
@@ -32,6 +33,7 @@ CLI::Validator notEmpty();
 /// The options that select a command's input.
 struct InputOptions {
     std::string path, series;
+    RemoteOptions remote;
     int volume = 0; ///< number within the series, from 1; 0 selects the default
     bool fillGaps = false, large = false;
     std::string subtract, subtractSeries, alignment, ///< of a volume that is subtracted
@@ -41,7 +43,7 @@ struct InputOptions {
 /// Adds --large.
 void addLargeOption(CLI::App &command, bool &large);
 
-/// Adds PATH, --series, --volume, --fill-gaps and --large.
+/// Adds PATH, --from, --study, --series, --volume, --fill-gaps and --large.
 void addInputOptions(CLI::App &command, InputOptions &options);
 /// Adds --subtract, --subtract-series, --register and --weights.
 void addSubtractionOptions(CLI::App &command, InputOptions &options);

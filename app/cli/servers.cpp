@@ -36,19 +36,6 @@ std::string ask(const std::string &question) {
     return line;
 }
 
-// Whether a private key has to be unlocked.
-bool isEncrypted(const std::string &key) {
-    if (key.empty())
-        return false;
-    std::FILE *const file = std::fopen(key.c_str(), "re");
-    if (file == nullptr)
-        return false; // reported when it is used
-    std::string text(4096, '\0');
-    text.resize(std::fread(text.data(), 1, text.size(), file));
-    std::fclose(file);
-    return text.find("ENCRYPTED") != std::string::npos;
-}
-
 } // namespace
 
 archive::Server serverNamed(const std::string &name) {
@@ -65,7 +52,7 @@ std::vector<archive::Server> serversNamed(const std::vector<std::string> &names)
                 ask(fmt::format("Password of {} at {}: ", server.peer.user, server.name));
         else if (server.peer.authentication == exchange::Authentication::bearer)
             server.peer.secret = ask(fmt::format("Token for {}: ", server.name));
-        if (isEncrypted(server.peer.key))
+        if (archive::isEncryptedKey(server.peer.key))
             server.peer.keyPassword = ask(fmt::format("Password of {}: ", server.peer.key));
         servers.push_back(std::move(server));
     }
@@ -77,6 +64,28 @@ std::string rateText(std::uint64_t bytes, double seconds) {
     const double megabytes = double(bytes) / perMegabyte;
     return seconds > 0.0 ? fmt::format("{:.1f} MB, {:.1f} MB/s", megabytes, megabytes / seconds)
                          : fmt::format("{:.1f} MB", megabytes);
+}
+
+archive::RetrievalReport watched(
+    const std::function<archive::RetrievalReport(const archive::RetrievalObserver &)> &retrieve) {
+    archive::RetrievalObserver observer;
+    const bool isWatched = ::isatty(STDERR_FILENO) == 1;
+    if (isWatched)
+        observer.changed = [](const archive::RetrievalState &state) {
+            fmt::print(stderr, "\r{} of {}  {:.1f} MB ", state.present + state.received,
+                       state.wanted, double(state.bytes) / 1e6);
+        };
+    const archive::RetrievalReport report = retrieve(observer);
+    if (isWatched)
+        std::fputs("\n", stderr);
+    return report;
+}
+
+void requireComplete(const archive::RetrievalReport &report, const std::string &server) {
+    if (!report.isComplete())
+        throw task::Error(
+            task::ErrorCode::incomplete,
+            because::objectsLack(report.lacking.size(), report.lacking.front().reason), server);
 }
 
 } // namespace pellucid::cli

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "core/archive/retrieval.h"
 #include "core/archive/server.h"
 
 namespace pellucid::cli {
@@ -14,7 +16,14 @@ namespace pellucid::cli {
 std::vector<archive::Server> serversNamed(const std::vector<std::string> &names);
 archive::Server serverNamed(const std::string &name);
 
-/// The line about objects per second of a transfer.
+/// The rate of a transfer, in MB/s.
 std::string rateText(std::uint64_t bytes, double seconds);
+
+/// Runs a retrieval; the terminal, if there is one, shows how far it is. *Throws* as `retrieve`.
+archive::RetrievalReport watched(
+    const std::function<archive::RetrievalReport(const archive::RetrievalObserver &)> &retrieve);
+
+/// *Throws* Error{incomplete} if objects lack.
+void requireComplete(const archive::RetrievalReport &report, const std::string &server);
 
 } // namespace pellucid::cli

@@ -9,6 +9,7 @@
 #include <QIcon>
 #include <QSocketNotifier>
 #include <QSurfaceFormat>
+#include <QUrl>
 
 #include <CLI/CLI.hpp>
 
@@ -22,7 +23,9 @@
 #include "core/task/error.h"
 #include "ui/engine/graphics_card.h"
 #include "ui/language/failure.h"
+#include "ui/servers/open_request.h"
 #include "ui/window/application.h"
+#include "ui/window/link_port.h"
 #include "ui/window/main_window.h"
 #include "ui/window/reopening.h"
 #include "ui/window/workstation.h"
@@ -71,7 +74,8 @@ int main(int argc, char **argv) {
     options.add_option("--engine", engine, "Engine that renders the projections: auto, cpu or gpu")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     options.add_option("PATH", paths,
-                       "Files, folders, a DICOMDIR, ZIP archives or NRRD files to open");
+                       "Files, folders, a DICOMDIR, ZIP archives or NRRD files to open; or a link "
+                       "pellucid://open?server=NAME&studyUID=UID");
     try {
         options.parse(argc, argv);
     } catch (const CLI::Success &success) {
@@ -140,12 +144,33 @@ int main(int argc, char **argv) {
                  : engine == "cpu" ? ui::EngineChoice::processor
                                    : ui::EngineChoice::automatic;
     try {
+        QStringList files, links;
+        for (const std::string &path : paths) {
+            const QString text = QString::fromStdString(path);
+            if (ui::isLink(text))
+                links << text;
+            else // desktops name files by URLs, too
+                files << (text.startsWith("file://") ? QUrl(text).toLocalFile() : text);
+        }
+        // A program that is running opens it. A link that is wrong is reported here.
+        for (const QString &link : links)
+            ui::openRequestOf(link);
+        if (files.isEmpty() && links.size() == 1 && ui::LinkPort::handOver(links.front()))
+            return 0;
         ui::Workstation workstation(choice);
-        QStringList files;
-        for (const std::string &path : paths)
-            files << QString::fromStdString(path);
+        const ui::LinkPort port;
+        QObject::connect(&port, &ui::LinkPort::linkReceived, &workstation,
+                         [&workstation](const QString &link) {
+                             ui::MainWindow &window = workstation.window();
+                             window.setWindowState(window.windowState() & ~Qt::WindowMinimized);
+                             window.raise();
+                             window.activateWindow();
+                             window.openLink(link);
+                         });
         if (!files.isEmpty())
             workstation.window().openPaths(files);
+        else if (!links.isEmpty())
+            workstation.window().openLink(links.front());
         else if (ui::Preferences::load().resumesAtStart)
             workstation.window().reopening().resume();
         return QApplication::exec();

@@ -18,7 +18,7 @@ struct Instance {
     int number = 0;          ///< 0 if unknown
 };
 
-/// What is wanted of a study: all of it, or these series.
+/// Names a study, or some series of it.
 struct Wanted {
     std::string studyUid;
     std::vector<std::string> seriesUids;

@@ -10,10 +10,8 @@
 #include <exception>
 #include <list>
 #include <mutex>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <poll.h>
-#include <set>
 #include <sys/socket.h>
 #include <thread>
 
@@ -37,20 +35,6 @@ std::string textOf(const in_addr &address) {
     std::array<char, INET_ADDRSTRLEN> text{};
     ::inet_ntop(AF_INET, &address, text.data(), text.size());
     return text.data();
-}
-
-std::set<std::string> addressesOf(const std::string &host) {
-    addrinfo wanted{};
-    wanted.ai_family = AF_INET;
-    wanted.ai_socktype = SOCK_STREAM;
-    addrinfo *found = nullptr;
-    std::set<std::string> addresses;
-    if (::getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0)
-        return addresses;
-    for (const addrinfo *each = found; each != nullptr; each = each->ai_next)
-        addresses.insert(textOf(reinterpret_cast<const sockaddr_in *>(each->ai_addr)->sin_addr));
-    ::freeaddrinfo(found);
-    return addresses;
 }
 
 Descriptor openPort(int port, int &boundPort) {
@@ -125,7 +109,8 @@ private:
     std::vector<std::string> titlesAt(const std::string &address) const {
         std::vector<std::string> titles;
         for (const Sender &sender : m_options.senders)
-            if (addressesOf(sender.host).contains(address))
+            if (const auto known = exchange::addressesOf(sender.host);
+                std::find(known.begin(), known.end(), address) != known.end())
                 titles.push_back(sender.ae);
         return titles;
     }

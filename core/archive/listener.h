@@ -15,6 +15,8 @@ namespace pellucid::archive {
 struct Sender {
     std::string ae; ///< empty: any at this host
     std::string host;
+
+    bool operator==(const Sender &) const = default;
 };
 
 struct ListenerOptions {
@@ -25,9 +27,11 @@ struct ListenerOptions {
     bool usesTls = false;
     std::string authorities, certificate, key, keyPassword; ///< as of exchange::Peer
     double silenceSeconds = 60.0;
+
+    bool operator==(const ListenerOptions &) const = default;
 };
 
-/// What happens at a listener. Called from threads of its own, one at a time.
+/// Reports what a listener does, from the listener's threads, one call at a time.
 struct ListenerObserver {
     /// A connection has ended, `reason` being empty if in order. `sender`: the AE title, or the
     /// address if it is unknown.

@@ -47,8 +47,8 @@ public:
     struct Place {
         std::string studyUid, seriesUid;
     };
-    /// Puts a complete file, still without a name, into its place. One that is there already and
-    /// has the same contents stays. *Throws* Error{unusable} if it is not the object that was
+    /// Gives a complete file its name. If the same object is there already, with the same bytes, it
+    /// stays. *Throws* Error{unusable} if it is not the object that was
     /// announced, belongs to another place, or would replace another file; Error{output}.
     StoredObject keep(files::AtomicFile &file, const exchange::Arrival &arrival,
                       std::uint64_t bytes, const std::optional<Place> &place = {}) const;

@@ -5,11 +5,7 @@
 
 namespace pellucid::archive {
 
-namespace {
-
-constexpr std::uint16_t outOfResources = 0xa700, cannotUnderstand = 0xc000;
-
-} // namespace
+namespace status = exchange::status;
 
 class Receiving::Connection : public exchange::Receiver {
 public:
@@ -21,7 +17,7 @@ public:
             return m_file->descriptor();
         } catch (const task::Error &error) {
             refuse(arrival, error.reason());
-            return outOfResources;
+            return status::outOfResources;
         }
     }
     std::uint16_t keep(const exchange::Arrival &arrival, std::uint64_t bytes) override {
@@ -36,7 +32,8 @@ public:
             return 0;
         } catch (const task::Error &error) {
             refuse(arrival, error.reason());
-            return error.code() == task::ErrorCode::unusable ? cannotUnderstand : outOfResources;
+            return error.code() == task::ErrorCode::unusable ? status::cannotUnderstand
+                                                             : status::outOfResources;
         }
     }
 

@@ -15,8 +15,8 @@ struct ReceivingObserver {
     std::function<void(const RefusedObject &)> refused;
 };
 
-/// What connections to a listener deliver: objects that anybody known sends, each confirmed when it
-/// is on the disk and in the log of arrivals.
+/// Stores the objects that known senders deliver to a listener. Confirms each object after it is on
+/// the disk and in the log of arrivals.
 class Receiving {
 public:
     /// `log`: may be null, for objects that no library lists. Both live as long as this object.

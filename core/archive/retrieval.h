@@ -44,6 +44,8 @@ struct RetrievalObserver {
 struct MoveDestination {
     std::string ae; ///< empty: that which this program calls the server by
     int port = defaultListenerPort;
+    /// A listener of this program has the port, and stores what comes in the same folder.
+    bool hasListener = false;
 };
 
 /// Retrieves what lacks in a folder of a study: compressed objects stay compressed, series come

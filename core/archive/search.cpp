@@ -53,9 +53,9 @@ std::uint32_t uidOf(Level level) {
 }
 
 // Folds the answers of all servers.
-class Folder {
+class Fold {
 public:
-    Folder(const SearchObserver &observer, Level level) : m_observer(observer), m_level(level) {}
+    Fold(const SearchObserver &observer, Level level) : m_observer(observer), m_level(level) {}
 
     void add(const std::string &server, exchange::Attributes attributes) {
         const std::lock_guard lock(m_mutex);
@@ -87,7 +87,7 @@ private:
     SearchResult m_result;
 };
 
-void searchAt(const Server &server, const SearchTerms &terms, Folder &folder,
+void searchAt(const Server &server, const SearchTerms &terms, Fold &fold,
               const task::Progress &progress) {
     const auto begin = std::chrono::steady_clock::now();
     ServerOutcome outcome;
@@ -96,8 +96,7 @@ void searchAt(const Server &server, const SearchTerms &terms, Folder &folder,
         exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::find}, progress);
         const exchange::QueryEnd end = link.find(
             queryOf(terms, server.limit),
-            [&](exchange::Attributes match) { folder.add(server.name, std::move(match)); },
-            progress);
+            [&](exchange::Attributes match) { fold.add(server.name, std::move(match)); }, progress);
         outcome.reachedLimit = end.reachedLimit;
         outcome.warnings = end.warnings;
     } catch (const Error &error) {
@@ -106,7 +105,7 @@ void searchAt(const Server &server, const SearchTerms &terms, Folder &folder,
     }
     outcome.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    folder.end(std::move(outcome));
+    fold.end(std::move(outcome));
 }
 
 } // namespace
@@ -166,7 +165,7 @@ exchange::Query queryOf(const SearchTerms &terms, std::uint32_t limit) {
 SearchResult search(const std::vector<Server> &servers, const SearchTerms &terms,
                     const SearchObserver &observer, const task::Progress &progress) {
     queryOf(terms, 0); // the terms make sense before anything is connected
-    Folder folder(observer, terms.level);
+    Fold fold(observer, terms.level);
     std::mutex mutex;
     std::exception_ptr failure;
     {
@@ -174,7 +173,7 @@ SearchResult search(const std::vector<Server> &servers, const SearchTerms &terms
         for (const Server &server : servers)
             threads.emplace_back([&, server] {
                 try {
-                    searchAt(server, terms, folder, progress);
+                    searchAt(server, terms, fold, progress);
                 } catch (...) {
                     const std::lock_guard lock(mutex);
                     failure = std::current_exception();
@@ -183,7 +182,7 @@ SearchResult search(const std::vector<Server> &servers, const SearchTerms &terms
     }
     if (failure)
         std::rethrow_exception(failure);
-    return folder.take();
+    return fold.take();
 }
 
 } // namespace pellucid::archive

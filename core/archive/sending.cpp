@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "core/decoder/decoder.h"
+#include "core/dicom/file_list.h"
 #include "core/exchange/link.h"
 #include "core/task/error.h"
 
@@ -32,9 +33,10 @@ struct Outgoing {
     Encoding encoding;
 };
 
-// A mere description of the patient's files could be large; the decoder reads each header.
-std::vector<Outgoing> describe(const std::vector<fs::path> &files, SendingReport &report,
-                               const task::Progress &progress) {
+// Finds out what kind each file is: the association has to be negotiated for these kinds. `named`:
+// the files that the user has named, which are not left out silently.
+std::vector<Outgoing> describe(const std::vector<fs::path> &files, const std::set<fs::path> &named,
+                               SendingReport &report, const task::Progress &progress) {
     std::vector<Outgoing> outgoing;
     for (const fs::path &path : files) {
         progress.check();
@@ -53,7 +55,9 @@ std::vector<Outgoing> describe(const std::vector<fs::path> &files, SendingReport
                 throw Error(ErrorCode::unusable, because::hasNoValidUids, path);
             outgoing.push_back({path, encoding});
         } catch (const Error &error) {
-            report.notSent.push_back({path, error.reason()});
+            const bool isOther =
+                error.reason().is(because::isNotDicom) && !named.contains(dicom::resolved(path));
+            (isOther ? report.leftOut : report.notSent).push_back({path, error.reason()});
         }
     }
     return outgoing;
@@ -118,13 +122,23 @@ private:
 
 } // namespace
 
-SendingReport send(const Server &server, const std::vector<fs::path> &files,
+SendingReport send(const Server &server, const std::vector<fs::path> &paths,
                    const std::function<void(const SendingState &)> &changed,
                    const task::Progress &progress) {
     const auto begin = Clock::now();
     SendingReport report;
-    report.state.files = files.size();
-    std::vector<Outgoing> outgoing = describe(files, report, progress);
+    dicom::FileList files(progress); // holds what is unpacked until it is sent
+    std::set<fs::path> named;
+    for (const fs::path &path : paths) {
+        files.add(path);
+        named.insert(dicom::resolved(path));
+    }
+    report.leftOut = files.skipped;
+    const std::vector<Outgoing> outgoing = describe(files.found, named, report, progress);
+    if (outgoing.empty() && report.notSent.empty())
+        throw Error(ErrorCode::unusable, because::holdsNoUsableImages,
+                    paths.empty() ? fs::path() : paths.front());
+    report.state.files = outgoing.size() + report.notSent.size();
     Sender sender(server, changed, progress, report);
     for (std::size_t first = 0; first < outgoing.size();) {
         std::set<Encoding> encodings;

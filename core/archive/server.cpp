@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
 
 #include "core/task/error.h"
 
@@ -106,6 +107,14 @@ void requireValid(const Server &server) {
         fail(because::answersAreOutOfRange(mostAnswers));
     if (server.peer.certificate.empty() != server.peer.key.empty())
         fail(because::certificateNeedsItsKey);
+}
+
+bool isEncryptedKey(const std::filesystem::path &file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string start(4096, '\0');
+    in.read(start.data(), std::streamsize(start.size()));
+    start.resize(std::size_t(in.gcount()));
+    return start.find("ENCRYPTED") != std::string::npos;
 }
 
 } // namespace pellucid::archive

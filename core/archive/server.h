@@ -38,6 +38,10 @@ std::string addressOf(const exchange::Peer &peer);
 /// *Throws* Error{usage} with what is wrong.
 void requireValid(const Server &server);
 
+/// Whether a private key in PEM format has to be unlocked by a password. A file that cannot be read
+/// is reported when it is used.
+bool isEncryptedKey(const std::filesystem::path &file);
+
 /// The user's servers, a JSON file in the user's folder, written as a whole.
 class ServerList {
 public:

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/dicom/catalogue.h"
 
@@ -45,5 +46,30 @@ std::string newSeriesUid();
 /// when complete. *Throws* Error{output}.
 void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,
                   int width, const CaptureLabels &labels);
+
+/// Collects the frames of a loop for one Multi-frame Secondary Capture Image.
+class CaptureLoop {
+public:
+    /// The most bytes of samples that a loop may have: some readers keep lengths as signed numbers.
+    static constexpr std::uint64_t mostBytes = (std::uint64_t(1) << 31) - 2;
+
+    /// `isGrey`: frames are written as 8-bit grey (the red channel), else as RGB. `frameMs`: how
+    /// long each is shown. *Throws* Error{outOfMemory}.
+    CaptureLoop(int frames, int height, int width, bool isGrey, double frameMs);
+    /// The bytes of samples of a loop.
+    static std::uint64_t bytesOf(int frames, int height, int width, bool isGrey);
+
+    /// *Shape*: height x width x 4, RGBA, rows from the top; alpha is ignored.
+    void add(std::span<const std::uint8_t> rgba);
+    /// Writes it in explicit little endian (PS3.3 A.8.3, A.8.5), with the marks of `writeCapture`.
+    /// The file appears only when complete. *Throws* Error{output}.
+    void write(const std::filesystem::path &path, const CaptureLabels &labels) const;
+
+private:
+    int m_height, m_width, m_frames = 0;
+    bool m_isGrey;
+    double m_frameMs;
+    std::vector<std::uint8_t> m_samples;
+};
 
 } // namespace pellucid::dicom

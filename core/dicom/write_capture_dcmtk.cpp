@@ -11,6 +11,7 @@
 
 #include "core/dcmtk/dictionary.h"
 #include "core/dicom/write_dataset.h"
+#include "core/system/memory.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom {
@@ -33,18 +34,12 @@ bool isGrey(std::span<const std::uint8_t> rgba) {
     return true;
 }
 
-// Padded to an even length, as DICOM requires.
-std::vector<std::uint8_t> samples(std::span<const std::uint8_t> rgba, bool grey) {
-    std::vector<std::uint8_t> out;
-    out.reserve(rgba.size() + 1);
+void append(std::vector<std::uint8_t> &out, std::span<const std::uint8_t> rgba, bool grey) {
     for (std::size_t n = 0; n + 3 < rgba.size(); n += 4) {
         out.push_back(rgba[n]);
         if (!grey)
             out.insert(out.end(), {rgba[n + 1], rgba[n + 2]});
     }
-    if (out.size() % 2 != 0)
-        out.push_back(0);
-    return out;
 }
 
 // The profile's code (PS3.16, CID 7050).
@@ -58,10 +53,10 @@ void putProfile(DcmDataset &d) {
 }
 
 // Patient and study.
-void putIdentity(DcmDataset &d, const CaptureLabels &labels) {
+void putIdentity(DcmDataset &d, const CaptureLabels &labels, const char *sopClass) {
     put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
     put(d, DCM_ImageType, "DERIVED\\SECONDARY");
-    put(d, DCM_SOPClassUID, UID_SecondaryCaptureImageStorage);
+    put(d, DCM_SOPClassUID, sopClass);
     put(d, DCM_SOPInstanceUID, labels.isDeidentified ? randomUid() : newUid(UidKind::instance));
     put(d, DCM_StudyDate, labels.studyDate);
     put(d, DCM_StudyTime, "");
@@ -103,8 +98,10 @@ void putIdentity(DcmDataset &d, const CaptureLabels &labels) {
     put(d, DCM_BurnedInAnnotation, labels.isNamedInPicture ? "YES" : "NO");
 }
 
-void putPixels(DcmDataset &d, std::span<const std::uint8_t> rgba, int height, int width) {
-    const bool grey = isGrey(rgba);
+// *Shape*: of `samples`: frames x height x width x channels, padded to an even length, as DICOM
+// requires.
+void putPixels(DcmDataset &d, std::span<const std::uint8_t> samples, int height, int width,
+               bool grey) {
     d.putAndInsertUint16(DCM_SamplesPerPixel, grey ? 1 : 3);
     put(d, DCM_PhotometricInterpretation, grey ? "MONOCHROME2" : "RGB");
     if (!grey)
@@ -115,9 +112,8 @@ void putPixels(DcmDataset &d, std::span<const std::uint8_t> rgba, int height, in
     d.putAndInsertUint16(DCM_BitsStored, 8);
     d.putAndInsertUint16(DCM_HighBit, 7);
     d.putAndInsertUint16(DCM_PixelRepresentation, 0);
-    const std::vector<std::uint8_t> pixels = samples(rgba, grey);
-    d.putAndInsertUint8Array(DCM_PixelData, pixels.data(),
-                             static_cast<unsigned long>(pixels.size()));
+    d.putAndInsertUint8Array(DCM_PixelData, samples.data(),
+                             static_cast<unsigned long>(samples.size()));
 }
 
 } // namespace
@@ -157,10 +153,61 @@ void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_
     dcmtk::prepareDcmtk();
     DcmFileFormat file;
     DcmDataset &d = *file.getDataset();
-    putIdentity(d, labels);
+    putIdentity(d, labels, UID_SecondaryCaptureImageStorage);
     if (labels.pixelMm > 0.0)
         put(d, DCM_PixelSpacing, decimals({labels.pixelMm, labels.pixelMm}));
-    putPixels(d, rgba, height, width);
+    const bool grey = isGrey(rgba);
+    std::vector<std::uint8_t> samples;
+    samples.reserve(rgba.size() / 4 * (grey ? 1 : 3) + 1);
+    append(samples, rgba, grey);
+    if (samples.size() % 2 != 0)
+        samples.push_back(0);
+    putPixels(d, samples, height, width, grey);
+    writeDataset(file, EXS_LittleEndianExplicit, path);
+}
+
+CaptureLoop::CaptureLoop(int frames, int height, int width, bool isGrey, double frameMs)
+    : m_height(height), m_width(width), m_isGrey(isGrey), m_frameMs(frameMs) {
+    const std::uint64_t bytes = bytesOf(frames, height, width, isGrey);
+    if (2 * bytes > system::availableMemoryBytes()) // the data set has its own copy
+        throw task::Error(task::ErrorCode::outOfMemory, task::because::notEnoughMemory);
+    m_samples.reserve(bytes + 1);
+}
+
+std::uint64_t CaptureLoop::bytesOf(int frames, int height, int width, bool isGrey) {
+    return std::uint64_t(frames) * std::uint64_t(height) * std::uint64_t(width) * (isGrey ? 1 : 3);
+}
+
+void CaptureLoop::add(std::span<const std::uint8_t> rgba) {
+    append(m_samples, rgba, m_isGrey);
+    ++m_frames;
+}
+
+void CaptureLoop::write(const std::filesystem::path &path, const CaptureLabels &labels) const {
+    dcmtk::prepareDcmtk();
+    DcmFileFormat file;
+    DcmDataset &d = *file.getDataset();
+    putIdentity(d, labels,
+                m_isGrey ? UID_MultiframeGrayscaleByteSecondaryCaptureImageStorage
+                         : UID_MultiframeTrueColorSecondaryCaptureImageStorage);
+    if (labels.pixelMm > 0.0)
+        put(d, DCM_PixelSpacing, decimals({labels.pixelMm, labels.pixelMm}));
+    put(d, DCM_NumberOfFrames, std::to_string(m_frames));
+    put(d, DCM_FrameTime, decimals({m_frameMs}));
+    d.putAndInsertTagKey(DCM_FrameIncrementPointer, DCM_FrameTime);
+    if (m_isGrey) {
+        put(d, DCM_PresentationLUTShape, "IDENTITY");
+        put(d, DCM_RescaleIntercept, "0");
+        put(d, DCM_RescaleSlope, "1");
+        put(d, DCM_RescaleType, "US");
+    }
+    if (m_samples.size() % 2 == 0) {
+        putPixels(d, m_samples, m_height, m_width, m_isGrey);
+    } else {
+        std::vector<std::uint8_t> padded = m_samples;
+        padded.push_back(0);
+        putPixels(d, padded, m_height, m_width, m_isGrey);
+    }
     writeDataset(file, EXS_LittleEndianExplicit, path);
 }
 

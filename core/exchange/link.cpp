@@ -26,8 +26,8 @@ constexpr double startSeconds = 30.0; // on a loaded machine
 constexpr double slackSeconds = 10.0; // beyond the helper's own patience
 constexpr double cancelSeconds = 4.0; // the helper gives the server two
 
-constexpr std::uint16_t refusedByCancel = 0xa700;
-constexpr std::uint64_t mostBytes = std::uint64_t(1) << 42; // of an object
+constexpr std::uint64_t mostBytes = std::uint64_t(1)
+                                    << 36; // of an object; more is an attack on the disk
 
 void logConfinement(int bits) {
     static std::once_flag once;
@@ -198,7 +198,7 @@ void Link::requestCancel() {
         if (!packet || packet->message.kind == Kind::done || packet->message.kind == Kind::failed)
             break;
         if (packet->message.kind == Kind::arrival || packet->message.kind == Kind::received)
-            exchange::send(m_process.socket(), {Kind::refused, refusedByCancel, 0, {}});
+            exchange::send(m_process.socket(), {Kind::refused, status::outOfResources, 0, {}});
     }
     m_process = helper::Process();
 }

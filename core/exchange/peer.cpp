@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/peer.h"
 
+#include <arpa/inet.h>
+#include <array>
+#include <netdb.h>
+
 namespace pellucid::exchange {
 
 const std::vector<std::string> &transferSyntaxes() {
@@ -22,6 +26,24 @@ const std::vector<std::string> &transferSyntaxes() {
         "1.2.840.10008.1.2.2",    // explicit VR big endian
     };
     return syntaxes;
+}
+
+std::vector<std::string> addressesOf(const std::string &host) {
+    addrinfo wanted{};
+    wanted.ai_family = AF_INET;
+    wanted.ai_socktype = SOCK_STREAM;
+    addrinfo *found = nullptr;
+    std::vector<std::string> addresses;
+    if (::getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0)
+        return addresses;
+    for (const addrinfo *each = found; each != nullptr; each = each->ai_next) {
+        std::array<char, INET_ADDRSTRLEN> text{};
+        const auto *const at = reinterpret_cast<const sockaddr_in *>(each->ai_addr);
+        ::inet_ntop(AF_INET, &at->sin_addr, text.data(), text.size());
+        addresses.emplace_back(text.data());
+    }
+    ::freeaddrinfo(found);
+    return addresses;
 }
 
 } // namespace pellucid::exchange

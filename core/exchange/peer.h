@@ -28,6 +28,9 @@ struct Peer {
     bool operator==(const Peer &) const = default;
 };
 
+/// The IPv4 addresses of a host, as the system's name service tells them; empty if it knows none.
+std::vector<std::string> addressesOf(const std::string &host);
+
 /// A kind of object, and one way to encode it (transfer syntax).
 struct Encoding {
     std::string sopClassUid, transferSyntax;

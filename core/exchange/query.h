@@ -70,6 +70,13 @@ struct Arrival {
     std::string callingAe; ///< of the sender, if this program is the server
 };
 
+/// The answers to whoever sends an object (C-STORE; PS3.4, B.2.3; PS3.7, annex C).
+namespace status {
+inline constexpr std::uint16_t success = 0x0000, outOfResources = 0xa700, notWanted = 0x0124,
+                               notAsAnnounced = 0xa900, invalidInstance = 0x0117,
+                               cannotUnderstand = 0xc000;
+} // namespace status
+
 /// A unique identifier: digits and dots, at most 64.
 bool isUid(const std::string &text);
 

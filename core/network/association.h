@@ -64,7 +64,6 @@ private:
     std::string m_characterSet, m_callingAe;
     double m_silenceSeconds;
     int m_confinement = 0;
-    mutable bool m_hasWaited = false;
     std::unique_ptr<Transport> m_transport;
     T_ASC_Network *m_network = nullptr;
     T_ASC_Parameters *m_parameters = nullptr;

@@ -33,27 +33,6 @@ using exchange::Step;
 
 // A presentation context has an odd number below 256.
 constexpr std::size_t maxContexts = 128;
-constexpr int releaseSeconds = 5;
-
-// DICOM addresses an application by IPv4 in DCMTK's network layer.
-std::vector<std::string> addressesOf(const std::string &host) {
-    addrinfo wanted{};
-    wanted.ai_family = AF_INET;
-    wanted.ai_socktype = SOCK_STREAM;
-    addrinfo *found = nullptr;
-    const int failed = ::getaddrinfo(host.c_str(), nullptr, &wanted, &found);
-    if (failed != 0)
-        throw Lost{because::hostIsUnknown(host)};
-    std::vector<std::string> addresses;
-    for (const addrinfo *each = found; each != nullptr; each = each->ai_next) {
-        std::array<char, INET_ADDRSTRLEN> text{};
-        const auto *const at = reinterpret_cast<const sockaddr_in *>(each->ai_addr);
-        ::inet_ntop(AF_INET, &at->sin_addr, text.data(), text.size());
-        addresses.emplace_back(text.data());
-    }
-    ::freeaddrinfo(found);
-    return addresses;
-}
 
 void prepareNetwork(double connectSeconds, double silenceSeconds) {
     ::signal(SIGPIPE, SIG_IGN);
@@ -162,7 +141,10 @@ Association::Association(const exchange::Connection &connection, Control &contro
                             std::move(events), Certificates{peer.authorities, peer.certificate,
                                                             peer.key, peer.keyPassword, peer.host})
                       : std::make_unique<Transport>(std::move(events));
-    const std::vector<std::string> addresses = addressesOf(peer.host);
+    // DCMTK's network layer connects by IPv4 only.
+    const std::vector<std::string> addresses = exchange::addressesOf(peer.host);
+    if (addresses.empty())
+        throw Lost{because::hostIsUnknown(peer.host)};
     control.step(Step::name, addresses.front());
     if (ASC_initializeNetwork(NET_REQUESTOR, 0, int(std::lround(peer.associationSeconds)),
                               &m_network)
@@ -351,7 +333,7 @@ void Association::fail(const char *text) const {
     const std::string said = text;
     if (m_transport->refusal())
         throw Lost{*m_transport->refusal()};
-    if (said.find("closed") != std::string::npos || said.find("Abort") != std::string::npos ||
+    if (said.find("closed") != std::string::npos || said.find("bort") != std::string::npos ||
         said.find("elease") != std::string::npos)
         throw Lost{because::serverHungUp};
     throw Lost{because::connectionFails(said)};

@@ -3,8 +3,8 @@
 
 namespace pellucid::network {
 
-/// Gives up for good whatever talking through the open sockets does not need: other files, other
-/// connections, processes. *Shape*: the bits of helper::Confinement that are in force.
+/// Permanently gives up everything that open sockets and files do not need: other files, other
+/// connections, other processes. *Shape*: the bits of helper::Confinement that are in force.
 int confine();
 
 } // namespace pellucid::network

@@ -90,7 +90,7 @@ std::uint16_t Storage::finish() {
     m_control.send({Message::Kind::received, 0, m_bytes, {}});
     const exchange::Packet packet = answer();
     if (packet.message.kind == Message::Kind::kept)
-        return success;
+        return exchange::status::success;
     if (packet.message.kind != Message::Kind::refused)
         throw Disconnected();
     return std::uint16_t(packet.message.code);

@@ -27,8 +27,8 @@ public:
     int socket() const { return m_socket; }
     void send(const Message &message);
     exchange::Packet wait();
-    /// Whether the program has asked to cancel. Keeps no other message waiting: there is none while
-    /// a request runs.
+    /// Whether the program has asked to cancel. Any other message would be lost; the program sends
+    /// none while a request runs.
     bool isCancelled();
 
     /// Tells the program that work goes on, once a second.
@@ -55,7 +55,6 @@ public:
     /// Continues after a failure without writing, so that the object's bytes are still taken from
     /// the network.
     void write(std::span<const std::byte> bytes);
-    std::uint64_t bytes() const { return m_bytes; }
     /// Tells the program that the object is complete. *Shape*: the status for the sender.
     /// *Throws* as the constructor.
     std::uint16_t finish();
@@ -69,9 +68,5 @@ private:
     std::uint64_t m_bytes = 0, m_reported = 0;
     bool m_hasFailed = false;
 };
-
-/// Statuses of C-STORE (PS3.4, B.2.3).
-inline constexpr std::uint16_t success = 0x0000, outOfResources = 0xa700, notWanted = 0x0124,
-                               invalidInstance = 0x0117, cannotUnderstand = 0xc000;
 
 } // namespace pellucid::network

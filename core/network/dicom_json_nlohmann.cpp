@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <charconv>
+
 #include <nlohmann/json.hpp>
 
 #include "core/network/dicom_json.h"
@@ -61,12 +63,19 @@ exchange::Attributes attributesOf(const Json &dataset) {
     return attributes;
 }
 
-// The items of a sequence.
-std::vector<Json> itemsOf(const Json &dataset, const char *tag) {
-    if (!dataset.is_object() || !dataset.contains(tag) || !dataset[tag].is_object() ||
-        !dataset[tag].contains("Value") || !dataset[tag]["Value"].is_array())
-        return {};
-    return dataset[tag]["Value"].get<std::vector<Json>>();
+// The items of a sequence. Not a copy: copying deeply nested values would exhaust the stack.
+const Json &itemsOf(const Json &dataset, const char *tag) {
+    static const Json none = Json::array();
+    if (!dataset.contains(tag) || !dataset[tag].is_object() || !dataset[tag].contains("Value") ||
+        !dataset[tag]["Value"].is_array())
+        return none;
+    return dataset[tag]["Value"];
+}
+
+int numberOf(const std::string &text) {
+    int number = 0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
 }
 
 } // namespace
@@ -84,9 +93,9 @@ std::vector<exchange::Attributes> readDicomJson(const std::string &text) {
 }
 
 StoreAnswer readStoreAnswer(const std::string &text) {
-    Json json = parsed(text);
-    if (json.is_array() && json.size() == 1) // some servers answer with a list
-        json = Json(json[0]);
+    const Json whole = parsed(text);
+    // Some servers answer with a list.
+    const Json &json = whole.is_array() && whole.size() == 1 ? whole[0] : whole;
     if (!json.is_object())
         fail();
     StoreAnswer answer;
@@ -96,7 +105,7 @@ StoreAnswer readStoreAnswer(const std::string &text) {
     for (const Json &item : itemsOf(json, "00081198")) {
         exchange::Attributes attributes = attributesOf(item);
         answer.failed.push_back(
-            {attributes[referencedInstance], std::atoi(attributes[failureReason].c_str())});
+            {attributes[referencedInstance], numberOf(attributes[failureReason])});
     }
     return answer;
 }

@@ -159,10 +159,11 @@ exchange::RetrievalEnd retrieve(Association &association, unsigned char context,
             cancelling.begin(association, context, request);
             continue;
         }
+        // While answers keep coming, nobody waits.
+        if (control.isCancelled())
+            cancelling.begin(association, context, request);
         T_DIMSE_Message &message = *command->message;
         if (message.CommandField == DIMSE_C_STORE_RQ) {
-            if (control.isCancelled())
-                cancelling.begin(association, context, request);
             receiveObject(association, command->context, message.msg.CStoreRQ, control);
             continue;
         }
@@ -198,6 +199,21 @@ exchange::RetrievalEnd retrieve(Association &association, unsigned char context,
         }
         return end;
     }
+}
+
+// Sends a C-GET or C-MOVE, whose fields have the same names. `fields`: of the message.
+template <class Fields>
+exchange::RetrievalEnd request(Association &association, const char *model,
+                               T_DIMSE_Message &message, Fields &fields,
+                               const exchange::Retrieval &retrieval, Control &control) {
+    const unsigned char context = association.contextFor(model);
+    DcmDataset identifier = identifierOf(retrieval);
+    fields.MessageID = association.get()->nextMsgID++;
+    OFStandard::strlcpy(fields.AffectedSOPClassUID, model, sizeof fields.AffectedSOPClassUID);
+    fields.Priority = DIMSE_PRIORITY_MEDIUM;
+    fields.DataSetType = DIMSE_DATASET_PRESENT;
+    send(association, context, message, &identifier, control);
+    return retrieve(association, context, fields.MessageID, control);
 }
 
 } // namespace
@@ -249,11 +265,13 @@ exchange::QueryEnd find(Association &association, const exchange::Query &query, 
     for (std::uint32_t matches = 0;;) {
         cancelling.check(association);
         std::optional<Command> command = nextCommand(association, control);
-        if (!command) {
+        // While answers keep coming, nobody waits.
+        if (!command || control.isCancelled()) {
             isCancelledByUser = true;
             cancelling.begin(association, context, find.MessageID);
-            continue;
         }
+        if (!command)
+            continue;
         if (command->message->CommandField != DIMSE_C_FIND_RSP)
             throw Lost{because::serverSendsTheUnexpected};
         const T_DIMSE_C_FindRSP &response = command->message->msg.CFindRSP;
@@ -285,36 +303,20 @@ exchange::QueryEnd find(Association &association, const exchange::Query &query, 
 
 exchange::RetrievalEnd get(Association &association, const exchange::Retrieval &retrieval,
                            Control &control) {
-    const char *const model = UID_GETStudyRootQueryRetrieveInformationModel;
-    const unsigned char context = association.contextFor(model);
-    DcmDataset identifier = identifierOf(retrieval);
-    T_DIMSE_Message request{};
-    request.CommandField = DIMSE_C_GET_RQ;
-    T_DIMSE_C_GetRQ &get = request.msg.CGetRQ;
-    get.MessageID = association.get()->nextMsgID++;
-    OFStandard::strlcpy(get.AffectedSOPClassUID, model, sizeof get.AffectedSOPClassUID);
-    get.Priority = DIMSE_PRIORITY_MEDIUM;
-    get.DataSetType = DIMSE_DATASET_PRESENT;
-    send(association, context, request, &identifier, control);
-    return retrieve(association, context, get.MessageID, control);
+    T_DIMSE_Message message{};
+    message.CommandField = DIMSE_C_GET_RQ;
+    return request(association, UID_GETStudyRootQueryRetrieveInformationModel, message,
+                   message.msg.CGetRQ, retrieval, control);
 }
 
 exchange::RetrievalEnd move(Association &association, const exchange::Retrieval &retrieval,
                             Control &control) {
-    const char *const model = UID_MOVEStudyRootQueryRetrieveInformationModel;
-    const unsigned char context = association.contextFor(model);
-    DcmDataset identifier = identifierOf(retrieval);
-    T_DIMSE_Message request{};
-    request.CommandField = DIMSE_C_MOVE_RQ;
-    T_DIMSE_C_MoveRQ &move = request.msg.CMoveRQ;
-    move.MessageID = association.get()->nextMsgID++;
-    OFStandard::strlcpy(move.AffectedSOPClassUID, model, sizeof move.AffectedSOPClassUID);
-    move.Priority = DIMSE_PRIORITY_MEDIUM;
-    move.DataSetType = DIMSE_DATASET_PRESENT;
-    OFStandard::strlcpy(move.MoveDestination, retrieval.destinationAe.c_str(),
-                        sizeof move.MoveDestination);
-    send(association, context, request, &identifier, control);
-    return retrieve(association, context, move.MessageID, control);
+    T_DIMSE_Message message{};
+    message.CommandField = DIMSE_C_MOVE_RQ;
+    OFStandard::strlcpy(message.msg.CMoveRQ.MoveDestination, retrieval.destinationAe.c_str(),
+                        sizeof message.msg.CMoveRQ.MoveDestination);
+    return request(association, UID_MOVEStudyRootQueryRetrieveInformationModel, message,
+                   message.msg.CMoveRQ, retrieval, control);
 }
 
 void store(Association &association, int file, std::uint64_t bytes, Control &control) {

@@ -43,7 +43,7 @@ private:
     ObjectConsumer m_consumer;
 };
 
-// What stands before the data set in a file (PS3.10, 7.1).
+// The meta header of a file (PS3.10, 7.1).
 void writeMetaHeader(ObjectStream &stream, const exchange::Arrival &arrival) {
     DcmMetaInfo header;
     const Uint8 version[2] = {0, 1};
@@ -59,6 +59,12 @@ void writeMetaHeader(ObjectStream &stream, const exchange::Arrival &arrival) {
     header.transferInit();
     header.write(stream, META_HEADER_DEFAULT_TRANSFERSYNTAX, EET_UndefinedLength, nullptr);
     header.transferEnd();
+}
+
+// A data set in another context may be encoded in another way than it says.
+void requireContext(T_ASC_PresentationContextID got, unsigned char wanted) {
+    if (got != wanted)
+        throw Lost{task::because::dataComeInAnotherContext};
 }
 
 } // namespace
@@ -100,6 +106,7 @@ std::unique_ptr<DcmDataset> receiveDataset(Association &association, unsigned ch
     std::unique_ptr<DcmDataset> owned(dataset);
     if (received.bad() || !owned)
         association.fail(received.text());
+    requireContext(got, context);
     return owned;
 }
 
@@ -114,7 +121,7 @@ void receiveObject(Association &association, unsigned char context,
     };
     exchange::Arrival arrival{request.AffectedSOPClassUID, request.AffectedSOPInstanceUID,
                               association.syntaxOf(context), association.callingAe()};
-    std::uint16_t status = invalidInstance;
+    std::uint16_t status = exchange::status::invalidInstance;
     if (!exchange::isUid(arrival.sopClassUid) || !exchange::isUid(arrival.sopInstanceUid) ||
         !exchange::isUid(arrival.transferSyntax)) {
         ignore();
@@ -130,6 +137,7 @@ void receiveObject(Association &association, unsigned char context,
                                        patienceOf(association), &got, &stream, nullptr, nullptr);
         if (received.bad())
             association.fail(received.text());
+        requireContext(got, context);
         status = storage.finish();
     }
     T_DIMSE_C_StoreRSP response{};

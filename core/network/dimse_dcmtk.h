@@ -25,8 +25,6 @@ struct Command {
     std::string comment;
 };
 
-enum class Waiting { finds, isCancelled };
-
 /// Waits for the next command. *Shape*: nothing if the program cancels. *Throws* Lost.
 std::optional<Command> nextCommand(Association &association, Control &control);
 

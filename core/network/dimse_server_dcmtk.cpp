@@ -24,7 +24,7 @@ bool isReleased(Association &association, const OFCondition &condition) {
 
 void provide(Association &association, Control &control) {
     for (;;) {
-        while (association.wait(control) == Association::Event::cancel)
+        if (association.wait(control) == Association::Event::cancel)
             throw CancelledByProgram();
         T_DIMSE_Message message{};
         T_ASC_PresentationContextID context = 0;

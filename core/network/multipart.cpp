@@ -8,6 +8,7 @@ namespace pellucid::network {
 namespace {
 
 constexpr std::size_t longestHeaders = 16384; // of a part; longer ones belong to its body
+constexpr std::size_t longestLine = 1024;     // of a delimiter; a longer one is none
 
 std::string lowered(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -64,6 +65,10 @@ void MultipartReader::add(std::span<const std::byte> bytes) {
     }
 }
 
+bool MultipartReader::lineIsTooLong(std::size_t begin, std::size_t end) const {
+    return std::min(end, m_pending.size()) - begin > longestLine;
+}
+
 bool MultipartReader::step() {
     switch (m_state) {
     case State::preamble: {
@@ -71,6 +76,10 @@ bool MultipartReader::step() {
         const std::size_t at = m_pending.find(m_delimiter);
         const std::size_t end =
             at == std::string::npos ? at : m_pending.find('\n', at + m_delimiter.size());
+        if (at != std::string::npos && lineIsTooLong(at + m_delimiter.size(), end)) {
+            m_pending.erase(0, at + m_delimiter.size());
+            return true;
+        }
         if (end == std::string::npos) {
             if (at == std::string::npos && m_pending.size() > m_delimiter.size())
                 m_pending.erase(0, m_pending.size() - m_delimiter.size());
@@ -118,6 +127,11 @@ bool MultipartReader::step() {
             return false;
         const bool isLast = m_pending.compare(after, 2, "--") == 0;
         const std::size_t line = m_pending.find('\n', after);
+        if (!isLast && lineIsTooLong(after, line)) {
+            m_sink.take(bytesOf(m_pending, after));
+            m_pending.erase(0, after);
+            return true;
+        }
         if (!isLast && line == std::string::npos)
             return false;
         const std::size_t length = at > 0 && m_pending[at - 1] == '\r' ? at - 1 : at;

@@ -30,6 +30,8 @@ private:
     enum class State { preamble, headers, body, epilogue, single };
     /// Consumes what is certain. Returns false when more bytes are needed.
     bool step();
+    /// Whether the rest of a delimiter's line, which ends at `end` if it is here, is too long.
+    bool lineIsTooLong(std::size_t begin, std::size_t end) const;
 
     Sink m_sink;
     std::string m_delimiter; ///< with the leading dashes

@@ -17,6 +17,24 @@ using exchange::Failure;
 using exchange::Purpose;
 using Kind = Message::Kind;
 
+// The requests of a DICOM server, as WebClient has those of a DICOMweb service.
+struct DimseClient {
+    Association association;
+    Purpose purpose;
+
+    void echo(Control &control) { network::echo(association, control); }
+    exchange::QueryEnd find(const exchange::Query &query, Control &control) {
+        return network::find(association, query, control);
+    }
+    exchange::RetrievalEnd retrieve(const exchange::Retrieval &retrieval, Control &control) {
+        return purpose == Purpose::move ? move(association, retrieval, control)
+                                        : get(association, retrieval, control);
+    }
+    void store(int file, std::uint64_t bytes, Control &control) {
+        network::store(association, file, bytes, control);
+    }
+};
+
 class Session {
 public:
     explicit Session(int socket) : m_control(socket) {}
@@ -38,11 +56,11 @@ public:
                 }
                 return;
             }
-            Association association(connection, m_control);
-            m_control.send({Kind::ready, association.confinement(), 0, {}});
-            while (answerNext(association, connection.purpose)) {
+            DimseClient client{Association(connection, m_control), connection.purpose};
+            m_control.send({Kind::ready, client.association.confinement(), 0, {}});
+            while (answerNext(client)) {
             }
-            association.release();
+            client.association.release();
         });
     }
 
@@ -56,45 +74,7 @@ private:
     }
 
     // Returns false when the program is done with the connection.
-    bool answerNext(Association &association, Purpose purpose) {
-        auto packet = exchange::receive(m_control.socket());
-        if (!packet)
-            return false;
-        const Message &message = packet->message;
-        guardedRequest([&] {
-            switch (message.kind) {
-            case Kind::echo:
-                echo(association, m_control);
-                m_control.done();
-                break;
-            case Kind::find:
-                m_control.done(exchange::pack(
-                    find(association, exchange::unpackQuery(message.body), m_control)));
-                break;
-            case Kind::uids:
-                takeUids(message);
-                break;
-            case Kind::retrieve: {
-                const auto retrieval = retrievalOf(message);
-                m_control.done(exchange::pack(purpose == Purpose::move
-                                                  ? move(association, retrieval, m_control)
-                                                  : get(association, retrieval, m_control)));
-                break;
-            }
-            case Kind::store:
-                store(association, packet->descriptor.get(), message.number, m_control);
-                m_control.done();
-                break;
-            case Kind::cancel: // came after the request had ended
-                break;
-            default:
-                throw Disconnected();
-            }
-        });
-        return true;
-    }
-
-    bool answerNext(WebClient &client) {
+    template <class Client> bool answerNext(Client &client) {
         auto packet = exchange::receive(m_control.socket());
         if (!packet)
             return false;
@@ -113,7 +93,7 @@ private:
                 takeUids(message);
                 break;
             case Kind::retrieve:
-                m_control.done(exchange::pack(client.get(retrievalOf(message), m_control)));
+                m_control.done(exchange::pack(client.retrieve(retrievalOf(message), m_control)));
                 break;
             case Kind::store:
                 client.store(packet->descriptor.get(), message.number, m_control);

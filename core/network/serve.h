@@ -3,7 +3,7 @@
 
 namespace pellucid::network {
 
-/// Loads everything that talking to a server opens files for. *Throws* Error{internal}.
+/// Loads the tables that a confined process could not open any more. *Throws* Error{internal}.
 void prepareToServe();
 
 /// Connects as the program asks, then answers its requests through the socket until it closes.

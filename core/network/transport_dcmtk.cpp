@@ -73,6 +73,16 @@ std::string textOfLastError() {
     return text.c_str();
 }
 
+// Whether a handshake failed because the other side answers with something else, or hangs up.
+bool speaksNoTls(const std::string &text) {
+    for (const char *const sign :
+         {"wrong version number", "packet length too long", "http request", "unexpected eof",
+          "TLS error", "I/O error", "Normal", "unknown error"})
+        if (text.find(sign) != std::string::npos && text.find("protocol") == std::string::npos)
+            return true;
+    return text.empty();
+}
+
 class SecureConnection : public DcmTLSConnection {
 public:
     SecureConnection(int socket, SSL *ssl, std::shared_ptr<Transport::State> state)
@@ -107,9 +117,12 @@ private:
             m_state->refusal = because::certificateIsRefused(
                 std::string(::X509_verify_cert_error_string(verified)));
         } else {
-            const std::string text = textOfLastError();
-            m_state->refusal =
-                text.empty() ? task::Reason(because::tlsIsNotAnswered) : because::tlsFails(text);
+            // DCMTK has taken the error out of OpenSSL's queue, and repeats its text.
+            std::string text = textOfLastError();
+            if (text.empty())
+                text = shaken.text();
+            m_state->refusal = speaksNoTls(text) ? task::Reason(because::tlsIsNotAnswered)
+                                                 : because::tlsFails(text);
         }
         return shaken;
     }

@@ -53,6 +53,16 @@
     </message>
 </context>
 <context>
+    <name>pellucid::ui::EarlierPanel</name>
+    <message numerus="yes">
+        <source>%1, %n images</source>
+        <translation>
+            <numerusform>%1, %n image</numerusform>
+            <numerusform>%1, %n images</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>pellucid::ui::ProblemList</name>
     <message numerus="yes">
         <source>and %n more</source>
@@ -66,6 +76,16 @@
         <translation>
             <numerusform>%n file: %1</numerusform>
             <numerusform>%n files: %1</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ReceiverForm</name>
+    <message numerus="yes">
+        <source>%1 receives on port %2; %n objects have arrived</source>
+        <translation>
+            <numerusform>%1 receives on port %2; %n object has arrived</numerusform>
+            <numerusform>%1 receives on port %2; %n objects have arrived</numerusform>
         </translation>
     </message>
 </context>
@@ -103,6 +123,13 @@
         <translation>
             <numerusform>%n image</numerusform>
             <numerusform>%n images</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 receives on port %2; %n objects have arrived</source>
+        <translation>
+            <numerusform>%1 receives on port %2; %n object has arrived</numerusform>
+            <numerusform>%1 receives on port %2; %n objects have arrived</numerusform>
         </translation>
     </message>
 </context>

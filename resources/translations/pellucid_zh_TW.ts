@@ -2922,10 +2922,6 @@
         <translation>%1（%2：%3）</translation>
     </message>
     <message>
-        <source>the server had a failure</source>
-        <translation>伺服器發生錯誤</translation>
-    </message>
-    <message>
         <source>the server does not accept the object</source>
         <translation>伺服器不接受此物件</translation>
     </message>
@@ -3102,10 +3098,6 @@
         <translation>並非所有伺服器皆有回應</translation>
     </message>
     <message>
-        <source>no DICOM server is in the list that could send; add one, or use --any</source>
-        <translation>清單中沒有可傳送的 DICOM 伺服器；請加入一個，或使用 --any</translation>
-    </message>
-    <message>
         <source>a password is needed, and there is no terminal to ask for it</source>
         <translation>需要密碼，但沒有可詢問的終端機</translation>
     </message>
@@ -3156,6 +3148,34 @@
     <message>
         <source>%1 of %2 slices are here</source>
         <translation>已收到 %2 張切片中的 %1 張</translation>
+    </message>
+    <message>
+        <source>the server failed to process the request</source>
+        <translation>伺服器無法處理此要求</translation>
+    </message>
+    <message>
+        <source>the other side sent data in another presentation context than their command</source>
+        <translation>對方所送資料的呈現環境與其命令不同</translation>
+    </message>
+    <message>
+        <source>no DICOM server that could send is in the list; add one</source>
+        <translation>清單中沒有可傳送的 DICOM 伺服器；請新增一個</translation>
+    </message>
+    <message>
+        <source>the private key for receiving is protected by a password; use one without</source>
+        <translation>接收用的私密金鑰有密碼保護；請使用沒有密碼的金鑰</translation>
+    </message>
+    <message>
+        <source>is not a link that can be opened; use pellucid://open?server=NAME&amp;studyUID=UID</source>
+        <translation>不是可開啟的連結；請使用 pellucid://open?server=NAME&amp;studyUID=UID</translation>
+    </message>
+    <message>
+        <source>the turntable would need more than %1 MB; choose fewer frames or a smaller size</source>
+        <translation>環繞一周將需要超過 %1 MB；請選擇較少格數或較小尺寸</translation>
+    </message>
+    <message>
+        <source>only DICOM pictures can be sent; choose a DICOM format</source>
+        <translation>只能傳送 DICOM 圖片；請選擇 DICOM 格式</translation>
     </message>
 </context>
 <context>
@@ -4086,6 +4106,84 @@
     </message>
 </context>
 <context>
+    <name>pellucid::ui::EarlierPanel</name>
+    <message>
+        <source>here</source>
+        <translation>在本機</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1, %n images</source>
+        <translation>
+            <numerusform>%1，%n 張影像</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Earlier studies</source>
+        <translation>先前檢查</translation>
+    </message>
+    <message>
+        <source>Retrieves the latest earlier studies of the same modality when a study is opened</source>
+        <translation>開啟檢查時，取回相同儀器類別的最近先前檢查</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>無</translation>
+    </message>
+    <message>
+        <source>the latest</source>
+        <translation>最近一個</translation>
+    </message>
+    <message>
+        <source>the latest two</source>
+        <translation>最近兩個</translation>
+    </message>
+    <message>
+        <source>the latest three</source>
+        <translation>最近三個</translation>
+    </message>
+    <message>
+        <source>Retrieve in advance</source>
+        <translation>預先取回</translation>
+    </message>
+    <message>
+        <source>Perhaps another patient</source>
+        <translation>可能為其他病人</translation>
+    </message>
+    <message>
+        <source>Click to open it beside</source>
+        <translation>按一下以並排開啟</translation>
+    </message>
+    <message>
+        <source>Searching...</source>
+        <translation>尋找中…</translation>
+    </message>
+    <message>
+        <source>No other study of this patient is known.</source>
+        <translation>沒有此病人的其他檢查。</translation>
+    </message>
+    <message>
+        <source>This study may be of another patient:
+%1
+
+Open it beside?</source>
+        <translation>此檢查可能屬於其他病人：
+%1
+
+要並排開啟嗎？</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>開啟</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::EarlierStudies</name>
+    <message>
+        <source>Looking for earlier studies</source>
+        <translation>尋找先前檢查</translation>
+    </message>
+</context>
+<context>
     <name>pellucid::ui::ExportDialog</name>
     <message>
         <source>Axial</source>
@@ -4222,6 +4320,26 @@
     <message>
         <source>Turntable, video (MP4): install ffmpeg first</source>
         <translation>轉盤，影片 (MP4)：請先安裝 ffmpeg</translation>
+    </message>
+    <message>
+        <source>Turntable, DICOM (multi-frame)</source>
+        <translation>環繞一周，DICOM（多格）</translation>
+    </message>
+    <message>
+        <source>A file, or a server that stores DICOM pictures with the study</source>
+        <translation>檔案，或將 DICOM 圖片與檢查一併保存的伺服器</translation>
+    </message>
+    <message>
+        <source>To</source>
+        <translation>至</translation>
+    </message>
+    <message>
+        <source>Send</source>
+        <translation>傳送</translation>
+    </message>
+    <message>
+        <source>Sending to %1</source>
+        <translation>正在傳送至 %1</translation>
     </message>
 </context>
 <context>
@@ -4433,6 +4551,10 @@
     <message>
         <source>Ser&amp;vers...</source>
         <translation>伺服器(&amp;V)…</translation>
+    </message>
+    <message>
+        <source>Sent to %1</source>
+        <translation>已傳送至 %1</translation>
     </message>
 </context>
 <context>
@@ -5506,6 +5628,79 @@
     </message>
 </context>
 <context>
+    <name>pellucid::ui::ReceiverForm</name>
+    <message>
+        <source>&amp;Receive what the DICOM servers in the list send</source>
+        <translation>接收清單中 DICOM 伺服器所傳送的內容(&amp;R)</translation>
+    </message>
+    <message>
+        <source>&amp;Encrypt connections (TLS)</source>
+        <translation>將連線加密（TLS）(&amp;E)</translation>
+    </message>
+    <message>
+        <source>&amp;Apply</source>
+        <translation>套用(&amp;A)</translation>
+    </message>
+    <message>
+        <source>What arrives is added to the library. Other senders are turned away</source>
+        <translation>收到的內容加入檢查庫。其他傳送者一律拒絕</translation>
+    </message>
+    <message>
+        <source>The name under which servers send to this program</source>
+        <translation>伺服器傳送至本程式時使用的名稱</translation>
+    </message>
+    <message>
+        <source>The port that servers send to; usually 11112</source>
+        <translation>伺服器傳送的目的連接埠；通常為 11112</translation>
+    </message>
+    <message>
+        <source>Senders must then use TLS, too</source>
+        <translation>傳送者也必須使用 TLS</translation>
+    </message>
+    <message>
+        <source>AE title of this program</source>
+        <translation>本程式的 AE 名稱</translation>
+    </message>
+    <message>
+        <source>Port</source>
+        <translation>連接埠</translation>
+    </message>
+    <message>
+        <source>Certificate</source>
+        <translation>憑證</translation>
+    </message>
+    <message>
+        <source>Certificate that this program shows (PEM)</source>
+        <translation>本程式出示的憑證（PEM）</translation>
+    </message>
+    <message>
+        <source>Private key</source>
+        <translation>私密金鑰</translation>
+    </message>
+    <message>
+        <source>Private key of the certificate (PEM), without a password</source>
+        <translation>憑證的私密金鑰（PEM），沒有密碼</translation>
+    </message>
+    <message>
+        <source>Authorities</source>
+        <translation>憑證機構</translation>
+    </message>
+    <message>
+        <source>Certificates that senders&apos; certificates must be from (PEM); empty: senders need no certificate</source>
+        <translation>傳送者憑證的簽發單位（PEM）；空白：傳送者不需憑證</translation>
+    </message>
+    <message>
+        <source>Receiving is off</source>
+        <translation>接收已關閉</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 receives on port %2; %n objects have arrived</source>
+        <translation>
+            <numerusform>%1 於連接埠 %2 接收；已收到 %n 個物件</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>pellucid::ui::RegionBar</name>
     <message>
         <source>Erase</source>
@@ -5687,12 +5882,43 @@
         <source>There are no files to send</source>
         <translation>沒有可傳送的檔案</translation>
     </message>
+    <message>
+        <source>This study has no volume</source>
+        <translation>此檢查沒有體積</translation>
+    </message>
+    <message>
+        <source>Open a link</source>
+        <translation>開啟連結</translation>
+    </message>
+    <message>
+        <source>Another program asks to open a study from the server %1. Allow links to this server?</source>
+        <translation>另一個程式要求開啟伺服器 %1 的檢查。允許連結至此伺服器嗎？</translation>
+    </message>
+    <message>
+        <source>Allow</source>
+        <translation>允許</translation>
+    </message>
+    <message>
+        <source>Looking for a study</source>
+        <translation>尋找檢查</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::ServerSearch</name>
     <message>
         <source>Searching servers</source>
         <translation>正在搜尋伺服器</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ServerTargets</name>
+    <message>
+        <source>Servers to send to</source>
+        <translation>可傳送的伺服器</translation>
+    </message>
+    <message>
+        <source>Drop studies or files here to send them to %1</source>
+        <translation>將檢查或檔案拖曳至此以傳送至 %1</translation>
     </message>
 </context>
 <context>
@@ -5822,10 +6048,6 @@
         <translation>網址</translation>
     </message>
     <message>
-        <source>Our AE title</source>
-        <translation>本程式的 AE 名稱</translation>
-    </message>
-    <message>
         <source>Retrieve</source>
         <translation>取回</translation>
     </message>
@@ -5904,6 +6126,14 @@
     <message>
         <source>Testing %1</source>
         <translation>正在測試 %1</translation>
+    </message>
+    <message>
+        <source>AE title of this program</source>
+        <translation>本程式的 AE 名稱</translation>
+    </message>
+    <message>
+        <source>Receiving</source>
+        <translation>接收</translation>
     </message>
 </context>
 <context>
@@ -6206,6 +6436,10 @@
     <message>
         <source>TRANSFERS</source>
         <translation>傳輸</translation>
+    </message>
+    <message>
+        <source>EARLIER STUDIES</source>
+        <translation>先前檢查</translation>
     </message>
 </context>
 <context>
@@ -6912,6 +7146,20 @@
     <message>
         <source>Cancel</source>
         <translation>取消</translation>
+    </message>
+    <message>
+        <source>Drop studies or files here to send:</source>
+        <translation>將檢查或檔案拖曳至此以傳送：</translation>
+    </message>
+    <message>
+        <source>Nothing is received: %1</source>
+        <translation>未接收任何內容：%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 receives on port %2; %n objects have arrived</source>
+        <translation>
+            <numerusform>%1 於連接埠 %2 接收；已收到 %n 個物件</numerusform>
+        </translation>
     </message>
 </context>
 <context>

@@ -14,6 +14,7 @@
 #include "core/scene/scene.h"
 #include "core/task/reason.h"
 #include "core/volume/nrrd.h"
+#include "tests/fuzz/network_corpus.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"
@@ -227,6 +228,8 @@ void writeCorpus(const std::string &target, const fs::path &folder) {
                   "(fftw-3.3.10 fftwf_wisdom #x458a31c8 #x92381c4c #x4f974889 #xcd46f97e\n"
                   "  (fftwf_codelet_n1fv_64_avx2 0 #x11048 #x11048 #x0 #x2f9d9d2d #x0f0f0f0f "
                   "#x12345678 #x87654321)\n)\n");
+    else
+        writeNetworkCorpus(target, folder);
 }
 
 } // namespace pellucid::fuzz

@@ -20,6 +20,7 @@
 #include "core/presets/slicer_preset.h"
 #include "core/scene/scene.h"
 #include "core/task/error.h"
+#include "tests/fuzz/network_targets.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/library/library.h"
 #include "ui/opening/session.h"
@@ -235,7 +236,14 @@ const std::vector<NamedTarget> &targets() {
                                               {"slicer_preset_json", slicerPresetJson},
                                               {"session", session},
                                               {"library", library},
-                                              {"wisdom", wisdom}};
+                                              {"wisdom", wisdom},
+                                              {"packing", packing},
+                                              {"exchange_message", exchangeMessage},
+                                              {"packet", packet},
+                                              {"control", control},
+                                              {"multipart", multipart},
+                                              {"dicom_json", dicomJson},
+                                              {"file_start", fileStart}};
     return all;
 }
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program against real servers: DCMTK's dcmqrscp and Orthanc.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <future>
 #include <iostream>
 #include <map>
@@ -21,122 +18,17 @@
 #include "core/archive/search.h"
 #include "core/archive/sending.h"
 #include "core/dicom/arriving_series.h"
-#include "core/dicom/scan.h"
-#include "core/dicom/write_series.h"
-#include "core/phantom/phantom.h"
 #include "core/task/error.h"
-#include "tests/network/servers.h"
+#include "tests/network/pacs.h"
 #include "tests/support/command.h"
-#include "tests/support/files.h"
 #include "tests/support/fresh_seed.h"
 
 namespace pellucid {
 
-namespace {
-
-namespace fs = std::filesystem;
+using namespace test;
 namespace because = task::because;
 using archive::ObjectFolder;
 using archive::RetrievalReport;
-using archive::Wanted;
-
-// The bytes of a file after its meta header, which a receiver writes itself.
-std::string dataSetOf(const fs::path &file) {
-    const std::string bytes = test::readText(file);
-    std::uint32_t group = 0;
-    if (bytes.size() > 144)
-        std::memcpy(&group, bytes.data() + 140, sizeof group);
-    return bytes.substr(std::min(bytes.size(), std::size_t(144 + group)));
-}
-
-std::vector<fs::path> filesIn(const fs::path &folder) {
-    std::vector<fs::path> files;
-    if (fs::exists(folder))
-        for (const auto &entry : fs::recursive_directory_iterator(folder))
-            if (entry.is_regular_file())
-                files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
-std::multiset<std::string> dataSetsIn(const fs::path &folder) {
-    std::multiset<std::string> sets;
-    // Digests, which a failed comparison can print.
-    for (const fs::path &file : filesIn(folder)) {
-        const std::string set = dataSetOf(file);
-        sets.insert(std::to_string(set.size()) + " bytes, " +
-                    std::to_string(std::hash<std::string>()(set)));
-    }
-    return sets;
-}
-
-archive::Server serverAt(int port, const std::string &ae) {
-    archive::Server server;
-    server.name = "test";
-    server.peer.host = "127.0.0.1";
-    server.peer.port = port;
-    server.peer.calledAe = ae;
-    server.peer.connectSeconds = 5.0;
-    server.peer.associationSeconds = 10.0;
-    server.peer.silenceSeconds = 10.0;
-    return server;
-}
-
-class Pacs : public testing::Test {
-protected:
-    void SetUp() override {
-        if (!test::isInstalled("dcmqrscp"))
-            GTEST_SKIP() << "dcmqrscp is not installed";
-    }
-
-    // A series on disk. *Shape*: its slices are `side` x `side`.
-    fs::path series(const std::string &name, int slices, int side = 64,
-                    dicom::TransferSyntax syntax = dicom::TransferSyntax::explicitLittle) {
-        const volume::Volume volume = phantom::makePhantom(
-            phantom::Kind::head,
-            phantom::phantomLattice(phantom::Kind::head,
-                                    {.size = volume::GridSize{side, side, slices}}));
-        dicom::writeCtSeries(m_folder / name, volume,
-                             {.patientName = "Test^" + name,
-                              .patientId = "ID-" + name,
-                              .studyDescription = "Study " + name,
-                              .seriesDescription = "Series",
-                              .bodyPart = "HEAD",
-                              .windows = {}},
-                             syntax);
-        return m_folder / name;
-    }
-
-    static std::string studyIn(const fs::path &folder) {
-        return dicom::scan({folder}).patients.at(0).studies.at(0).uid;
-    }
-
-    static void put(const archive::Server &server, const fs::path &folder) {
-        const auto report = archive::send(server, filesIn(folder));
-        ASSERT_TRUE(report.notSent.empty()) << report.notSent.front().reason.english();
-    }
-
-    RetrievalReport get(const archive::Server &server, const std::string &study,
-                        const std::string &to = "got") {
-        const ObjectFolder folder(m_folder / to, ObjectFolder::Keeps::inMemoryOfTheSystem);
-        return archive::retrieve(server, {study, {}}, folder);
-    }
-
-    // The reason why something failed.
-    template <class F> static std::string failureOf(F &&work) {
-        try {
-            work();
-        } catch (const task::Error &error) {
-            EXPECT_EQ(error.code(), task::ErrorCode::unreachable) << error.what();
-            return error.reason().english();
-        }
-        return "nothing failed";
-    }
-
-    test::TemporaryFolder m_folder;
-};
-
-} // namespace
 
 TEST_F(Pacs, EveryServiceOfBothServers) {
     test::Dcmqrscp dcmqrscp;
@@ -248,6 +140,50 @@ TEST_F(Pacs, EveryServiceOfDicomWeb) {
     server.limit = 1;
     server.peer.path = "/dicom-web";
     EXPECT_TRUE(archive::search({server}, {}).outcomes[0].reachedLimit);
+}
+
+// The commands that take a path also take a server, and leave nothing behind.
+TEST_F(Pacs, CommandsTakeAStudyFromAServer) {
+    const char *const cli = std::getenv("PELLUCID_CLI");
+    if (cli == nullptr)
+        GTEST_SKIP() << "PELLUCID_CLI is not set";
+    test::Dcmqrscp dcmqrscp;
+    const fs::path sent = series("F", 24);
+    put(serverAt(dcmqrscp.port(), "COMMON"), sent);
+    ::setenv("XDG_DATA_HOME", (m_folder / "data").c_str(), 1);
+    ::setenv("XDG_CACHE_HOME", (m_folder / "cache").c_str(), 1);
+    const auto run = [&](const std::string &arguments) {
+        return test::run(std::string("'") + cli + "' " + arguments);
+    };
+    ASSERT_EQ(run("server add s --dicom COMMON@127.0.0.1:" + std::to_string(dcmqrscp.port()))
+                  .exitCode,
+              0);
+    const std::string from = " --from s --study " + studyIn(sent);
+    const std::string here = (m_folder / "here.npy").string(),
+                      there = (m_folder / "there.npy").string();
+    ASSERT_EQ(run("render '" + sent.string() + "' -o '" + here + "'").exitCode, 0);
+    for (const std::string series : {"", " --series 1"}) {
+        const auto rendered = run("render" + from + series + " -o '" + there + "'");
+        EXPECT_EQ(rendered.exitCode, 0) << rendered.error;
+        EXPECT_EQ(readText(there), readText(here));
+        fs::remove(there);
+    }
+    const auto info = run("info --json" + from);
+    EXPECT_EQ(info.exitCode, 0) << info.error;
+    EXPECT_NE(info.out.find("Test^F"), std::string::npos);
+    EXPECT_EQ(filesIn(m_folder / "cache" / "pellucid" / "sessions").size(), 0U);
+    // Each mistake has its own exit code, and nothing is written.
+    const std::string out = " -o '" + there + "'";
+    EXPECT_EQ(run("render" + out).exitCode, 2);
+    EXPECT_EQ(run("render --from s" + out).exitCode, 2);
+    EXPECT_EQ(run("render --from nobody --study 1.2" + out).exitCode, 2);
+    EXPECT_EQ(run("render" + from + " --series 7" + out).exitCode, 2);
+    EXPECT_EQ(run("render '" + sent.string() + "'" + from + out).exitCode, 2);
+    EXPECT_EQ(run("render --from s --study 1.2.3.4" + out).exitCode, 3);
+    ASSERT_EQ(
+        run("server add dead --dicom X@127.0.0.1:" + std::to_string(test::freePort())).exitCode, 0);
+    EXPECT_EQ(run("info --from dead --study 1.2.3.4").exitCode, 6);
+    EXPECT_FALSE(fs::exists(there));
 }
 
 // A program that is killed while it retrieves leaves nothing that is half there, and the next one
@@ -517,144 +453,6 @@ TEST_F(Pacs, ASearchEndsAtItsLimit) {
     const auto all = archive::search({server}, {});
     EXPECT_EQ(all.entries.size(), 5U);
     EXPECT_FALSE(all.outcomes[0].reachedLimit);
-}
-
-// Certificates of an authority of our own, made for the test.
-class PacsTls : public Pacs {
-protected:
-    void SetUp() override {
-        Pacs::SetUp();
-        if (!test::isInstalled("openssl"))
-            GTEST_SKIP() << "openssl is not installed";
-        shell("openssl req -x509 -newkey rsa:2048 -nodes -keyout ca.key -out ca.pem -days 30 -subj "
-              "'/CN=Test CA' -addext basicConstraints=critical,CA:TRUE");
-        shell("openssl req -x509 -newkey rsa:2048 -nodes -keyout ca2.key -out ca2.pem -days 30 "
-              "-subj '/CN=Other CA' -addext basicConstraints=critical,CA:TRUE");
-        certificate("good", "IP:127.0.0.1", "-days 30");
-        certificate("wrong", "DNS:other.example.org", "-days 30");
-        certificate("client", "DNS:client", "-days 30");
-        // Valid for a day, ten days ago.
-        certificate("old", "IP:127.0.0.1",
-                    "-not_before 20200101000000Z -not_after 20200102000000Z");
-    }
-    void shell(const std::string &command) {
-        const auto result = test::run("cd '" + m_folder.path().string() + "' && " + command);
-        ASSERT_EQ(result.exitCode, 0) << command << result.error;
-    }
-    void certificate(const std::string &name, const std::string &host,
-                     const std::string &validity) {
-        test::writeText(m_folder / (name + ".ext"), "subjectAltName=" + host + "\n");
-        shell("openssl req -newkey rsa:2048 -nodes -keyout " + name + ".key -out " + name +
-              ".csr -subj '/CN=" + name + "'");
-        if (validity.find("not_before") == std::string::npos) {
-            shell("openssl x509 -req -in " + name +
-                  ".csr -CA ca.pem -CAkey ca.key -CAcreateserial -out " + name + ".pem -extfile " +
-                  name + ".ext " + validity);
-            return;
-        }
-        // openssl x509 cannot set a date in the past, openssl ca can.
-        test::writeText(m_folder / "index.txt", "");
-        test::writeText(m_folder / "serial", "01\n");
-        test::writeText(
-            m_folder / "ca.cnf",
-            "[ca]\ndefault_ca=d\n[d]\ndatabase=index.txt\nserial=serial\nnew_certs_dir=.\n"
-            "default_md=sha256\npolicy=p\nrand_serial=no\n[p]\ncommonName=supplied\n");
-        shell("openssl ca -batch -config ca.cnf -cert ca.pem -keyfile ca.key -in " + name +
-              ".csr -out " + name +
-              ".pem -startdate 20200101000000Z -enddate 20200102000000Z "
-              "-extfile " +
-              name + ".ext");
-    }
-    std::string at(const std::string &name) const { return (m_folder / name).string(); }
-
-    // A storage server, which answers C-ECHO.
-    std::unique_ptr<test::Server> server(const std::string &name, bool requiresClient = false) {
-        const int port = test::freePort();
-        return std::make_unique<test::Server>(
-            std::vector<std::string>{"storescp", "+tls", at(name + ".key"), at(name + ".pem"),
-                                     requiresClient ? "-rc" : "-ic", "+cf", at("ca.pem"), "-od",
-                                     m_folder.path().string(), std::to_string(port)},
-            port);
-    }
-    archive::Server client(int port) const {
-        archive::Server server = serverAt(port, "COMMON");
-        server.peer.usesTls = true;
-        server.peer.authorities = at("ca.pem");
-        return server;
-    }
-    static std::string echo(const archive::Server &server) {
-        return failureOf([&] {
-            exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::echo});
-            link.echo();
-        });
-    }
-};
-
-TEST_F(PacsTls, ObjectsComeOverTls) {
-    if (!test::isInstalled("Orthanc"))
-        GTEST_SKIP() << "Orthanc is not installed";
-    test::Orthanc orthanc(", \"DicomTlsEnabled\": true, \"DicomTlsCertificate\": \"" +
-                          at("good.pem") + "\", \"DicomTlsPrivateKey\": \"" + at("good.key") +
-                          "\", \"DicomTlsTrustedCertificates\": \"" + at("ca.pem") + "\"");
-    archive::Server secure = client(orthanc.port());
-    secure.peer.calledAe = "ORTHANC";
-    // Orthanc wants a certificate of ours.
-    EXPECT_NE(echo(secure), "nothing failed");
-    secure.peer.certificate = at("client.pem");
-    secure.peer.key = at("client.key");
-    std::string parameters;
-    exchange::Link link(exchange::Connection{secure.peer, exchange::Purpose::echo}, {},
-                        [&](exchange::Step step, const std::string &found) {
-                            if (step == exchange::Step::tls)
-                                parameters = found;
-                        });
-    EXPECT_TRUE(parameters.starts_with("TLSv1.")) << parameters;
-    const fs::path sent = series("T", 12);
-    put(secure, sent);
-    EXPECT_TRUE(get(secure, studyIn(sent)).isComplete());
-    EXPECT_EQ(dataSetsIn(m_folder / "got"), dataSetsIn(sent));
-}
-
-// No byte of a question is sent to a server that is not the right one, and the user learns why.
-TEST_F(PacsTls, WrongServersAreRefusedAndNamed) {
-    using testing::HasSubstr;
-    {
-        const auto storescp = server("wrong");
-        EXPECT_THAT(echo(client(storescp->port())), HasSubstr("IP address mismatch"));
-    }
-    {
-        const auto storescp = server("old");
-        EXPECT_THAT(echo(client(storescp->port())), HasSubstr("expired"));
-    }
-    {
-        const auto storescp = server("good");
-        archive::Server stranger = client(storescp->port());
-        stranger.peer.authorities = at("ca2.pem");
-        EXPECT_THAT(echo(stranger), HasSubstr("certificate"));
-        stranger.peer.authorities = at("missing.pem");
-        EXPECT_THROW(exchange::Link(exchange::Connection{stranger.peer, exchange::Purpose::echo}),
-                     task::Error);
-        // A client that speaks no TLS.
-        archive::Server plain = serverAt(storescp->port(), "COMMON");
-        EXPECT_NE(echo(plain), "nothing failed");
-    }
-    {
-        const auto storescp = server("good", true);
-        archive::Server without = client(storescp->port());
-        EXPECT_NE(echo(without), "nothing failed");
-        without.peer.certificate = at("client.pem");
-        without.peer.key = at("client.key");
-        EXPECT_EQ(echo(without), "nothing failed");
-        without.peer.key = at("good.key");
-        EXPECT_THROW(exchange::Link(exchange::Connection{without.peer, exchange::Purpose::echo}),
-                     task::Error);
-    }
-    { // A server that speaks no TLS.
-        test::Dcmqrscp plain;
-        archive::Server secure = client(plain.port());
-        secure.peer.silenceSeconds = 3.0;
-        EXPECT_NE(echo(secure), "nothing failed");
-    }
 }
 
 } // namespace pellucid

@@ -189,6 +189,11 @@ public:
         m_mischief = mischief;
     }
     int connections() const { return m_connections; }
+    /// The bytes that have come from the program, of all connections.
+    std::string fromProgram() {
+        const std::lock_guard lock(m_mutex);
+        return m_fromProgram;
+    }
 
 private:
     void accept(const std::stop_token &stop) {
@@ -210,11 +215,12 @@ private:
                 const std::lock_guard lock(m_mutex);
                 mischief = m_mischief;
             }
-            m_threads.emplace_back([client, server, mischief](const std::stop_token &stopping) {
-                pass(client, server, mischief, stopping);
-                ::close(client);
-                ::close(server);
-            });
+            m_threads.emplace_back(
+                [this, client, server, mischief](const std::stop_token &stopping) {
+                    pass(client, server, mischief, stopping);
+                    ::close(client);
+                    ::close(server);
+                });
         }
     }
 
@@ -224,8 +230,7 @@ private:
         std::vector<char> bytes;
     };
 
-    static void pass(int client, int server, const Mischief &mischief,
-                     const std::stop_token &stop) {
+    void pass(int client, int server, const Mischief &mischief, const std::stop_token &stop) {
         using Clock = std::chrono::steady_clock;
         std::array<std::vector<Parcel>, 2> queues; // to the server, to the client
         long fromServer = 0;
@@ -267,6 +272,10 @@ private:
                     ::setsockopt(server, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
                 }
                 std::vector<char> bytes(buffer.begin(), buffer.begin() + got);
+                if (from == 0) {
+                    const std::lock_guard lock(m_mutex);
+                    m_fromProgram.append(bytes.data(), bytes.size());
+                }
                 if (from == 1) {
                     if (mischief.flipAt >= fromServer && mischief.flipAt < fromServer + got)
                         bytes[std::size_t(mischief.flipAt - fromServer)] ^= 0x10;
@@ -297,6 +306,7 @@ private:
     int m_serverPort, m_port = 0, m_socket;
     std::mutex m_mutex;
     Mischief m_mischief;
+    std::string m_fromProgram;
     std::atomic<int> m_connections = 0;
     std::vector<std::jthread> m_threads;
     std::jthread m_acceptor;

@@ -52,7 +52,7 @@ for name in plain "two words" "o'brien & söhne|x"; do
     [[ $(as_user "$home/.local/bin/pellucid") == "runs from $home/.local/bin/pellucid" ]] || fail "$name: does not run"
     [[ $(stat -c %a "$prefix/bin/pellucid") == 755 && $(stat -c %a "$home/.local/bin") == 755 ]] || fail "$name: not for others to read"
     entry=$home/.local/share/applications/org.pellucid.Pellucid.desktop
-    grep -qxF "Exec=\"$prefix/bin/pellucid\" %F" "$entry" || fail "$name: $(grep Exec "$entry")"
+    grep -qxF "Exec=\"$prefix/bin/pellucid\" %U" "$entry" || fail "$name: $(grep Exec "$entry")"
     # Files of the user: in the folder, beside it, and a program that has taken a name since.
     touch "$prefix/mine" "$home/.local/bin/mine"
     mkdir -p "$home/.local/share/pellucid/presets" "$home/.cache/pellucid"

@@ -116,6 +116,44 @@ private slots:
         QVERIFY(dump.waitForFinished() && dump.readAll().contains("[NO]"));
     }
 
+    // One object, whose frames are those of the other turntables.
+    void aTurntableIsWrittenAsOneDicomObject() {
+        const QString file = QString::fromStdString((m_folder / "turn.dcm").string());
+        dialogFor("Projection", 7, 1, false);
+        find<QSpinBox>("exportFramesBox")->setValue(720);
+        find<QComboBox>("exportScaleBox")->setCurrentIndex(3);
+        QVERIFY(!find<QPushButton>("exportWriteButton")->isEnabled());
+        QVERIFY(find<QLabel>("exportMessage")->text().contains("choose fewer frames"));
+        find<QComboBox>("exportScaleBox")->setCurrentIndex(0);
+        find<QSpinBox>("exportFramesBox")->setValue(4);
+        QVERIFY(find<QPushButton>("exportWriteButton")->isEnabled());
+        find<QLineEdit>("exportPathEdit")->setText(file);
+        finish();
+        QProcess dump;
+        dump.start("dcmdump", {"-q", file});
+        QVERIFY(dump.waitForFinished() && dump.exitCode() == 0);
+        const QString text = QString::fromUtf8(dump.readAll());
+        for (const char *there :
+             {"=MultiframeGrayscaleByteSecondaryCaptureImageStorage", "(0028,0008) IS [4]",
+              "(0018,1063) DS [40]", "(0028,0009) AT (0018,1063)", "[Secret^Name]", "[IDENTITY]"})
+            QVERIFY2(text.contains(there), there);
+        const auto &sources = mainWindow().document().sources();
+        QCOMPARE(sources.size(), std::size_t(2));
+        QCOMPARE(sources[1].study.uid, sources[0].study.uid);
+        // Another program reads the same frames.
+        dialogFor("Projection", 5, 1, false);
+        find<QSpinBox>("exportFramesBox")->setValue(4);
+        finish();
+        for (int n = 0; n < 4; ++n) {
+            const QString png = file + ".png";
+            QCOMPARE(QProcess::execute("dcm2pnm", {"+on", "+F", QString::number(n + 1), file, png}),
+                     0);
+            QVERIFY(changed(QImage(png), frame(n).convertToFormat(QImage::Format_Grayscale8)) <
+                    0.001);
+            QFile::remove(framePath(n));
+        }
+    }
+
     // Another study has another patient.
     void aPictureNamesThePatientThatItShows() {
         dialogFor("Projection", 0, 1, true);

@@ -3,16 +3,27 @@
 #include "tests/network/servers.h"
 #include "tests/ui/studies_window.h"
 
+#include <atomic>
+#include <thread>
+
+#include <QCheckBox>
 #include <QComboBox>
+#include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QTabWidget>
 #include <QTreeWidget>
 
 #include "core/archive/sending.h"
+#include "ui/beside/study_beside.h"
+#include "ui/servers/open_request.h"
 #include "ui/servers/remote_study.h"
+#include "ui/servers/same_patient.h"
+#include "ui/window/link_port.h"
 #include "ui/window/workbench.h"
 
 namespace pellucid {
@@ -32,10 +43,7 @@ private slots:
         server.peer.host = "127.0.0.1";
         server.peer.port = m_dcmqrscp->port();
         server.peer.calledAe = "COMMON";
-        std::vector<std::filesystem::path> files;
-        for (const auto &entry : std::filesystem::directory_iterator(m_folder / "head"))
-            files.push_back(entry.path());
-        QVERIFY(archive::send(server, files).notSent.empty());
+        QVERIFY(archive::send(server, filesOfHead()).notSent.empty());
     }
 
     void aServerIsEnteredAndTestedStepByStep() {
@@ -116,10 +124,7 @@ private slots:
 
     // A study is looked at while it arrives, and nothing is lost when the rest comes.
     void aSeriesIsSeenWhileItArrives() {
-        std::vector<std::filesystem::path> files;
-        for (const auto &entry : std::filesystem::directory_iterator(m_folder / "head"))
-            files.push_back(entry.path());
-        std::sort(files.begin(), files.end());
+        const auto files = filesOfHead();
         ui::StudyFacts study;
         study.uid = "1.2.3";
         study.patientName = "Secret^Name";
@@ -164,10 +169,7 @@ private slots:
 
     // A part does not stay when the rest does not come.
     void aCancelledArrivalLeavesNothing() {
-        std::vector<std::filesystem::path> files;
-        for (const auto &entry : std::filesystem::directory_iterator(m_folder / "head"))
-            files.push_back(entry.path());
-        std::sort(files.begin(), files.end());
+        const auto files = filesOfHead();
         const auto series = std::make_shared<dicom::ArrivingSeries>(files.size());
         bench().study.opener.openArriving({}, series);
         series->add(0, files.front());
@@ -199,6 +201,232 @@ private slots:
                                  patienceMs);
     }
 
+    // A picture of an open study goes to a server without a file on this computer.
+    void aPictureIsSentToAServer() {
+        const Dcmqrscp archives;
+        const archive::Server server = addServer("archive", archives.port());
+        addServer("dead", freePort());
+        open(headPath());
+        const auto send = [&](const char *name, int format) {
+            find<QAction>("exportPictureAction")->trigger();
+            auto *const to = find<QComboBox>("exportToBox");
+            to->setCurrentIndex(to->findText(name));
+            find<QComboBox>("exportFormatBox")->setCurrentIndex(format);
+            find<QSpinBox>("exportFramesBox")->setValue(3);
+        };
+        const auto press = [&] {
+            QVERIFY(find<QPushButton>("exportWriteButton")->isEnabled());
+            QTest::mouseClick(find<QPushButton>("exportWriteButton"), Qt::LeftButton);
+        };
+        send("archive", 0);
+        QVERIFY(!find<QPushButton>("exportWriteButton")->isEnabled());
+        QVERIFY(find<QLabel>("exportMessage")->text().contains("DICOM"));
+        for (const int format : {4, 7}) {
+            send("archive", format);
+            press();
+            QTRY_VERIFY_WITH_TIMEOUT(mainWindow().findChild<QDialog *>("exportDialog") == nullptr,
+                                     patienceMs);
+        }
+        archive::SearchTerms terms;
+        terms.studyUid = document().sources().front().study.uid.toStdString();
+        terms.level = exchange::Level::series;
+        QCOMPARE(archive::search({server}, terms).entries.size(), std::size_t(2));
+        // Why it fails is said where it was asked for.
+        send("dead", 4);
+        press();
+        QTRY_VERIFY_WITH_TIMEOUT(find<QLabel>("exportMessage")->text().contains("check the port"),
+                                 patienceMs);
+        find<QDialog>("exportDialog")->close();
+    }
+
+    // What known servers send comes into the library; others are turned away.
+    void theProgramReceivesWhatKnownServersSend() {
+        find<QAction>("serversAction")->trigger();
+        auto *const dialog = find<QDialog>("serversDialog");
+        dialog->findChild<QTabWidget *>("serversTabs")->setCurrentIndex(1);
+        auto *const state = dialog->findChild<QLabel *>("receiverState");
+        QVERIFY(state->text().contains("off"));
+        const int port = freePort();
+        dialog->findChild<QCheckBox *>("receiverOnBox")->click();
+        dialog->findChild<QSpinBox *>("receiverPortBox")->setValue(port);
+        const auto apply = [&] {
+            QTest::mouseClick(dialog->findChild<QPushButton *>("applyReceiverButton"),
+                              Qt::LeftButton);
+        };
+        apply();
+        QVERIFY2(state->text().contains("no DICOM server"), qPrintable(state->text()));
+        addServer("archive", m_dcmqrscp->port());
+        QVERIFY2(state->text().contains(QString::number(port)), qPrintable(state->text()));
+        save("receiving");
+        archive::Server us;
+        us.peer.host = "127.0.0.1";
+        us.peer.port = port;
+        us.peer.calledAe = "PELLUCID";
+        us.peer.callingAe = "STRANGER";
+        const auto files = filesOfHead();
+        QVERIFY_EXCEPTION_THROWN(archive::send(us, files), task::Error);
+        QTRY_VERIFY_WITH_TIMEOUT(problems().contains("127.0.0.1"), patienceMs);
+        QCOMPARE(rows(), QStringList());
+        us.peer.callingAe = "COMMON";
+        QVERIFY(archive::send(us, files).notSent.empty());
+        QTRY_COMPARE_WITH_TIMEOUT(rows(), QStringList{"Secret Name"}, patienceMs);
+        QTRY_COMPARE_WITH_TIMEOUT(bench().receiver.receivedCount(), qint64(files.size()),
+                                  patienceMs);
+        // It goes on after a restart, and ends when it is turned off.
+        dialog->close();
+        restart();
+        QTRY_VERIFY_WITH_TIMEOUT(bench().receiver.isListening(), patienceMs);
+        bench().receiver.setSettings({});
+        QVERIFY(!bench().receiver.isListening());
+        QVERIFY_EXCEPTION_THROWN(archive::send(us, files), task::Error);
+    }
+
+    // The receiver has the port to which a server sends what is asked for by C-MOVE.
+    void aServerThatOnlySendsUsesTheReceiver() {
+        archive::Server server = addServer("archive", m_dcmqrscp->port());
+        server.retrieve = archive::RetrieveMethod::move;
+        bench().servers.put(server);
+        ui::ReceiverSettings settings;
+        settings.isOn = true;
+        settings.port = m_dcmqrscp->destinationPort;
+        bench().receiver.setSettings(settings);
+        QVERIFY(bench().receiver.isListening());
+        ui::RemoteStudy study;
+        study.study.uid = studyUid();
+        study.servers = QStringList{"archive"};
+        bench().transfers.add(study, &mainWindow());
+        QTRY_VERIFY_WITH_TIMEOUT(bench().transfers.transfers().front().state ==
+                                     archive::TransferState::complete,
+                                 patienceMs);
+        QCOMPARE(bench().transfers.transfers().front().received, std::size_t(80));
+        QTRY_COMPARE_WITH_TIMEOUT(rows(), QStringList{"Secret Name"}, patienceMs);
+    }
+
+    void earlierStudiesOfThePatientOpenBeside() {
+        const Dcmqrscp archives;
+        const archive::Server server = addServer("archive", archives.port());
+        const auto write = [&](const char *folder, const char *name) {
+            const auto lattice = phantom::phantomLattice(phantom::Kind::chest,
+                                                         {.size = volume::GridSize{48, 48, 24}});
+            dicom::writeCtSeries(
+                m_folder / folder, phantom::makePhantom(phantom::Kind::chest, lattice),
+                {.patientName = name, .patientId = "4711"}, dicom::TransferSyntax::explicitLittle);
+            std::vector<std::filesystem::path> files;
+            for (const auto &entry : std::filesystem::directory_iterator(m_folder / folder))
+                files.push_back(entry.path());
+            return files;
+        };
+        write("now", "Miller^Ann");
+        QVERIFY(archive::send(server, write("earlier", "MILLER^ANN ")).notSent.empty());
+        QVERIFY(archive::send(server, write("other", "Zhang^Wei")).notSent.empty());
+        find<QDockWidget>("earlierDock")->show();
+        auto *const earlier = find<QTreeWidget>("earlierTree");
+        open(QString::fromStdString((m_folder / "now").string()));
+        // One of the same patient, and one under the heading of the uncertain.
+        QTRY_COMPARE_WITH_TIMEOUT(earlier->topLevelItemCount(), 3, patienceMs);
+        QVERIFY(earlier->topLevelItem(1)->text(0).contains("another patient"));
+        save("earlier");
+        const auto click = [&](int row) {
+            QTest::mouseClick(earlier->viewport(), Qt::LeftButton, {},
+                              earlier->visualItemRect(earlier->topLevelItem(row)).center());
+        };
+        // Another patient's study does not open by a slip of the hand.
+        click(2);
+        auto *const question = mainWindow().findChild<QDialog *>("otherPatientQuestion");
+        QVERIFY(question != nullptr);
+        question->reject();
+        QVERIFY(bench().transfers.transfers().empty());
+        click(0);
+        QTRY_VERIFY_WITH_TIMEOUT(mainWindow().findChild<ui::StudyBeside *>() != nullptr,
+                                 patienceMs);
+        auto *const beside = mainWindow().findChild<ui::StudyBeside *>();
+        QTRY_VERIFY_WITH_TIMEOUT(beside->document().volume().has_value(), patienceMs);
+        QCOMPARE(document().sources().front().study.patientName, QString("Miller^Ann"));
+        save("earlier_beside");
+        // In advance: without a click, and without opening anything.
+        forgetEverything();
+        restart();
+        addServer("archive", archives.port());
+        find<QDockWidget>("earlierDock")->show();
+        auto *const inAdvance = find<QComboBox>("inAdvanceBox");
+        inAdvance->setCurrentIndex(1);
+        emit inAdvance->activated(1);
+        find<QDockWidget>("earlierDock")->hide();
+        open(QString::fromStdString((m_folder / "now").string()));
+        QTRY_VERIFY_WITH_TIMEOUT(!bench().transfers.transfers().empty() &&
+                                     bench().transfers.transfers().front().state ==
+                                         archive::TransferState::complete,
+                                 patienceMs);
+        QCOMPARE(bench().transfers.transfers().size(), std::size_t(1));
+        QVERIFY(mainWindow().findChild<ui::StudyBeside *>() == nullptr);
+        QCOMPARE(document().sources().size(), std::size_t(1));
+    }
+
+    // Identifiers are unique within a hospital only.
+    void patientsAreToldApart() {
+        ui::StudyFacts a;
+        a.patientId = "4711";
+        a.patientName = "Miller^Ann";
+        a.birthDate = "19500131";
+        const auto same = [&](const char *id, const char *name, const char *date) {
+            ui::StudyFacts b;
+            b.patientId = id;
+            b.patientName = QString::fromUtf8(name);
+            b.birthDate = date;
+            return ui::samePatient(a, b);
+        };
+        QVERIFY(same("4711", "Miller^Ann", "19500131") == ui::SamePatient::yes);
+        QVERIFY(same("4711 ", "MILLER ANN", "") == ui::SamePatient::yes);
+        QVERIFY(same("4711", "Smith^Ann", "19500131") == ui::SamePatient::yes); // married
+        QVERIFY(same("4711", "Zhang^Wei", "19800101") == ui::SamePatient::perhaps);
+        QVERIFY(same("A-9", "Miller^Ann", "19500131") == ui::SamePatient::perhaps);
+        QVERIFY(same("A-9", "Miller^Ann", "") == ui::SamePatient::no);
+        QVERIFY(same("A-9", "Miller^Ann", "19510131") == ui::SamePatient::no);
+        a.patientId.clear();
+        QVERIFY(same("", "Zhang^Wei", "") == ui::SamePatient::no); // neither has an identifier
+    }
+
+    void aLinkOpensAStudyOfAKnownServer() {
+        addServer("archive", m_dcmqrscp->port());
+        const QString link = "pellucid://open?server=archive&studyUID=" + studyUid();
+        mainWindow().openLink(link);
+        auto *question = mainWindow().findChild<QMessageBox *>("linkQuestion");
+        QVERIFY(question != nullptr);
+        question->reject();
+        QVERIFY(bench().transfers.transfers().empty());
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+        mainWindow().openLink(link);
+        question = mainWindow().findChild<QMessageBox *>("linkQuestion");
+        QVERIFY(question != nullptr);
+        for (QAbstractButton *const button : question->buttons())
+            if (question->buttonRole(button) == QMessageBox::AcceptRole)
+                button->click();
+        QTRY_VERIFY_WITH_TIMEOUT(document().volume() && !document().isPreview(), patienceMs);
+        settle();
+        // Allowed once, it is not asked again; and a program that runs takes the link of another.
+        restart();
+        ui::LinkPort port;
+        connect(&port, &ui::LinkPort::linkReceived, &mainWindow(), &ui::MainWindow::openLink);
+        std::atomic<bool> isTaken = false;
+        std::jthread other([&] { isTaken = ui::LinkPort::handOver(link); });
+        QTRY_VERIFY_WITH_TIMEOUT(document().volume() && !document().isPreview(), patienceMs);
+        other.join();
+        QVERIFY(isTaken);
+        settle();
+        // What is wrong is reported, and nothing is asked.
+        mainWindow().openLink("pellucid://open?server=elsewhere&studyUID=1.2.3");
+        QVERIFY2(problems().contains("there is no server 'elsewhere'"), qPrintable(problems()));
+        for (const char *const wrong :
+             {"pellucid://open", "pellucid://open?server=archive",
+              "pellucid://open?server=archive&studyUID=1.2.x", "http://open?server=a&studyUID=1.2",
+              "pellucid://close?server=archive&studyUID=1.2",
+              "pellucid://open?server=archive&studyUID=1.2&file=/etc/passwd",
+              "pellucid://open?server=a&server=b&studyUID=1.2"})
+            QVERIFY_EXCEPTION_THROWN(ui::openRequestOf(wrong), task::Error);
+        mainWindow().openLink("pellucid://open?server=archive&studyUID=1.2.3.999");
+        QTRY_VERIFY_WITH_TIMEOUT(problems().contains("no such study"), patienceMs);
+    }
+
     void theWordsOfASearchHaveMeanings() {
         const archive::SearchTerms terms = ui::searchTermsOf("Miller Ann 2026-01-15 CT A4711");
         QCOMPARE(QString::fromStdString(terms.patientName), QString("*Miller*Ann*"));
@@ -215,13 +443,21 @@ private:
         dialog.findChild<QLineEdit *>("serverHostEdit")->setText("127.0.0.1");
         dialog.findChild<QSpinBox *>("serverPortBox")->setValue(port);
     }
-    void addServer(const std::string &name, int port) {
+    std::vector<std::filesystem::path> filesOfHead() const {
+        std::vector<std::filesystem::path> files;
+        for (const auto &entry : std::filesystem::directory_iterator(m_folder / "head"))
+            files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        return files;
+    }
+    archive::Server addServer(const std::string &name, int port) {
         archive::Server server;
         server.name = name;
         server.peer.host = "127.0.0.1";
         server.peer.port = port;
         server.peer.calledAe = "COMMON";
         bench().servers.put(server);
+        return server;
     }
     QString studyUid() const {
         archive::Server server = bench().servers.servers().front();

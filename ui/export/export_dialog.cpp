@@ -10,11 +10,15 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
+#include <QPointer>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QSpinBox>
 #include <QStyle>
 
+#include "core/archive/sending.h"
 #include "core/dicom/scan.h"
+#include "core/files/session_folder.h"
 #include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/export/capture_labels.h"
@@ -23,6 +27,7 @@
 #include "ui/jobs/job_strip.h"
 #include "ui/language/reasons.h"
 #include "ui/opening/recent_paths.h"
+#include "ui/servers/server_book.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
@@ -41,17 +46,19 @@ QComboBox *box(const char *name, const QStringList &entries) {
 } // namespace
 
 ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunner &jobs,
-                           QWidget *parent)
-    : QDialog(parent), m_document(document), m_panes(panes), m_jobs(jobs),
+                           ServerBook &servers, QWidget *parent)
+    : QDialog(parent), m_document(document), m_panes(panes), m_jobs(jobs), m_servers(servers),
+      m_to(box("exportToBox", {})),
       m_pane(box("exportPaneBox", {tr("Axial"), tr("Coronal"), tr("Sagittal"), tr("Projection")})),
-      m_format(box("exportFormatBox", {tr("As it looks (PNG)"), tr("Grey in 16 bits (PNG)"),
-                                       tr("Values (NumPy, float)"), tr("Values (NRRD, float)"),
-                                       tr("DICOM Secondary Capture"), tr("Turntable, frames (PNG)"),
-                                       tr("Turntable, video (MP4)")})),
+      m_format(box("exportFormatBox",
+                   {tr("As it looks (PNG)"), tr("Grey in 16 bits (PNG)"),
+                    tr("Values (NumPy, float)"), tr("Values (NRRD, float)"),
+                    tr("DICOM Secondary Capture"), tr("Turntable, frames (PNG)"),
+                    tr("Turntable, video (MP4)"), tr("Turntable, DICOM (multi-frame)")})),
       m_scale(box("exportScaleBox", {"1 x", "2 x", "3 x", "4 x"})),
       m_annotated(new QCheckBox(tr("With annotations"))), m_patient(new QComboBox),
       m_deidentified(new QCheckBox(tr("Without the patient's identity"))), m_path(new QLineEdit),
-      m_frames(new QSpinBox), m_message(new QLabel) {
+      m_where(new QWidget), m_frames(new QSpinBox), m_message(new QLabel) {
     setObjectName("exportDialog");
     setWindowTitle(tr("Export picture"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -83,9 +90,11 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     m_message->setWordWrap(true);
     auto *other = new QPushButton(tr("Browse..."));
     other->setObjectName("exportBrowseButton");
-    auto *where = new QHBoxLayout;
+    auto *where = new QHBoxLayout(m_where);
+    where->setContentsMargins(0, 0, 0, 0);
     where->addWidget(m_path, 1);
     where->addWidget(other);
+    m_to->setToolTip(tr("A file, or a server that stores DICOM pictures with the study"));
     auto *form = new QFormLayout(this);
     form->addRow(tr("Picture of"), m_pane);
     form->addRow(tr("Format"), m_format);
@@ -94,7 +103,8 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     form->addRow(tr("Patient"), m_patient);
     form->addRow(QString(), m_deidentified);
     form->addRow(tr("Frames"), m_frames);
-    form->addRow(tr("File"), where);
+    form->addRow(tr("To"), m_to);
+    form->addRow(tr("File"), m_where);
     form->addRow(m_message);
     auto *buttons = new QDialogButtonBox;
     m_write = buttons->addButton(tr("Write"), QDialogButtonBox::AcceptRole);
@@ -102,7 +112,9 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     buttons->addButton(QDialogButtonBox::Cancel);
     form->addRow(new JobStrip(jobs, "export"));
     form->addRow(buttons);
-    for (QComboBox *choice : {m_pane, m_format, m_scale})
+    connect(&servers, &ServerBook::changed, this, &ExportDialog::offerServers);
+    offerServers();
+    for (QComboBox *choice : {m_pane, m_format, m_scale, m_to})
         connect(choice, &QComboBox::currentIndexChanged, this, &ExportDialog::showChosen);
     for (QCheckBox *choice : {m_annotated, m_deidentified})
         connect(choice, &QCheckBox::toggled, this, &ExportDialog::showChosen);
@@ -159,11 +171,16 @@ void ExportDialog::showChosen() {
     m_patient->setEnabled(what.isPicture() && what.isAnnotated && !what.isDeidentified);
     const QWidget *const pane = m_panes.of(what.pane);
     const QSize pixels = pane->size() * pane->devicePixelRatioF() * what.scale;
-    const auto why = obstacle(what, m_panes, m_document);
+    const bool isSent = !chosenServer().isEmpty();
+    auto why = obstacle(what, m_panes, m_document);
+    if (!why && isSent && !what.isCapture())
+        why = task::because::onlyCapturesAreSent;
+    form()->setRowVisible(m_where, !isSent);
+    m_write->setText(isSent ? tr("Send") : tr("Write"));
     if (m_jobs.isRunning()) // the choice is made
         return;
     QString text = tr("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height());
-    if (what.format == PictureFormat::capture)
+    if (what.isCapture())
         text +=
             "; " + (m_deidentified->isChecked() ? tr("does not identify the patient")
                                                 : tr("contains the patient's name and identifier"));
@@ -210,39 +227,95 @@ void ExportDialog::showMessage(const QString &text, const char *role) {
     m_message->style()->polish(m_message);
 }
 
+QFormLayout *ExportDialog::form() const {
+    return static_cast<QFormLayout *>(layout());
+}
+
+QString ExportDialog::chosenServer() const {
+    return m_to->currentData().toString();
+}
+
+void ExportDialog::offerServers() {
+    const QString before = chosenServer();
+    const QSignalBlocker quiet(m_to);
+    m_to->clear();
+    m_to->addItem(tr("File"));
+    for (const QString &server : m_servers.names())
+        m_to->addItem(server, server);
+    m_to->setCurrentIndex(std::max(0, m_to->findData(before)));
+    form()->setRowVisible(m_to, m_to->count() > 1);
+}
+
 void ExportDialog::write() {
+    const QString server = chosenServer();
+    if (server.isEmpty()) {
+        writeTo(m_path->text());
+        return;
+    }
+    m_servers.withSecrets(
+        {server}, this,
+        [self = QPointer<ExportDialog>(this)](const std::vector<archive::Server> &servers) {
+            if (self != nullptr && !servers.empty())
+                self->send(servers.front());
+        });
+}
+
+void ExportDialog::writeTo(const QString &path) {
     try {
-        const QString path = m_path->text();
         if (!mayReplace(path))
             return;
-        m_jobs.start(
-            tr("Writing"),
-            [this, path,
-             isCapture = chosen().format == PictureFormat::capture && !chosen().isDeidentified,
-             writer = pictureWriter(chosen(), m_panes, m_document, path)](const Job &job) {
-                writer(job.progress());
-                std::shared_ptr<const dicom::Catalogue> capture;
-                if (isCapture)
-                    capture =
-                        std::make_shared<const dicom::Catalogue>(dicom::scan({path.toStdString()}));
-                job.deliver([this, path, capture] {
-                    setExportFolder(QFileInfo(path).absolutePath(), m_document);
-                    emit written(path);
-                    if (capture)
-                        emit captured(capture);
-                    close();
-                });
-            },
-            [this](const Outcome &outcome) {
-                showChosen();
-                if (outcome.kind == Outcome::Kind::failed)
-                    showMessage(translated(*outcome.reason), "warning");
-            });
-        if (m_jobs.isRunning()) // it is not if no thread could be had
-            m_write->setEnabled(false);
+        start(tr("Writing"),
+              [this, path, isOfStudy = chosen().isCapture() && !chosen().isDeidentified,
+               writer = pictureWriter(chosen(), m_panes, m_document, path)](const Job &job) {
+                  writer(job.progress());
+                  std::shared_ptr<const dicom::Catalogue> capture;
+                  if (isOfStudy)
+                      capture = std::make_shared<const dicom::Catalogue>(
+                          dicom::scan({path.toStdString()}));
+                  job.deliver([this, path, capture] {
+                      setExportFolder(QFileInfo(path).absolutePath(), m_document);
+                      emit written(path);
+                      if (capture)
+                          emit captured(capture);
+                      close();
+                  });
+              });
     } catch (const task::Error &error) {
         showMessage(translated(error.reason()), "warning");
     }
+}
+
+void ExportDialog::send(const archive::Server &server) {
+    try {
+        const auto folder = std::make_shared<const files::SessionFolder>();
+        const std::filesystem::path file = folder->path() / "capture.dcm";
+        start(tr("Sending to %1").arg(QString::fromStdString(server.name)),
+              [this, server, folder, file,
+               writer = pictureWriter(chosen(), m_panes, m_document,
+                                      QString::fromStdString(file.string()))](const Job &job) {
+                  writer(job.progress());
+                  const auto report = archive::send(server, {file}, {}, job.progress());
+                  if (!report.notSent.empty())
+                      throw task::Error(task::ErrorCode::incomplete, report.notSent.front().reason,
+                                        server.name);
+                  job.deliver([this, name = QString::fromStdString(server.name)] {
+                      emit sent(name);
+                      close();
+                  });
+              });
+    } catch (const task::Error &error) {
+        showMessage(translated(error.reason()), "warning");
+    }
+}
+
+void ExportDialog::start(const QString &title, const std::function<void(const Job &)> &work) {
+    m_jobs.start(title, work, [this](const Outcome &outcome) {
+        showChosen();
+        if (outcome.kind == Outcome::Kind::failed)
+            showMessage(translated(*outcome.reason), "warning");
+    });
+    if (m_jobs.isRunning()) // it is not if no thread could be had
+        m_write->setEnabled(false);
 }
 
 } // namespace pellucid::ui

@@ -104,6 +104,16 @@ void paintPatient(QPainter &painter, const QRect &area, int line, const PictureE
 
 // `isGrey`: the picture is grey; its annotations then lose their color, as fewer programs read
 // captures in color.
+QImage captured(const QImage &picture, bool isGrey) {
+    return (isGrey ? picture.convertToFormat(QImage::Format_Grayscale8) : picture)
+        .convertToFormat(QImage::Format_RGBA8888);
+}
+
+// *Requires*: rows of four bytes a pixel, which need no padding.
+std::span<const std::uint8_t> bytesOf(const QImage &rgba) {
+    return {rgba.constBits(), std::size_t(rgba.sizeInBytes())};
+}
+
 void write(const QImage &picture, PictureFormat format, const QString &path,
            const dicom::CaptureLabels &labels, bool isGrey = false) {
     if (format != PictureFormat::capture) {
@@ -112,10 +122,8 @@ void write(const QImage &picture, PictureFormat format, const QString &path,
         writePictureFile(path, commented);
         return;
     }
-    const QImage rgba = (isGrey ? picture.convertToFormat(QImage::Format_Grayscale8) : picture)
-                            .convertToFormat(QImage::Format_RGBA8888);
-    dicom::writeCapture(path.toStdString(), {rgba.constBits(), std::size_t(rgba.sizeInBytes())},
-                        rgba.height(), rgba.width(), labels);
+    const QImage rgba = captured(picture, isGrey);
+    dicom::writeCapture(path.toStdString(), bytesOf(rgba), rgba.height(), rgba.width(), labels);
 }
 
 // `seen`: the axes of the picture; `pixelMm`: the size of its pixels.
@@ -239,6 +247,16 @@ void ProjectionJob::run(const task::Progress &progress) const {
         video.finish(progress);
         break;
     }
+    case PictureFormat::captureLoop: {
+        dicom::CaptureLoop loop(int(turn.cameras.size()), scene.camera.height, scene.camera.width,
+                                isGrey, 1000.0 / framesPerSecond);
+        everyFrame(progress, [&](const QImage &frame, int) {
+            progress.check();
+            loop.add(bytesOf(captured(frame, isGrey)));
+        });
+        loop.write(file, labels);
+        break;
+    }
     }
 }
 
@@ -270,7 +288,10 @@ ProjectionJob projectionJob(const PictureExport &what, const Panes &panes, const
             }));
     }
     job.labels = labelsOf(document, {camera.axes()[0], camera.axes()[1]}, camera.pixelMm);
-    if (document.volume()->notes().placed) {
+    if (what.isTurn()) {
+        job.labels.seriesDescription = "Turntable";
+        job.labels.patientOrientation.clear(); // differs from frame to frame
+    } else if (document.volume()->notes().placed) {
         const scene::PositionerAngles angles = scene::positionerAngles(camera.orientation);
         job.labels.positionerDeg = {angles.primaryDeg, angles.secondaryDeg};
     }
@@ -314,6 +335,7 @@ QString suffixOf(PictureFormat format) {
     case PictureFormat::nrrd:
         return ".nrrd";
     case PictureFormat::capture:
+    case PictureFormat::captureLoop:
         return ".dcm";
     case PictureFormat::video:
         return ".mp4";
@@ -347,6 +369,11 @@ std::optional<task::Reason> obstacle(const PictureExport &what, const Panes &pan
     if (!isGrey && (what.format == PictureFormat::png16 || what.format == PictureFormat::nrrd))
         return because::colorsHaveNoGreyValues;
     const scene::Camera &camera = scene.camera;
+    if (what.format == PictureFormat::captureLoop &&
+        dicom::CaptureLoop::bytesOf(what.frameCount, camera.height * what.scale,
+                                    camera.width * what.scale,
+                                    isGrey) > dicom::CaptureLoop::mostBytes)
+        return because::loopIsTooLarge(dicom::CaptureLoop::mostBytes >> 20);
     if (std::max(camera.width, camera.height) * what.scale > scene::largestImageSize)
         return because::picturesHaveAtMost(scene::largestImageSize);
     return {};

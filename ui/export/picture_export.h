@@ -35,9 +35,9 @@ struct Panes {
 
 /// `png`: as on the screen; `png16`: 16-bit grey, linear from the lower to the upper end of the
 /// window; `npy`, `nrrd`: the values of the projection, single precision; `capture`: as on the
-/// screen, a DICOM image of the open study; `frames`, `video`: as on the screen, one turn around
-/// the patient. ExportDialog lists the formats in the same order.
-enum class PictureFormat { png, png16, npy, nrrd, capture, frames, video };
+/// screen, a DICOM image of the open study; `frames`, `video`, `captureLoop`: as on the screen, one
+/// turn around the patient. ExportDialog lists the formats in the same order.
+enum class PictureFormat { png, png16, npy, nrrd, capture, frames, video, captureLoop };
 
 struct PictureExport {
     Pane pane = Pane::projection;
@@ -58,7 +58,12 @@ struct PictureExport {
                format != PictureFormat::nrrd;
     }
     bool isTurn() const {
-        return format == PictureFormat::frames || format == PictureFormat::video;
+        return format == PictureFormat::frames || format == PictureFormat::video ||
+               format == PictureFormat::captureLoop;
+    }
+    /// Whether it is a DICOM object of the open study.
+    bool isCapture() const {
+        return format == PictureFormat::capture || format == PictureFormat::captureLoop;
     }
 };
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include <QMimeData>
+#include <QUrl>
+
 #include "ui/document/document.h"
 #include "ui/studies/search_words.h"
 
@@ -195,6 +198,47 @@ int StudyList::source(const QModelIndex &at) const {
             source >= 0 && (found < 0 || source == m_document.currentSource()))
             found = source;
     return found;
+}
+
+QStringList StudyList::files(const QModelIndex &at) const {
+    if (!at.isValid())
+        return {};
+    if (const VolumeFacts *const one = volume(at)) {
+        if (const int open = source(at); open >= 0)
+            return m_document.sources()[std::size_t(open)].files;
+        QStringList files;
+        for (const dicom::InstanceFile &file : m_library.files(study(at), *one))
+            files << QString::fromStdString(file.path.string());
+        return files;
+    }
+    QStringList files;
+    const StudyFacts &whole = study(at);
+    if (whole.libraryId != 0)
+        for (const VolumeFacts &one : m_library.volumes(whole))
+            for (const dicom::InstanceFile &file : m_library.files(whole, one))
+                files << QString::fromStdString(file.path.string());
+    else
+        for (const StudySource &open : m_document.sources())
+            if (open.study.key() == whole.key())
+                files << open.files;
+    files.removeDuplicates();
+    return files;
+}
+
+Qt::ItemFlags StudyList::flags(const QModelIndex &at) const {
+    const Qt::ItemFlags usual = QAbstractItemModel::flags(at);
+    const bool isHere = at.isValid() && !isOnlyRemote(at) && study(at).patientId != "phantoms";
+    return isHere ? usual | Qt::ItemIsDragEnabled : usual;
+}
+
+QMimeData *StudyList::mimeData(const QModelIndexList &indexes) const {
+    QList<QUrl> urls;
+    for (const QModelIndex &at : indexes)
+        for (const QString &file : files(at))
+            urls << QUrl::fromLocalFile(file);
+    auto *const data = new QMimeData;
+    data->setUrls(urls);
+    return data;
 }
 
 bool StudyList::isOpen(const QModelIndex &at) const {

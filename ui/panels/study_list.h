@@ -48,6 +48,8 @@ public:
     /// Null for the row of a study.
     const VolumeFacts *volume(const QModelIndex &index) const;
     QImage thumbnail(const QModelIndex &index) const;
+    /// The files of a volume's series, or of all series of a study.
+    QStringList files(const QModelIndex &index) const;
     /// The row of a source of the document; invalid if it has not been fetched.
     QModelIndex find(int source);
     /// The source of the document for an open volume; -1 if it is not open.
@@ -63,6 +65,10 @@ public:
     bool canFetchMore(const QModelIndex &parent) const override;
     void fetchMore(const QModelIndex &parent) override;
     QVariant data(const QModelIndex &index, int role) const override;
+    /// Studies can be dragged, as their files.
+    Qt::ItemFlags flags(const QModelIndex &index) const override;
+    QStringList mimeTypes() const override { return {"text/uri-list"}; }
+    QMimeData *mimeData(const QModelIndexList &indexes) const override;
 
 private:
     struct Entry {

@@ -12,12 +12,10 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QMessageBox>
-#include <QMimeData>
 #include <QPushButton>
 #include <QShortcut>
 #include <QToolButton>
 #include <QTreeView>
-#include <QUrl>
 #include <QVBoxLayout>
 
 #include "ui/document/document.h"
@@ -29,6 +27,7 @@
 #include "ui/panels/study_details.h"
 #include "ui/panels/study_row_painter.h"
 #include "ui/servers/server_search.h"
+#include "ui/settings/file_dialogs.h"
 
 namespace pellucid::ui {
 
@@ -40,14 +39,6 @@ constexpr int maxExpandedStudies = 20;
 constexpr int typingMs = 120;
 // Servers are asked after a longer pause.
 constexpr int restingMs = 900, fewestLetters = 3;
-
-QStringList localPaths(const QMimeData &data) {
-    QStringList paths;
-    for (const QUrl &url : data.urls())
-        if (url.isLocalFile())
-            paths << url.toLocalFile();
-    return paths;
-}
 
 } // namespace
 
@@ -91,6 +82,8 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, ServerSearch &
     m_tree->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_tree->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     m_tree->setContextMenuPolicy(Qt::CustomContextMenu);
+    m_tree->setDragEnabled(true);
+    m_tree->setDragDropMode(QAbstractItemView::DragOnly);
     m_tree->setModel(&m_list);
     m_tree->setItemDelegate(new StudyRowPainter(m_list, theme, this));
     m_tree->header()->setSectionResizeMode(QHeaderView::Stretch);
@@ -284,9 +277,9 @@ void StudyPanel::showMenu(const QPoint &at) {
         if (m_document.volume())
             add(tr("Open beside"), "openBesideAction", [this, row] { openBeside(row); });
         add(tr("Details..."), "volumeDetailsAction", [this, row] { showDetails(row); });
-        if (volume->file.isEmpty() && !filesOf(index).isEmpty())
+        if (volume->file.isEmpty() && !m_list.files(index).isEmpty())
             add(tr("DICOM header..."), "volumeHeaderAction", [this, row] {
-                if (const QStringList files = filesOf(row); !files.isEmpty())
+                if (const QStringList files = m_list.files(row); !files.isEmpty())
                     (new HeaderDialog(files, 0, window()))->show();
             });
         menu->addSeparator();
@@ -321,19 +314,8 @@ void StudyPanel::addServersTo(QMenu &menu, const QModelIndex &index) {
     send->setObjectName("sendMenu");
     const QPersistentModelIndex row(index);
     for (const QString &server : servers)
-        connect(send->addAction(server), &QAction::triggered, this, [this, row, server] {
-            QStringList files;
-            if (m_list.volume(row) != nullptr)
-                files = filesOf(row);
-            else {
-                if (m_list.canFetchMore(row)) // it has never been expanded
-                    m_list.fetchMore(row);
-                for (int n = 0; n < m_list.rowCount(row); ++n)
-                    files << filesOf(m_list.index(n, 0, row));
-            }
-            files.removeDuplicates();
-            emit sendRequested(files, server);
-        });
+        connect(send->addAction(server), &QAction::triggered, this,
+                [this, row, server] { emit sendRequested(m_list.files(row), server); });
 }
 
 void StudyPanel::openBeside(const QModelIndex &index) {
@@ -347,21 +329,9 @@ void StudyPanel::openBeside(const QModelIndex &index) {
                                              m_library.files(m_list.study(index), *volume)));
 }
 
-QStringList StudyPanel::filesOf(const QModelIndex &index) const {
-    const VolumeFacts *const volume = m_list.volume(index);
-    if (volume == nullptr)
-        return {};
-    if (const int open = m_list.source(index); open >= 0)
-        return m_document.sources()[std::size_t(open)].files;
-    QStringList files;
-    for (const dicom::InstanceFile &file : m_library.files(m_list.study(index), *volume))
-        files << QString::fromStdString(file.path.string());
-    return files;
-}
-
 void StudyPanel::showDetails(const QModelIndex &index) {
     if (const VolumeFacts *const volume = m_list.volume(index))
-        showStudyDetails(m_list.study(index), *volume, filesOf(index), m_list.thumbnail(index),
+        showStudyDetails(m_list.study(index), *volume, m_list.files(index), m_list.thumbnail(index),
                          window());
 }
 
@@ -409,7 +379,8 @@ void StudyPanel::close(const StudyFacts &study) {
 }
 
 void StudyPanel::dragEnterEvent(QDragEnterEvent *event) {
-    if (!localPaths(*event->mimeData()).isEmpty())
+    // A study of this list is dragged to a server.
+    if (event->source() != m_tree && !localPaths(*event->mimeData()).isEmpty())
         event->acceptProposedAction();
 }
 

@@ -56,7 +56,6 @@ private:
     void showEmpty();
     void showMenu(const QPoint &at);
     void openBeside(const QModelIndex &index);
-    QStringList filesOf(const QModelIndex &index) const;
     void showDetails(const QModelIndex &index);
     void importOpen(const StudyFacts &study);
     void remove(const StudyFacts &study);

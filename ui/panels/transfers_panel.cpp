@@ -10,6 +10,9 @@
 
 #include "ui/language/plain_tooltip.h"
 #include "ui/language/reasons.h"
+#include "ui/panels/server_targets.h"
+#include "ui/servers/server_book.h"
+#include "ui/servers/study_receiver.h"
 #include "ui/servers/transfer_queue.h"
 
 namespace pellucid::ui {
@@ -23,8 +26,12 @@ constexpr int idRole = Qt::UserRole;
 
 } // namespace
 
-TransfersPanel::TransfersPanel(TransferQueue &queue, QWidget *parent)
-    : QWidget(parent), m_queue(queue), m_tree(new QTreeWidget),
+TransfersPanel::TransfersPanel(TransferQueue &queue, StudyReceiver &receiver, ServerBook &servers,
+                               QWidget *parent)
+    : QWidget(parent), m_queue(queue), m_receiver(receiver), m_servers(servers),
+      m_targets(new ServerTargets),
+      m_dropHere(new QLabel(tr("Drop studies or files here to send:"))), m_receiving(new QLabel),
+      m_tree(new QTreeWidget),
       m_empty(new QLabel(tr("Nothing has been retrieved yet. Search for a study, and double-click "
                             "one that a server has."))),
       m_corner(new QPushButton(tr("Clear"))) {
@@ -39,6 +46,9 @@ TransfersPanel::TransfersPanel(TransferQueue &queue, QWidget *parent)
     m_tree->header()->setSectionResizeMode(0, QHeaderView::Stretch);
     m_tree->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
     m_tree->setContextMenuPolicy(Qt::CustomContextMenu);
+    m_receiving->setObjectName("receivingLabel");
+    m_receiving->setProperty("role", "muted");
+    m_receiving->setWordWrap(true);
     m_empty->setProperty("role", "muted");
     m_empty->setWordWrap(true);
     m_corner->setObjectName("clearTransfersButton");
@@ -46,16 +56,44 @@ TransfersPanel::TransfersPanel(TransferQueue &queue, QWidget *parent)
     m_corner->setToolTip(tr("Remove what has ended from the list; the images stay"));
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(14, 4, 10, 12);
+    layout->addWidget(m_receiving);
     layout->addWidget(m_empty, 0, Qt::AlignTop);
     layout->addWidget(m_tree, 1);
+    layout->addWidget(m_dropHere);
+    layout->addWidget(m_targets);
+    m_dropHere->setProperty("role", "muted");
+    m_dropHere->setWordWrap(true);
+    connect(m_targets, &ServerTargets::dropped, this, &TransfersPanel::sendRequested);
+    connect(&m_servers, &ServerBook::changed, this, &TransfersPanel::listServers);
     connect(&m_queue, &TransferQueue::changed, this, &TransfersPanel::list);
     connect(m_corner, &QPushButton::clicked, this, [this] { m_queue.clearFinished(); });
     connect(m_tree, &QWidget::customContextMenuRequested, this, &TransfersPanel::showMenu);
+    connect(&m_receiver, &StudyReceiver::changed, this, &TransfersPanel::showReceiver);
     list();
+    listServers();
+    showReceiver();
 }
 
 QWidget *TransfersPanel::corner() {
     return m_corner;
+}
+
+void TransfersPanel::listServers() {
+    m_targets->list(m_servers.names());
+    m_dropHere->setVisible(!m_servers.servers().empty());
+}
+
+void TransfersPanel::showReceiver() {
+    const ReceiverSettings &now = m_receiver.settings();
+    m_receiving->setVisible(now.isOn);
+    if (m_receiver.failure())
+        m_receiving->setText(QString::fromUtf8("\u26A0 ") +
+                             tr("Nothing is received: %1").arg(translated(*m_receiver.failure())));
+    else
+        m_receiving->setText(tr("%1 receives on port %2; %n objects have arrived", "",
+                                int(m_receiver.receivedCount()))
+                                 .arg(now.ae)
+                                 .arg(now.port));
 }
 
 void TransfersPanel::list() {

@@ -5,7 +5,6 @@
 #include <deque>
 #include <memory>
 
-#include <QFile>
 #include <QInputDialog>
 #include <QPointer>
 
@@ -28,12 +27,6 @@ QString secretKey(const archive::Server &server) {
 
 QString keyPasswordKey(const archive::Server &server) {
     return QString::fromStdString(server.name) + "/key";
-}
-
-bool isEncrypted(const std::string &path) {
-    QFile file(QString::fromStdString(path));
-    return !path.empty() && file.open(QIODevice::ReadOnly) &&
-           file.read(4096).contains("ENCRYPTED"); // reported as missing when it is used
 }
 
 } // namespace
@@ -139,7 +132,7 @@ void ServerBook::withSecrets(const QStringList &names, QWidget *asking, const Us
                  tr("Password of %1 at %2").arg(QString::fromStdString(peer.user), name)});
         else if (peer.authentication == exchange::Authentication::bearer)
             pending->needs.push_back({at, false, secretKey(server), tr("Token for %1").arg(name)});
-        if (isEncrypted(peer.key))
+        if (archive::isEncryptedKey(peer.key))
             pending->needs.push_back({at, true, keyPasswordKey(server),
                                       tr("Password of the private key for %1").arg(name)});
     }

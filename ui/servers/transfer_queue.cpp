@@ -58,8 +58,10 @@ private:
 
 } // namespace
 
-TransferQueue::TransferQueue(ServerBook &book, StudyLibrary &library, QObject *parent)
-    : QObject(parent), m_book(book), m_library(library) {
+TransferQueue::TransferQueue(ServerBook &book, StudyLibrary &library, StudyReceiver &receiver,
+                             QObject *parent)
+    : QObject(parent), m_book(book), m_library(library), m_receiver(receiver) {
+    connect(&receiver, &StudyReceiver::arrived, this, &TransferQueue::listArrivals);
     attempt([this] { read(); });
 }
 
@@ -87,15 +89,23 @@ void TransferQueue::resume(QWidget *asking) {
     startNext(asking);
 }
 
-void TransferQueue::add(const RemoteStudy &study, QWidget *asking) {
+void TransferQueue::add(const RemoteStudy &study, QWidget *asking, Urgency urgency) {
     attempt([&] {
         Transfer transfer;
         transfer.server = study.servers.value(0).toStdString();
         transfer.wanted.studyUid = study.study.uid.toStdString();
         transfer.title = studyText(study.study).toStdString();
         transfer.folder = archive::libraryObjectFolder();
-        m_elsewhere.erase(TransferLog(TransferLog::fileOfUser()).add(transfer));
+        const qint64 id = TransferLog(TransferLog::fileOfUser()).add(transfer);
+        m_elsewhere.erase(id);
+        if (urgency == Urgency::now)
+            m_later.erase(id);
+        else
+            m_later.insert(id);
         read();
+        // It waits again, and goes on where it was.
+        if (urgency == Urgency::now && m_running != id && m_later.contains(m_running))
+            m_jobs.cancel();
     });
     startNext(asking);
 }
@@ -132,11 +142,15 @@ void TransferQueue::startNext(QWidget *asking) {
     // Another program's running transfer is refused when it is claimed, and left to it.
     if (m_transfers.empty())
         return;
-    const auto next =
-        std::find_if(m_transfers.begin(), m_transfers.end(), [this](const Transfer &transfer) {
-            return transfer.state <= TransferState::running && !m_elsewhere.contains(transfer.id) &&
-                   transfer.folder == archive::libraryObjectFolder();
-        });
+    const auto waits = [this](const Transfer &transfer) {
+        return transfer.state <= TransferState::running && !m_elsewhere.contains(transfer.id) &&
+               transfer.folder == archive::libraryObjectFolder();
+    };
+    auto next = std::find_if(m_transfers.begin(), m_transfers.end(), [&](const Transfer &transfer) {
+        return waits(transfer) && !m_later.contains(transfer.id);
+    });
+    if (next == m_transfers.end())
+        next = std::find_if(m_transfers.begin(), m_transfers.end(), waits);
     if (next == m_transfers.end())
         return;
     m_isWaitingForSecrets = true;
@@ -171,7 +185,8 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
     };
     m_jobs.start(
         tr("Retrieving %1").arg(QString::fromStdString(transfer.title)),
-        [this, transfer, server, show](const Job &job) {
+        [this, transfer, server, show,
+         destination = m_receiver.destinationFor(server)](const Job &job) {
             archive::RetrievalObserver observer;
             auto shown = std::chrono::steady_clock::now();
             observer.changed = [&](const archive::RetrievalState &state) {
@@ -192,7 +207,7 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
                 arrivals.add(object.sopInstanceUid, object.path);
             };
             TransferLog log(TransferLog::fileOfUser());
-            archive::runTransfer(log, transfer.id, server, observer, job.progress());
+            archive::runTransfer(log, transfer.id, server, observer, job.progress(), destination);
         },
         [this, transfer](const Outcome &outcome) {
             m_running = 0;
@@ -203,7 +218,8 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
                              [&](const Transfer &one) { return one.id == transfer.id; });
             if (ended != m_transfers.end() && ended->state == TransferState::complete)
                 emit completed(
-                    QString::fromStdString((transfer.folder / transfer.wanted.studyUid).string()));
+                    QString::fromStdString((transfer.folder / transfer.wanted.studyUid).string()),
+                    !m_later.contains(transfer.id));
             if (outcome.kind == Outcome::Kind::failed)
                 emit failed(*outcome.reason, QString::fromStdString(transfer.server));
             if (outcome.kind == Outcome::Kind::failed && ended != m_transfers.end() &&

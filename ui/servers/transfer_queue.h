@@ -14,6 +14,7 @@
 #include "ui/library/study_library.h"
 #include "ui/servers/remote_study.h"
 #include "ui/servers/server_book.h"
+#include "ui/servers/study_receiver.h"
 
 namespace pellucid::ui {
 
@@ -23,13 +24,16 @@ namespace pellucid::ui {
 class TransferQueue : public QObject {
     Q_OBJECT
 public:
-    TransferQueue(ServerBook &book, StudyLibrary &library, QObject *parent = nullptr);
+    TransferQueue(ServerBook &book, StudyLibrary &library, StudyReceiver &receiver,
+                  QObject *parent = nullptr);
     ~TransferQueue() override;
 
     /// Continues transfers that were interrupted, and lists what arrived meanwhile. `asking`: the
     /// window that asks for missing secrets.
     void resume(QWidget *asking);
-    void add(const RemoteStudy &study, QWidget *asking);
+    /// `later`: it waits for all others, and makes way for them.
+    enum class Urgency { now, later };
+    void add(const RemoteStudy &study, QWidget *asking, Urgency urgency = Urgency::now);
     void retry(qint64 id, QWidget *asking);
     void cancel(qint64 id);
     void clearFinished();
@@ -41,8 +45,8 @@ signals:
     void changed();
     /// The largest series of a study begins to arrive.
     void arriving(const QString &studyUid, const std::shared_ptr<dicom::ArrivingSeries> &series);
-    /// All of a study is here.
-    void completed(const QString &folder);
+    /// All of a study is here. `isAwaited`: a user asked for it.
+    void completed(const QString &folder, bool isAwaited);
     void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
@@ -54,11 +58,14 @@ private:
 
     ServerBook &m_book;
     StudyLibrary &m_library;
+    StudyReceiver &m_receiver;
     std::vector<archive::Transfer> m_transfers;
     /// The running one, whose state is newer than on disk.
     qint64 m_running = 0;
     /// Those that another program works on.
     std::set<qint64> m_elsewhere;
+    /// Those that nobody waits for.
+    std::set<qint64> m_later;
     bool m_isWaitingForSecrets = false;
     QWidget *m_asking = nullptr;
     JobRunner m_jobs;

@@ -6,8 +6,14 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QFormLayout>
+#include <QHBoxLayout>
 #include <QHash>
+#include <QLineEdit>
+#include <QMimeData>
 #include <QSettings>
+#include <QToolButton>
+#include <QUrl>
 #include <QVariant>
 
 namespace pellucid::ui {
@@ -83,6 +89,36 @@ QString askForSavePath(QWidget *parent, const QString &title, const QString &pat
         parent, title, hasFolder ? path : QDir(folderOf(filter)).filePath(path), filter);
     keepFolder(filter, file);
     return file;
+}
+
+QStringList localPaths(const QMimeData &data) {
+    QStringList paths;
+    for (const QUrl &url : data.urls())
+        if (url.isLocalFile())
+            paths << url.toLocalFile();
+    return paths;
+}
+
+QLineEdit *addFileRow(QFormLayout &form, const QString &label, const char *name,
+                      const QString &tip) {
+    auto *edit = new QLineEdit;
+    edit->setObjectName(name);
+    edit->setToolTip(tip);
+    auto *choose = new QToolButton;
+    choose->setText("...");
+    choose->setToolTip(tip);
+    QObject::connect(choose, &QToolButton::clicked, edit, [edit, label] {
+        const QStringList chosen = askForFiles(edit, label);
+        if (!chosen.isEmpty())
+            edit->setText(chosen.front());
+    });
+    auto *row = new QWidget;
+    auto *layout = new QHBoxLayout(row);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(edit, 1);
+    layout->addWidget(choose);
+    form.addRow(label, row);
+    return edit;
 }
 
 } // namespace pellucid::ui

@@ -4,6 +4,9 @@
 #include <QString>
 #include <QStringList>
 
+class QFormLayout;
+class QLineEdit;
+class QMimeData;
 class QWidget;
 
 namespace pellucid::ui {
@@ -17,5 +20,12 @@ QString askForFolder(QWidget *parent, const QString &title);
 /// Asks before replacing an existing file.
 QString askForSavePath(QWidget *parent, const QString &title, const QString &path,
                        const QString &filter);
+
+/// The files and folders of this computer that are dragged.
+QStringList localPaths(const QMimeData &data);
+
+/// Adds a row for the path of a file, which can be typed or chosen.
+QLineEdit *addFileRow(QFormLayout &form, const QString &label, const char *name,
+                      const QString &tip);
 
 } // namespace pellucid::ui

@@ -179,8 +179,11 @@ void FileMenu::exportPicture() {
         return;
     }
     // Not modal: the user may still adjust the view for the export.
-    auto *dialog = new ExportDialog(m_bench.study.document, m_panes, m_bench.exports, &m_window);
+    auto *dialog = new ExportDialog(m_bench.study.document, m_panes, m_bench.exports,
+                                    m_bench.servers, &m_window);
     connect(dialog, &ExportDialog::written, this, &FileMenu::reportSaved);
+    connect(dialog, &ExportDialog::sent, this,
+            [this](const QString &server) { emit messageShown(tr("Sent to %1").arg(server)); });
     connect(dialog, &ExportDialog::captured, this,
             [this](const std::shared_ptr<const dicom::Catalogue> &capture) {
                 m_bench.study.document.addSources(sourcesFrom(capture));

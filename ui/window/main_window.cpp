@@ -33,6 +33,7 @@
 #include "ui/panels/region_bar.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/study_panel.h"
+#include "ui/settings/file_dialogs.h"
 #include "ui/settings/shortcuts.h"
 #include "ui/theme/dialog_place.h"
 #include "ui/theme/icons.h"
@@ -231,12 +232,13 @@ void MainWindow::createFileMenu() {
                 else
                     m_bench.study.segments.open(paths);
             });
-    auto *servers = new ServerCommands(*this, m_bench, *m_docks);
-    connect(m_file, &FileMenu::serversRequested, servers, &ServerCommands::showServers);
-    connect(servers, &ServerCommands::failed, this, &MainWindow::report);
-    connect(servers, &ServerCommands::studyArrived, this,
+    m_servers = new ServerCommands(*this, m_bench, *m_docks);
+    connect(m_file, &FileMenu::serversRequested, m_servers, &ServerCommands::showServers);
+    connect(m_servers, &ServerCommands::failed, this, &MainWindow::report);
+    connect(m_servers, &ServerCommands::studyArrived, this,
             [this](const QString &folder) { openPaths({folder}); });
-    connect(servers, &ServerCommands::messageShown, this,
+    connect(m_servers, &ServerCommands::besideRequested, m_pair, &StudyPair::openBeside);
+    connect(m_servers, &ServerCommands::messageShown, this,
             [this](const QString &text) { statusBar()->showMessage(text, 4000); });
     connect(m_start, &StartPage::openFilesRequested, m_file, &FileMenu::chooseFiles);
     connect(m_start, &StartPage::openFolderRequested, m_file, &FileMenu::chooseFolder);
@@ -376,6 +378,14 @@ void MainWindow::openPaths(const QStringList &paths) {
     m_bench.study.opener.openPaths(absolute);
 }
 
+void MainWindow::openLink(const QString &link) {
+    try {
+        m_servers->open(openRequestOf(link));
+    } catch (const task::Error &error) {
+        report(error.reason(), link.left(80));
+    }
+}
+
 void MainWindow::setPreferences(const Preferences &preferences) {
     m_preferences = preferences;
     m_reopening->setPreferences(preferences);
@@ -407,15 +417,13 @@ void MainWindow::reportLoad(const task::Reason &what, const QString &path) {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent *event) {
-    if (event->mimeData()->hasUrls())
+    // A study of the list is not opened by a slip of the hand.
+    if (event->source() == nullptr && event->mimeData()->hasUrls())
         event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent *event) {
-    QStringList paths;
-    for (const QUrl &url : event->mimeData()->urls())
-        if (url.isLocalFile())
-            paths << url.toLocalFile();
+    const QStringList paths = localPaths(*event->mimeData());
     event->acceptProposedAction();
     if (!paths.isEmpty())
         openPaths(paths);

@@ -23,6 +23,7 @@ class PaneArea;
 class PreferencesDialog;
 class ProjectionView;
 class Reopening;
+class ServerCommands;
 class StartPage;
 class StudyDocks;
 class StudyPair;
@@ -39,6 +40,8 @@ public:
     ~MainWindow() override;
 
     void openPaths(const QStringList &paths);
+    /// Opens what a link of another program names, see OpenRequest.
+    void openLink(const QString &link);
     void openPhantom(const QString &kind);
     /// Applies the preferences that need no new window.
     void setPreferences(const Preferences &preferences);
@@ -90,6 +93,7 @@ private:
     Theme m_theme;
     Preferences m_preferences;
     FileMenu *m_file = nullptr;
+    ServerCommands *m_servers = nullptr;
     std::array<MprView *, 3> m_mpr{};
     ProjectionView *m_projection = nullptr;
     LookDocks *m_look = nullptr;

@@ -1,31 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/server_commands.h"
 
+#include <algorithm>
+#include <tuple>
+
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QMainWindow>
+#include <QMessageBox>
 #include <QPointer>
+#include <QPushButton>
+#include <QSettings>
 
 #include "core/archive/sending.h"
+#include "ui/panels/earlier_panel.h"
 #include "ui/panels/study_panel.h"
+#include "ui/panels/transfers_panel.h"
 #include "ui/window/servers_dialog.h"
 #include "ui/window/study_docks.h"
 #include "ui/window/workbench.h"
 
 namespace pellucid::ui {
 
+namespace {
+
+// The servers that links may name without a question.
+constexpr auto allowedKey = "links/allowedServers";
+
+} // namespace
+
 ServerCommands::ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks &docks)
-    : QObject(&window), m_window(window), m_bench(bench) {
-    connect(&docks.studies(), &StudyPanel::retrieveRequested, this,
-            [this, &docks](const RemoteStudy &study) {
-                docks.transfers().show();
-                docks.transfers().raise();
-                m_awaited = study;
-                m_bench.transfers.add(study, &m_window);
-            });
-    connect(&bench.study.document, &Document::currentSourceChanged, this,
+    : QObject(&window), m_window(window), m_bench(bench), m_docks(docks) {
+    connect(&docks.studies(), &StudyPanel::retrieveRequested, this, &ServerCommands::retrieve);
+    connect(&docks.studies(), &StudyPanel::sendRequested, this, &ServerCommands::send);
+    connect(&docks.transfersPanel(), &TransfersPanel::sendRequested, this, &ServerCommands::send);
+    connect(&bench.servers, &ServerBook::failed, this, &ServerCommands::failed);
+    connectTransfers();
+    connectEarlier();
+    // After the window has connected to the signals.
+    QMetaObject::invokeMethod(
+        this, [this] { m_bench.transfers.resume(&m_window); }, Qt::QueuedConnection);
+}
+
+void ServerCommands::connectTransfers() {
+    connect(&m_bench.study.document, &Document::currentSourceChanged, this,
             [this] { m_awaited.reset(); });
-    connect(&bench.transfers, &TransferQueue::arriving, this,
+    connect(&m_bench.transfers, &TransferQueue::arriving, this,
             [this](const QString &uid, const std::shared_ptr<dicom::ArrivingSeries> &series) {
                 if (m_awaited && m_awaited->study.uid == uid) {
                     const RemoteStudy study = *m_awaited;
@@ -33,30 +53,169 @@ ServerCommands::ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks
                     m_bench.study.opener.openArriving(study.study, series);
                 }
             });
-    connect(&docks.studies(), &StudyPanel::sendRequested, this, &ServerCommands::send);
-    connect(&bench.servers, &ServerBook::failed, this, &ServerCommands::failed);
-    connect(&bench.transfers, &TransferQueue::failed, this, &ServerCommands::failed);
+    connect(&m_bench.transfers, &TransferQueue::failed, this, &ServerCommands::failed);
+    connect(&m_bench.receiver, &StudyReceiver::failed, this, &ServerCommands::failed);
+    connect(&m_bench.receiver, &StudyReceiver::arrived, this,
+            [this] { emit messageShown(tr("A study has arrived")); });
     // What was asked for is shown, unless another study is open by then.
-    connect(&bench.transfers, &TransferQueue::completed, this, [this](const QString &folder) {
-        const bool isIdle =
-            m_bench.study.document.currentSource() < 0 && !m_bench.study.jobs.isRunning();
-        if (isIdle && QFileInfo(folder).fileName() != m_seen)
-            emit studyArrived(folder);
-        else
-            emit messageShown(tr("A study has arrived"));
+    connect(&m_bench.transfers, &TransferQueue::completed, this,
+            [this](const QString &folder, bool isAwaited) {
+                const QString uid = QFileInfo(folder).fileName();
+                const bool isIdle =
+                    m_bench.study.document.currentSource() < 0 && !m_bench.study.jobs.isRunning();
+                const bool isForBeside = m_besideAwaited && m_besideAwaited->uid == uid;
+                if (isIdle && isAwaited && !isForBeside && uid != m_seen)
+                    emit studyArrived(folder);
+                else
+                    emit messageShown(tr("A study has arrived"));
+            });
+}
+
+void ServerCommands::connectEarlier() {
+    const auto follow = [this] {
+        const Document &document = m_bench.study.document;
+        const int source = document.currentSource();
+        std::optional<StudyFacts> study;
+        if (source >= 0)
+            study = document.sources()[std::size_t(source)].study;
+        m_bench.earlier.setOpenStudy(study);
+        if (!study)
+            m_besideAwaited.reset();
+    };
+    connect(&m_bench.study.document, &Document::currentSourceChanged, this, follow);
+    connect(&m_bench.study.document, &Document::sourcesChanged, this, follow);
+    connect(&m_bench.earlier, &EarlierStudies::retrievalSuggested, this,
+            [this](const RemoteStudy &study) {
+                m_bench.transfers.add(study, &m_window, TransferQueue::Urgency::later);
+            });
+    connect(&m_docks.earlier(), &EarlierPanel::besideRequested, this, &ServerCommands::openBeside);
+    // It is listed some time after it has arrived.
+    connect(&m_bench.library, &StudyLibrary::changed, this, [this] {
+        if (m_besideAwaited && openHere(*m_besideAwaited))
+            m_besideAwaited.reset();
     });
-    // After the window has connected to the signals.
-    QMetaObject::invokeMethod(
-        this, [this] { m_bench.transfers.resume(&m_window); }, Qt::QueuedConnection);
+    follow();
+}
+
+void ServerCommands::retrieve(const RemoteStudy &study) {
+    m_docks.transfers().show();
+    m_docks.transfers().raise();
+    m_awaited = study;
+    m_bench.transfers.add(study, &m_window);
+}
+
+void ServerCommands::openBeside(const EarlierStudy &study) {
+    m_besideAwaited.reset();
+    if (openHere(study.study) || study.servers.isEmpty())
+        return;
+    m_besideAwaited = study.study;
+    m_docks.transfers().show();
+    m_docks.transfers().raise();
+    m_bench.transfers.add(study.remote(), &m_window);
+}
+
+bool ServerCommands::openHere(const StudyFacts &wanted) {
+    // Servers may spell the name differently: the UID identifies it.
+    const auto here = m_bench.library.find(wanted.patientId, StudyOrder::newestFirst, 0, 500);
+    const auto study = std::find_if(here.studies.begin(), here.studies.end(),
+                                    [&](const StudyFacts &one) { return one.uid == wanted.uid; });
+    if (study == here.studies.end())
+        return false;
+    const Document &document = m_bench.study.document;
+    const QString modality =
+        document.currentSource() < 0
+            ? QString()
+            : document.sources()[std::size_t(document.currentSource())].volume.modality;
+    // The largest one, of the same modality if there is one.
+    const auto rank = [&](const VolumeFacts &volume) {
+        return std::tuple(volume.placed, volume.modality == modality, volume.size.count());
+    };
+    const std::vector<VolumeFacts> volumes = m_bench.library.volumes(*study);
+    const auto best = std::max_element(
+        volumes.begin(), volumes.end(),
+        [&](const VolumeFacts &a, const VolumeFacts &b) { return rank(a) < rank(b); });
+    if (best == volumes.end() || !best->placed) {
+        emit messageShown(tr("This study has no volume"));
+        return true;
+    }
+    emit besideRequested(librarySource(*study, *best, m_bench.library.files(*study, *best)));
+    return true;
 }
 
 void ServerCommands::showServers() {
     auto *dialog = m_window.findChild<ServersDialog *>();
     if (dialog == nullptr)
-        dialog = new ServersDialog(m_bench.servers, &m_window);
+        dialog = new ServersDialog(m_bench.servers, m_bench.receiver, &m_window);
     dialog->show();
     dialog->raise();
     dialog->activateWindow();
+}
+
+void ServerCommands::open(const OpenRequest &request) {
+    const auto &servers = m_bench.servers.servers();
+    const auto server = std::find_if(servers.begin(), servers.end(), [&](const auto &one) {
+        return QString::fromStdString(one.name) == request.server;
+    });
+    if (server == servers.end()) {
+        emit failed(task::because::thereIsNoServer(request.server.toStdString()), {});
+        return;
+    }
+    // With its address: another server of the same name is asked about again.
+    const QString allowed =
+        request.server + "\n" + QString::fromStdString(archive::addressOf(server->peer));
+    if (QSettings().value(allowedKey).toStringList().contains(allowed)) {
+        find(request);
+        return;
+    }
+    auto *question = new QMessageBox(
+        QMessageBox::NoIcon, tr("Open a link"),
+        tr("Another program asks to open a study from the server %1. Allow links to this server?")
+            .arg(request.server),
+        QMessageBox::Cancel, &m_window);
+    question->setObjectName("linkQuestion");
+    question->setAttribute(Qt::WA_DeleteOnClose);
+    question->setTextFormat(Qt::PlainText);
+    const QPushButton *const yes = question->addButton(tr("Allow"), QMessageBox::AcceptRole);
+    question->setDefaultButton(QMessageBox::Cancel);
+    connect(question, &QMessageBox::buttonClicked, this,
+            [this, request, allowed, yes](const QAbstractButton *button) {
+                if (button != static_cast<const void *>(yes))
+                    return;
+                QSettings settings;
+                settings.setValue(allowedKey, settings.value(allowedKey).toStringList() << allowed);
+                find(request);
+            });
+    question->open();
+}
+
+// Asks the server for the study's facts, which its list and its heading show while it arrives.
+void ServerCommands::find(const OpenRequest &request) {
+    m_bench.servers.withSecrets(
+        {request.server}, &m_window,
+        [self = QPointer<ServerCommands>(this), this,
+         request](const std::vector<archive::Server> &servers) {
+            if (self == nullptr || servers.empty())
+                return;
+            m_finding.start(
+                tr("Looking for a study"),
+                [this, servers, request](const Job &job) {
+                    archive::SearchTerms terms;
+                    terms.studyUid = request.studyUid.toStdString();
+                    const auto result = archive::search(servers, terms, {}, job.progress());
+                    const archive::ServerOutcome &outcome = result.outcomes.front();
+                    if (outcome.failure)
+                        throw task::Error(outcome.code, *outcome.failure, outcome.server);
+                    if (result.entries.empty())
+                        throw task::Error(task::ErrorCode::unusable,
+                                          task::because::serverHasNoSuchStudy, outcome.server);
+                    job.deliver(
+                        [this, study = remoteStudy(result.entries.front())] { retrieve(study); });
+                },
+                [this, request](const Outcome &outcome) {
+                    if (outcome.kind == Outcome::Kind::failed)
+                        emit failed(*outcome.reason, request.server);
+                });
+        });
 }
 
 void ServerCommands::send(const QStringList &files, const QString &server) {

@@ -7,7 +7,11 @@
 #include <QStringList>
 
 #include "core/task/reason.h"
+#include "ui/jobs/job_runner.h"
+#include "ui/servers/earlier_studies.h"
+#include "ui/servers/open_request.h"
 #include "ui/servers/remote_study.h"
+#include "ui/studies/study_source.h"
 
 class QMainWindow;
 
@@ -16,30 +20,45 @@ namespace pellucid::ui {
 struct Workbench;
 class StudyDocks;
 
-/// The commands that concern servers: the dialog, retrieving, sending, and what happens when a
-/// study has arrived.
+/// The commands that concern servers: the dialog, retrieving, sending, links of other programs,
+/// earlier studies, and what happens when a study has arrived.
 class ServerCommands : public QObject {
     Q_OBJECT
 public:
     ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks &docks);
 
     void showServers();
+    /// Opens what a link asks for: from a known server only, and after the user has allowed links
+    /// for it.
+    void open(const OpenRequest &request);
 
 signals:
     /// A study is here, and wanted in the panes.
     void studyArrived(const QString &folder);
+    void besideRequested(const pellucid::ui::StudySource &source);
     void messageShown(const QString &text);
     void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
+    void connectTransfers();
+    void connectEarlier();
+    void retrieve(const RemoteStudy &study);
+    void find(const OpenRequest &request);
+    void openBeside(const EarlierStudy &study);
+    /// Opens a study of the library beside; false if it is not there.
+    bool openHere(const StudyFacts &study);
     void send(const QStringList &files, const QString &server);
 
     QMainWindow &m_window;
     Workbench &m_bench;
+    StudyDocks &m_docks;
     /// The study that was asked for last, unless another one has been opened since.
     std::optional<RemoteStudy> m_awaited;
     /// The study that was opened last while it arrived: it is not opened again at its end.
     QString m_seen;
+    /// A study of a server that is wanted beside the open one.
+    std::optional<StudyFacts> m_besideAwaited;
+    JobRunner m_finding; ///< looks for what a link names
 };
 
 } // namespace pellucid::ui

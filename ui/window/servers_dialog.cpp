@@ -14,13 +14,14 @@
 #include <QScrollArea>
 #include <QSpinBox>
 #include <QStyle>
-#include <QToolButton>
+#include <QTabWidget>
 #include <QVBoxLayout>
 
 #include "core/exchange/link.h"
 #include "ui/language/reasons.h"
 #include "ui/servers/server_book.h"
 #include "ui/settings/file_dialogs.h"
+#include "ui/window/receiver_form.h"
 
 namespace pellucid::ui {
 
@@ -57,7 +58,7 @@ QString shown(const std::string &text) {
 
 } // namespace
 
-ServersDialog::ServersDialog(ServerBook &book, QWidget *parent)
+ServersDialog::ServersDialog(ServerBook &book, StudyReceiver &receiver, QWidget *parent)
     : QDialog(parent), m_book(book), m_list(new QListWidget), m_message(new QLabel),
       m_test(new QPushButton(tr("&Test"))), m_save(new QPushButton(tr("&Save"))),
       m_remove(new QPushButton(tr("&Remove"))) {
@@ -98,13 +99,18 @@ ServersDialog::ServersDialog(ServerBook &book, QWidget *parent)
     right->addWidget(scroll, 1);
     right->addLayout(actions);
     right->addWidget(m_message);
-    auto *columns = new QHBoxLayout;
+    auto *servers = new QWidget;
+    auto *columns = new QHBoxLayout(servers);
     columns->addLayout(left);
     columns->addLayout(right, 1);
+    auto *tabs = new QTabWidget;
+    tabs->setObjectName("serversTabs");
+    tabs->addTab(servers, tr("Servers"));
+    tabs->addTab(new ReceiverForm(receiver), tr("Receiving"));
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     auto *layout = new QVBoxLayout(this);
-    layout->addLayout(columns, 1);
+    layout->addWidget(tabs, 1);
     layout->addWidget(buttons);
     for (QPushButton *button : {add, m_remove, m_test, m_save})
         button->setAutoDefault(false);
@@ -126,23 +132,6 @@ ServersDialog::ServersDialog(ServerBook &book, QWidget *parent)
     if (m_book.servers().empty())
         showServer({}, true);
     resize(760, 600);
-}
-
-QLineEdit *ServersDialog::addFile(const QString &label, const char *name, const QString &tip) {
-    QLineEdit *const edit = lineEdit(name, tip);
-    auto *choose = new QToolButton;
-    choose->setText("...");
-    choose->setToolTip(tip);
-    connect(choose, &QToolButton::clicked, this, [this, edit, label] {
-        const QStringList chosen = askForFiles(this, label);
-        if (!chosen.isEmpty())
-            edit->setText(chosen.front());
-    });
-    auto *row = new QHBoxLayout;
-    row->addWidget(edit, 1);
-    row->addWidget(choose);
-    m_form->addRow(label, row);
-    return edit;
 }
 
 QWidget *ServersDialog::makeForm() {
@@ -185,17 +174,19 @@ QWidget *ServersDialog::makeForm() {
     m_form->addRow(tr("Host"), m_host);
     m_form->addRow(tr("Port"), m_port);
     m_form->addRow(tr("URL"), m_url);
-    m_form->addRow(tr("Our AE title"), m_callingAe);
+    m_form->addRow(tr("AE title of this program"), m_callingAe);
     m_form->addRow(tr("Retrieve"), m_retrieve);
     m_form->addRow(tr("Connections"), m_connections);
     m_form->addRow(tr("Answers"), m_limit);
     m_form->addRow(tr("Character set"), m_characterSet);
     m_form->addRow({}, m_tls);
-    m_authorities = addFile(tr("Authorities"), "authoritiesEdit",
-                            tr("Certificates that are trusted (PEM); empty: those of the system"));
-    m_certificate = addFile(tr("Certificate"), "certificateEdit",
-                            tr("Certificate that this program shows (PEM); empty: none"));
-    m_key = addFile(tr("Private key"), "keyEdit", tr("Private key of the certificate (PEM)"));
+    m_authorities =
+        addFileRow(*m_form, tr("Authorities"), "authoritiesEdit",
+                   tr("Certificates that are trusted (PEM); empty: those of the system"));
+    m_certificate = addFileRow(*m_form, tr("Certificate"), "certificateEdit",
+                               tr("Certificate that this program shows (PEM); empty: none"));
+    m_key = addFileRow(*m_form, tr("Private key"), "keyEdit",
+                       tr("Private key of the certificate (PEM)"));
     m_form->addRow(tr("Key password"), m_keyPassword);
     m_form->addRow(tr("Login"), m_authentication);
     m_form->addRow(tr("User"), m_user);
@@ -212,14 +203,9 @@ void ServersDialog::enableFields() {
     const bool isWeb = m_protocol->currentIndex() == 1;
     const bool isSecure = isWeb ? m_url->text().startsWith("https://") : m_tls->isChecked();
     const auto place = [this](QWidget *field, bool isShown) {
-        for (int row = 0; row < m_form->rowCount(); ++row) {
-            QLayoutItem *const item = m_form->itemAt(row, QFormLayout::FieldRole);
-            const bool isHere = item != nullptr &&
-                                (item->widget() == field || (item->layout() != nullptr &&
-                                                             item->layout()->indexOf(field) >= 0));
-            if (isHere)
-                m_form->setRowVisible(row, isShown);
-        }
+        // The field of a file is in a row with its button.
+        QWidget *const parent = field->parentWidget();
+        m_form->setRowVisible(parent == m_form->parentWidget() ? field : parent, isShown);
     };
     for (QWidget *field : std::initializer_list<QWidget *>{m_ae, m_host, m_port, m_callingAe,
                                                            m_retrieve, m_characterSet, m_tls})

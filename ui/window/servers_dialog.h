@@ -18,16 +18,16 @@ class QSpinBox;
 namespace pellucid::ui {
 
 class ServerBook;
+class StudyReceiver;
 
-/// Adds, edits, tests and removes servers.
+/// Adds, edits, tests and removes servers, and sets how this program receives what they send.
 class ServersDialog : public QDialog {
     Q_OBJECT
 public:
-    ServersDialog(ServerBook &book, QWidget *parent);
+    ServersDialog(ServerBook &book, StudyReceiver &receiver, QWidget *parent);
 
 private:
     QWidget *makeForm();
-    QLineEdit *addFile(const QString &label, const char *name, const QString &tip);
     void list(const QString &selected);
     void showServer(const archive::Server &server, bool isNew);
     /// What the form says. *Throws* Error{usage}.

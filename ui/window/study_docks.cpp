@@ -5,6 +5,7 @@
 #include <QMainWindow>
 #include <QUndoView>
 
+#include "ui/panels/earlier_panel.h"
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/spectrum_panel.h"
 #include "ui/panels/study_panel.h"
@@ -18,7 +19,8 @@ namespace pellucid::ui {
 StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme)
     : QObject(&window), m_window(window),
       m_studies(new StudyPanel(bench.study.document, bench.library, bench.serverSearch, theme)),
-      m_measurements(new MeasurementsPanel(bench.study.document)) {
+      m_measurements(new MeasurementsPanel(bench.study.document)),
+      m_earlier(new EarlierPanel(bench.earlier)) {
     m_study = makeDock(tr("STUDIES"), "studyDock", m_studies, m_studies->corner());
     m_studies->setMinimumWidth(250);
     window.addDockWidget(Qt::LeftDockWidgetArea, m_study);
@@ -26,8 +28,12 @@ StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme
         makeDock(tr("MEASUREMENTS"), "measurementsDock", m_measurements, m_measurements->corner());
     window.addDockWidget(Qt::LeftDockWidgetArea, m_measured);
     window.resizeDocks({m_study, m_measured}, {700, 180}, Qt::Vertical);
-    auto *transfers = new TransfersPanel(bench.transfers);
-    m_transfers = makeDock(tr("TRANSFERS"), "transfersDock", transfers, transfers->corner());
+    m_earlierDock = makeDock(tr("EARLIER STUDIES"), "earlierDock", m_earlier, nullptr);
+    window.addDockWidget(Qt::LeftDockWidgetArea, m_earlierDock);
+    m_earlierDock->hide();
+    m_transfersPanel = new TransfersPanel(bench.transfers, bench.receiver, bench.servers);
+    m_transfers =
+        makeDock(tr("TRANSFERS"), "transfersDock", m_transfersPanel, m_transfersPanel->corner());
     window.addDockWidget(Qt::LeftDockWidgetArea, m_transfers);
     m_transfers->hide();
     m_history = addHistory(window, bench);
@@ -35,7 +41,8 @@ StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme
 }
 
 void StudyDocks::reset() {
-    for (QDockWidget *dock : {m_study, m_measured, m_transfers, m_history, m_spectrum}) {
+    for (QDockWidget *dock :
+         {m_study, m_measured, m_earlierDock, m_transfers, m_history, m_spectrum}) {
         dock->setFloating(false);
         m_window.addDockWidget(Qt::LeftDockWidgetArea, dock);
         dock->setVisible(dock == m_study || dock == m_measured);

@@ -12,13 +12,14 @@ class QMainWindow;
 
 namespace pellucid::ui {
 
+class EarlierPanel;
 class MeasurementsPanel;
 class StudyPanel;
 class TransfersPanel;
 struct Workbench;
 
-/// The docks on the left of the window: studies, measurements, transfers, edit history and
-/// spectrum. The last three are hidden at first.
+/// The docks on the left of the window: studies, measurements, earlier studies, transfers, edit
+/// history and spectrum. The last four are hidden at first.
 class StudyDocks : public QObject {
     Q_OBJECT
 public:
@@ -26,10 +27,12 @@ public:
 
     StudyPanel &studies() { return *m_studies; }
     MeasurementsPanel &measurements() { return *m_measurements; }
+    EarlierPanel &earlier() { return *m_earlier; }
     /// The docks in the Window menu.
     std::vector<QDockWidget *> listed() const {
-        return {m_study, m_measured, m_transfers, m_history};
+        return {m_study, m_measured, m_earlierDock, m_transfers, m_history};
     }
+    TransfersPanel &transfersPanel() { return *m_transfersPanel; }
     QDockWidget &study() { return *m_study; }
     QDockWidget &transfers() { return *m_transfers; }
     QDockWidget &spectrum() { return *m_spectrum; }
@@ -44,7 +47,9 @@ private:
     QMainWindow &m_window;
     StudyPanel *m_studies;
     MeasurementsPanel *m_measurements;
-    QDockWidget *m_study, *m_measured, *m_transfers, *m_history, *m_spectrum;
+    EarlierPanel *m_earlier;
+    TransfersPanel *m_transfersPanel = nullptr;
+    QDockWidget *m_study, *m_measured, *m_earlierDock, *m_transfers, *m_history, *m_spectrum;
 };
 
 } // namespace pellucid::ui

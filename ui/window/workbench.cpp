@@ -4,7 +4,8 @@
 namespace pellucid::ui {
 
 Workbench::Workbench(std::optional<EngineChoice> engine)
-    : card(engine), study(card), serverSearch(servers), transfers(servers, library),
+    : card(engine), study(card), serverSearch(servers), receiver(servers),
+      transfers(servers, library, receiver), earlier(library, servers),
       measurements(study.document) {
     study.document.addProblems(library.notices());
     if (const auto fault = session.fault())

@@ -9,8 +9,10 @@
 #include "ui/library/study_library.h"
 #include "ui/opening/open_study.h"
 #include "ui/opening/session.h"
+#include "ui/servers/earlier_studies.h"
 #include "ui/servers/server_book.h"
 #include "ui/servers/server_search.h"
+#include "ui/servers/study_receiver.h"
 #include "ui/servers/transfer_queue.h"
 
 namespace pellucid::ui {
@@ -30,7 +32,9 @@ struct Workbench {
     StudyLibrary library;
     ServerBook servers;
     ServerSearch serverSearch;
+    StudyReceiver receiver;
     TransferQueue transfers;
+    EarlierStudies earlier;
     MeasurementStore measurements;
     SessionFile session;
 };

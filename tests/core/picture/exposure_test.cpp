@@ -18,17 +18,28 @@ namespace {
 
 struct Study {
     explicit Study(phantom::Kind kind, int side = 96)
-        : volume(phantom::makePhantom(
-              kind, phantom::phantomLattice(kind, {.size = volume::GridSize{side, side, side}}))) {
+        : Study(phantom::makePhantom(kind, phantom::phantomLattice(
+                                               kind, {.size = volume::GridSize{side, side, side}})),
+                {-900, 2000}) {}
+    Study(const volume::Volume &shown, const classify::FieldWindow &window) : volume(shown) {
         scene.camera = scene::defaultCamera(volume.lattice());
         scene.plannedFor = scene::PlannedFor::volume;
-        engine = prepare::prepareEngine(
-                     scene, classify::shownFields(volume, {-900, 2000}, {}, nullptr), {})
-                     .engine;
+        engine =
+            prepare::prepareEngine(scene, classify::shownFields(volume, window, {}, nullptr), {})
+                .engine;
     }
     scene::Exposure exposure(const scene::Tone &tone = {}) const {
         return measureExposure(*engine, volume.lattice(), scene.image, scene.shading, tone,
                                backgroundOf(volume));
+    }
+    // In the middle row of the front view, `x` mm from its middle.
+    int frontGrey(const scene::Tone &tone, double x) const {
+        const auto front = scene::viewOrientation(scene::StandardView::front);
+        const ProjectionImage image = seen(front);
+        const Pixels pixels = compose(image, displayOf(tone, front));
+        const int c = int(std::lround(0.5 * (image.width - 1) + x / image.pixelMm));
+        return int(pixels[4 * (std::size_t(image.height / 2) * std::size_t(image.width) +
+                               std::size_t(c))]);
     }
     ProjectionImage seen(const glm::dquat &orientation) const {
         scene::Camera camera = scene.camera;
@@ -165,26 +176,12 @@ TEST(Exposure, AirOfValuesWithoutAUnitIsBlack) {
             for (int i = 0; i < 60; ++i)
                 if ((i - 30) * (i - 30) + (j - 30) * (j - 30) < 18 * 18)
                     samples[std::size_t((k * 60 + j) * 60 + i)] = 1.0F;
-    Study study(phantom::Kind::cube, 8);
-    study.volume = volume::Volume(lattice, samples, volume::ValueUnit::none);
-    study.scene.camera = scene::defaultCamera(lattice);
-    study.engine =
-        prepare::prepareEngine(study.scene,
-                               classify::shownFields(study.volume, {0.0, 1.0}, {}, nullptr), {})
-            .engine;
+    const Study study(volume::Volume(lattice, samples, volume::ValueUnit::none), {0.0, 1.0});
     scene::Tone tone;
     tone.exposure = study.exposure();
-    const auto front = scene::viewOrientation(scene::StandardView::front);
     EXPECT_NEAR(tone.exposure->axes[1].air, 1.1 * 0.25 * 60 * 3, 3.0);
-    const ProjectionImage image = study.seen(front);
-    const Pixels pixels = compose(image, displayOf(tone, front));
-    const auto greyAt = [&](double x) {
-        const int c = int(std::lround(0.5 * (image.width - 1) + x / image.pixelMm));
-        return int(pixels[4 * (std::size_t(image.height / 2) * std::size_t(image.width) +
-                               std::size_t(c))]);
-    };
-    EXPECT_LE(greyAt(-75.0), 3); // within the volume, beside the body
-    EXPECT_GE(greyAt(0.0), 180);
+    EXPECT_LE(study.frontGrey(tone, -75.0), 3); // within the volume, beside the body
+    EXPECT_GE(study.frontGrey(tone, 0.0), 180);
     EXPECT_NEAR(tone.exposure->lowMm.x, -54.0, 5.0);
 }
 
@@ -201,27 +198,13 @@ TEST(Exposure, AirOfAnObliqueVolumeIsFound) {
     const auto lattice = volume::Lattice::make(
         {side, side, side}, {turn * glm::dvec3(-88.5)},
         {turn * glm::dvec3(3, 0, 0), turn * glm::dvec3(0, 3, 0), turn * glm::dvec3(0, 0, 3)});
-    Study study(phantom::Kind::cube, 8);
-    study.volume = volume::Volume(lattice, samples, volume::ValueUnit::none);
-    study.scene.camera = scene::defaultCamera(lattice);
-    study.engine =
-        prepare::prepareEngine(study.scene,
-                               classify::shownFields(study.volume, {0.0, 1.0}, {}, nullptr), {})
-            .engine;
+    const Study study(volume::Volume(lattice, samples, volume::ValueUnit::none), {0.0, 1.0});
     scene::Tone tone;
     tone.exposure = study.exposure();
-    const auto front = scene::viewOrientation(scene::StandardView::front);
-    const ProjectionImage image = study.seen(front);
-    const auto greyAt = [&](double x) {
-        const Pixels pixels = compose(image, displayOf(tone, front));
-        const int c = int(std::lround(0.5 * (image.width - 1) + x / image.pixelMm));
-        return int(pixels[4 * (std::size_t(image.height / 2) * std::size_t(image.width) +
-                               std::size_t(c))]);
-    };
     for (const scene::Exposure::Axis &axis : tone.exposure->axes)
         EXPECT_NEAR(axis.air, 1.1 * 0.15 * 184, 6.0); // the cube is 180 mm thick, or somewhat more
-    EXPECT_GE(greyAt(0.0), 180);
-    EXPECT_LE(greyAt(-65.0), 12); // within the volume, beside the body
+    EXPECT_GE(study.frontGrey(tone, 0.0), 180);
+    EXPECT_LE(study.frontGrey(tone, -65.0), 12); // within the volume, beside the body
 }
 
 // A class without air: the flank of a dim body beside something bright is not air, so the body

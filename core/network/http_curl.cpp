@@ -1,38 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/network/web_client.h"
+#include "core/network/http.h"
 
 #include <algorithm>
 #include <arpa/inet.h>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <csignal>
 #include <cstring>
-#include <fcntl.h>
 #include <fstream>
 #include <iterator>
 #include <netdb.h>
 #include <netinet/tcp.h>
-#include <optional>
 #include <poll.h>
-#include <set>
-#include <sstream>
 #include <strings.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <curl/curl.h>
-#include <fmt/format.h>
 
-#include "core/decoder/channel.h"
 #include "core/network/authorities.h"
 #include "core/network/confine.h"
-#include "core/network/dicom_json.h"
-#include "core/network/file_start.h"
-#include "core/network/multipart.h"
-#include "core/network/statuses.h"
 
 // libcurl 7.88 connects even a socket that it is told is connected. In this process that call is
 // forbidden by then, so it is answered here: the linker puts this function in place of libc's.
@@ -49,14 +38,12 @@ namespace pellucid::network {
 namespace {
 
 namespace because = task::because;
-using exchange::Level;
 using exchange::Peer;
 using exchange::Step;
 using task::Error;
 using task::ErrorCode;
 
 constexpr std::size_t longestAnswer = 256 << 20; // of JSON
-constexpr std::uint32_t pageSize = 200;
 
 std::string fileText(const std::string &path) {
     std::ifstream in(path, std::ios::binary);
@@ -126,105 +113,12 @@ Connected connectTo(const Peer &peer, Control &control) {
     throw Lost{because::cannotConnect(task::systemReason(error))};
 }
 
-std::string tagText(std::uint32_t tag) {
-    return fmt::format("{:08X}", tag);
-}
-
-// A value of a URL's query. Unlike libcurl, leaves ^, * and ? as browsers do: Orthanc 1.10 does not
-// decode %5E.
-std::string escaped(const std::string &text) {
-    std::string url;
-    for (const char c : text) {
-        const bool isPlain =
-            std::isalnum((unsigned char)(c)) != 0 || std::strchr("-_.~^*?:,", c) != nullptr;
-        url += isPlain ? std::string(1, c) : fmt::format("%{:02X}", (unsigned char)(c));
-    }
-    return url;
-}
-
-// The reason of an answer with a status beyond 299.
-task::Reason httpReason(long status) {
-    switch (status) {
-    case 401:
-        return because::serverDoesNotAcceptTheLogin;
-    case 403:
-        return because::serverDoesNotAllowIt;
-    case 404:
-        return because::serverHasNothingThere;
-    case 408:
-    case 429:
-    case 503:
-        return because::serverIsBusy;
-    case 413:
-        return because::serverIsOutOfResources;
-    default:
-        return because::serverAnswersHttp(status);
-    }
-}
-
-// The objects of an answer, which become files of the program.
-class Objects {
-public:
-    explicit Objects(Control &control) : m_control(control) {}
-
-    void begin() {
-        m_start.clear();
-        m_storage.reset();
-        m_isRefused = false;
-    }
-    void take(std::span<const std::byte> bytes) {
-        if (m_isRefused)
-            return;
-        if (m_storage) {
-            m_storage->write(bytes);
-            return;
-        }
-        m_start.insert(m_start.end(), bytes.begin(), bytes.end());
-        std::optional<exchange::Arrival> arrival;
-        try {
-            arrival = arrivalOf(m_start);
-        } catch (const Error &) {
-            m_isRefused = true; // an answer that is no object
-            ++m_end.failed;
-            return;
-        }
-        if (!arrival)
-            return;
-        m_storage.emplace(m_control, *arrival);
-        m_uid = arrival->sopInstanceUid;
-        if (m_storage->isWanted()) {
-            m_storage->write(m_start);
-        } else {
-            m_storage.reset();
-            m_isRefused = true;
-        }
-    }
-    void end() {
-        if (!m_storage)
-            return;
-        if (m_storage->finish() == success)
-            ++m_end.completed;
-        else
-            ++m_end.failed;
-        m_storage.reset();
-    }
-    exchange::RetrievalEnd &result() { return m_end; }
-
-private:
-    Control &m_control;
-    std::vector<std::byte> m_start;
-    std::optional<Storage> m_storage;
-    std::string m_uid;
-    bool m_isRefused = false;
-    exchange::RetrievalEnd m_end;
-};
-
 } // namespace
 
 // One easy handle with its only connection.
-class WebClient::Curl {
+class HttpClient::Curl {
 public:
-    Curl(const Peer &peer, Control &control, int &confinement) : m_control(control) {
+    Curl(const Peer &peer, Control &control, int &confinement) : m_peer(peer), m_control(control) {
         ::signal(SIGPIPE, SIG_IGN);
         ::curl_global_init(CURL_GLOBAL_DEFAULT);
         m_handle = ::curl_easy_init();
@@ -261,27 +155,13 @@ public:
     Curl(const Curl &) = delete;
     Curl &operator=(const Curl &) = delete;
 
-    struct Request {
-        std::string path;
-        std::string accept;
-        std::string contentType;
-        /// The body of a POST, piece by piece.
-        std::vector<std::span<const std::byte>> body;
-    };
-    struct Answer {
-        long status = 0;
-        std::string contentType, warning, location;
-        std::string text; ///< unless it is taken as it comes
-    };
-    /// `take`: gets the bytes of a successful answer.
-    Answer perform(const Peer &peer, const Request &request,
-                   const std::function<void(const Answer &, std::span<const std::byte>)> &take) {
-        Answer answer = performOnce(peer, request, take);
+    Answer perform(const Request &request, const Take &take) {
+        Answer answer = performOnce(request, take);
         // Elsewhere on the same server only: a token must not go to another.
         if (answer.status >= 300 && answer.status < 400 && !answer.location.empty()) {
             Request moved = request;
             moved.path = pathAt(answer.location);
-            answer = performOnce(peer, moved, take);
+            answer = performOnce(moved, take);
         }
         return answer;
     }
@@ -291,7 +171,7 @@ private:
         Curl *curl;
         Answer answer;
         const Request *request;
-        const std::function<void(const Answer &, std::span<const std::byte>)> *take;
+        const Take *take;
         std::size_t piece = 0, at = 0;
         std::exception_ptr failure;
     };
@@ -311,9 +191,7 @@ private:
         throw Error(ErrorCode::unusable, because::serverPointsElsewhere);
     }
 
-    Answer
-    performOnce(const Peer &peer, const Request &request,
-                const std::function<void(const Answer &, std::span<const std::byte>)> &take) {
+    Answer performOnce(const Request &request, const Take &take) {
         Transfer transfer{this, {}, &request, &take, 0, 0, {}};
         CURL *const h = m_handle;
         ::curl_easy_reset(h); // keeps the connection
@@ -328,10 +206,10 @@ private:
         ::curl_easy_setopt(h, CURLOPT_OPENSOCKETFUNCTION, &Curl::openSocket);
         ::curl_easy_setopt(h, CURLOPT_OPENSOCKETDATA, this);
         ::curl_easy_setopt(h, CURLOPT_SOCKOPTFUNCTION, &Curl::isConnected);
-        ::curl_easy_setopt(h, CURLOPT_CONNECTTIMEOUT, std::lround(peer.associationSeconds));
+        ::curl_easy_setopt(h, CURLOPT_CONNECTTIMEOUT, std::lround(m_peer.associationSeconds));
         // No limit on a whole transfer, only on silence.
         ::curl_easy_setopt(h, CURLOPT_LOW_SPEED_LIMIT, 1L);
-        ::curl_easy_setopt(h, CURLOPT_LOW_SPEED_TIME, std::lround(peer.silenceSeconds));
+        ::curl_easy_setopt(h, CURLOPT_LOW_SPEED_TIME, std::lround(m_peer.silenceSeconds));
         ::curl_easy_setopt(h, CURLOPT_WRITEFUNCTION, &Curl::write);
         ::curl_easy_setopt(h, CURLOPT_WRITEDATA, &transfer);
         ::curl_easy_setopt(h, CURLOPT_HEADERFUNCTION, &Curl::header);
@@ -341,7 +219,7 @@ private:
         ::curl_easy_setopt(h, CURLOPT_XFERINFODATA, &transfer);
         std::array<char, CURL_ERROR_SIZE> said{};
         ::curl_easy_setopt(h, CURLOPT_ERRORBUFFER, said.data());
-        setSecurity(peer);
+        setSecurity();
         curl_slist *headers = ::curl_slist_append(nullptr, ("Accept: " + request.accept).c_str());
         headers = ::curl_slist_append(headers, "Expect:");
         if (!request.body.empty()) {
@@ -362,21 +240,21 @@ private:
             std::rethrow_exception(transfer.failure);
         ::curl_easy_getinfo(h, CURLINFO_RESPONSE_CODE, &transfer.answer.status);
         if (code != CURLE_OK)
-            fail(code, said.data(), peer);
+            fail(code, said.data());
         return std::move(transfer.answer);
     }
 
-    void setSecurity(const Peer &peer) {
+    void setSecurity() {
         CURL *const h = m_handle;
-        if (peer.authentication == exchange::Authentication::basic) {
+        if (m_peer.authentication == exchange::Authentication::basic) {
             ::curl_easy_setopt(h, CURLOPT_HTTPAUTH, CURLAUTH_BASIC);
-            ::curl_easy_setopt(h, CURLOPT_USERNAME, peer.user.c_str());
-            ::curl_easy_setopt(h, CURLOPT_PASSWORD, peer.secret.c_str());
-        } else if (peer.authentication == exchange::Authentication::bearer) {
+            ::curl_easy_setopt(h, CURLOPT_USERNAME, m_peer.user.c_str());
+            ::curl_easy_setopt(h, CURLOPT_PASSWORD, m_peer.secret.c_str());
+        } else if (m_peer.authentication == exchange::Authentication::bearer) {
             ::curl_easy_setopt(h, CURLOPT_HTTPAUTH, CURLAUTH_BEARER);
-            ::curl_easy_setopt(h, CURLOPT_XOAUTH2_BEARER, peer.secret.c_str());
+            ::curl_easy_setopt(h, CURLOPT_XOAUTH2_BEARER, m_peer.secret.c_str());
         }
-        if (!peer.usesTls)
+        if (!m_peer.usesTls)
             return;
         const auto blob = [&](CURLoption option, std::string &text) {
             curl_blob data{text.data(), text.size(), CURL_BLOB_NOCOPY};
@@ -392,13 +270,13 @@ private:
             return;
         blob(CURLOPT_SSLCERT_BLOB, m_certificate);
         blob(CURLOPT_SSLKEY_BLOB, m_key);
-        ::curl_easy_setopt(h, CURLOPT_KEYPASSWD, peer.keyPassword.c_str());
+        ::curl_easy_setopt(h, CURLOPT_KEYPASSWD, m_peer.keyPassword.c_str());
     }
 
-    [[noreturn]] static void fail(CURLcode code, const std::string &said, const Peer &peer) {
+    [[noreturn]] void fail(CURLcode code, const std::string &said) const {
         switch (code) {
         case CURLE_OPERATION_TIMEDOUT:
-            throw Lost{because::serverIsSilent(std::lround(peer.silenceSeconds))};
+            throw Lost{because::serverIsSilent(std::lround(m_peer.silenceSeconds))};
         case CURLE_PEER_FAILED_VERIFICATION:
             throw Lost{because::certificateIsRefused(said)};
         case CURLE_SSL_CONNECT_ERROR:
@@ -494,6 +372,7 @@ private:
         return transfer.failure ? 1 : 0;
     }
 
+    const Peer m_peer;
     Control &m_control;
     CURL *m_handle = nullptr;
     curl_slist *m_resolved = nullptr;
@@ -501,162 +380,13 @@ private:
     std::string m_origin, m_authorities, m_certificate, m_key;
 };
 
-WebClient::WebClient(const exchange::Connection &connection, Control &control)
-    : m_peer(connection.peer) {
-    m_curl = std::make_unique<Curl>(m_peer, control, m_confinement);
-}
+HttpClient::HttpClient(const exchange::Peer &peer, Control &control)
+    : m_curl(std::make_unique<Curl>(peer, control, m_confinement)) {}
 
-WebClient::~WebClient() = default;
+HttpClient::~HttpClient() = default;
 
-void WebClient::echo(Control &control) {
-    const auto answer = m_curl->perform(
-        m_peer, {m_peer.path + "/studies?limit=1", "application/dicom+json", {}, {}}, {});
-    if (answer.status >= 300)
-        throw Error(ErrorCode::unusable, httpReason(answer.status));
-    readDicomJson(answer.text);
-    control.step(Step::service, "QIDO-RS");
-}
-
-exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &control) {
-    const auto key = [&](std::uint32_t tag) {
-        const auto at = query.keys.find(tag);
-        return at == query.keys.end() ? std::string() : at->second;
-    };
-    std::string path = m_peer.path + "/studies";
-    std::set<std::uint32_t> inPath;
-    if (query.level != Level::study) {
-        path += "/" + key(exchange::tag::studyUid) + "/series";
-        inPath.insert(exchange::tag::studyUid);
-    }
-    if (query.level == Level::image) {
-        path += "/" + key(exchange::tag::seriesUid) + "/instances";
-        inPath.insert(exchange::tag::seriesUid);
-    }
-    std::string terms;
-    for (const auto &[tag, value] : query.keys) {
-        if (inPath.contains(tag))
-            continue;
-        if (value.empty()) {
-            terms += "&includefield=" + tagText(tag);
-            continue;
-        }
-        terms += "&" + tagText(tag) + "=" + escaped(value);
-    }
-    const std::uint32_t uidTag = query.level == Level::study    ? exchange::tag::studyUid
-                                 : query.level == Level::series ? exchange::tag::seriesUid
-                                                                : exchange::tag::sopInstanceUid;
-    exchange::QueryEnd end;
-    std::set<std::string> known;
-    for (std::uint32_t offset = 0;;) {
-        const auto answer =
-            m_curl->perform(m_peer,
-                            {fmt::format("{}?limit={}&offset={}{}", path, pageSize, offset, terms),
-                             "application/dicom+json",
-                             {},
-                             {}},
-                            {});
-        if (answer.status == 204)
-            return end;
-        if (answer.status >= 300)
-            throw Error(ErrorCode::unusable, httpReason(answer.status));
-        if (!answer.warning.empty() && end.warnings.empty())
-            end.warnings.push_back(answer.warning);
-        bool hasNew = false;
-        for (exchange::Attributes &match : readDicomJson(answer.text)) {
-            ++offset;
-            // Servers without offsets send the same page again and again.
-            if (!known.insert(match[uidTag]).second)
-                continue;
-            hasNew = true;
-            if (query.limit != 0 && known.size() > query.limit) {
-                end.reachedLimit = true;
-                return end;
-            }
-            for (const auto &[tag, value] : query.keys)
-                if (inPath.contains(tag))
-                    match[tag] = value;
-            control.send({Message::Kind::match, 0, 0, exchange::pack(match)});
-        }
-        if (!hasNew)
-            return end;
-        if (control.isCancelled())
-            throw CancelledByProgram();
-    }
-}
-
-exchange::RetrievalEnd WebClient::get(const exchange::Retrieval &retrieval, Control &control) {
-    Objects objects(control);
-    const std::string series =
-        m_peer.path + "/studies/" + retrieval.studyUid +
-        (retrieval.level == Level::study ? "" : "/series/" + retrieval.seriesUid);
-    std::vector<std::string> paths;
-    if (retrieval.level == Level::image)
-        for (const std::string &uid : retrieval.instanceUids)
-            paths.push_back(series + "/instances/" + uid);
-    else
-        paths.push_back(series);
-    for (std::size_t n = 0; n < paths.size(); ++n) {
-        std::optional<MultipartReader> reader;
-        const auto answer = m_curl->perform(
-            m_peer,
-            {paths[n], "multipart/related; type=\"application/dicom\"; transfer-syntax=*", {}, {}},
-            [&](const Curl::Answer &so_far, std::span<const std::byte> bytes) {
-                if (!reader)
-                    reader.emplace(so_far.contentType,
-                                   MultipartReader::Sink{
-                                       [&] { objects.begin(); },
-                                       [&](std::span<const std::byte> part) { objects.take(part); },
-                                       [&] { objects.end(); }});
-                reader->add(bytes);
-            });
-        const bool isFailed = answer.status >= 300 || !reader || !reader->finish();
-        if (answer.status == 401 || answer.status == 403)
-            throw Error(ErrorCode::unusable, httpReason(answer.status));
-        if (isFailed && retrieval.level == Level::image &&
-            exchange::isUid(retrieval.instanceUids[n])) {
-            ++objects.result().failed;
-            objects.result().failedInstances.push_back(retrieval.instanceUids[n]);
-        } else if (isFailed) {
-            throw Error(ErrorCode::unusable, httpReason(answer.status));
-        }
-    }
-    return objects.result();
-}
-
-void WebClient::store(int file, std::uint64_t bytes, Control &) {
-    const decoder::Mapping mapping(file, bytes, decoder::Mapping::Access::read);
-    const auto arrival =
-        arrivalOf(mapping.bytes().first(std::min<std::size_t>(mapping.bytes().size(), 128 << 10)));
-    if (!arrival)
-        throw Error(ErrorCode::unusable, because::isNotDicom);
-    // No data set contains it: 128 random bits.
-    std::array<unsigned char, 16> random{};
-    (void)!::getentropy(random.data(), random.size());
-    std::string boundary = "pellucid-";
-    for (const unsigned char byte : random)
-        boundary += fmt::format("{:02x}", byte);
-    const std::string head = "--" + boundary + "\r\nContent-Type: application/dicom\r\n\r\n",
-                      tail = "\r\n--" + boundary + "--\r\n";
-    const auto answer = m_curl->perform(
-        m_peer,
-        {m_peer.path + "/studies",
-         "application/dicom+json",
-         "multipart/related; type=\"application/dicom\"; boundary=" + boundary,
-         {std::as_bytes(std::span(head)), mapping.bytes(), std::as_bytes(std::span(tail))}},
-        {});
-    const bool hasList = answer.text.find('{') != std::string::npos;
-    if (!hasList)
-        throw Error(ErrorCode::unusable, answer.status >= 300 ? httpReason(answer.status)
-                                                              : because::serverDoesNotConfirm);
-    // A status of success alone means nothing: only the list of what is stored does.
-    const StoreAnswer stored = readStoreAnswer(answer.text);
-    for (const StoreAnswer::Failed &failed : stored.failed)
-        if (failed.uid == arrival->sopInstanceUid)
-            throw Error(ErrorCode::unusable, statusReason(std::uint16_t(failed.reason), {}));
-    if (std::find(stored.stored.begin(), stored.stored.end(), arrival->sopInstanceUid) ==
-        stored.stored.end())
-        throw Error(ErrorCode::unusable, answer.status >= 300 ? httpReason(answer.status)
-                                                              : because::serverDoesNotConfirm);
+HttpClient::Answer HttpClient::perform(const Request &request, const Take &take) {
+    return m_curl->perform(request, take);
 }
 
 } // namespace pellucid::network

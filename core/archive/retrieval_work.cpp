@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/archive/retrieval_work.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/task/error.h"
+
+namespace pellucid::archive {
+
+namespace {
+
+namespace because = task::because;
+using task::Error;
+using task::ErrorCode;
+
+constexpr std::size_t mostOfABatch = 32;
+constexpr std::size_t mostUnwanted = 1000; // objects
+
+} // namespace
+
+RetrievalWork::RetrievalWork(const std::vector<Instance> &instances, const ObjectFolder &folder,
+                             const RetrievalObserver &observer, int connections)
+    : m_folder(folder), m_observer(observer), m_connections(std::size_t(connections)) {
+    m_state.wanted = instances.size();
+    for (const Instance &instance : instances) {
+        if (folder.has(instance.studyUid, instance.seriesUid, instance.sopInstanceUid))
+            ++m_state.present;
+        else
+            m_missing.emplace(instance.sopInstanceUid, instance);
+    }
+    fillQueue(instances);
+}
+
+std::set<std::string> RetrievalWork::classes() const {
+    std::set<std::string> found;
+    for (const auto &[uid, instance] : m_missing)
+        found.insert(instance.sopClassUid);
+    return found;
+}
+
+std::optional<Batch> RetrievalWork::next() {
+    const std::lock_guard lock(m_mutex);
+    if (m_queue.empty() || m_failure || m_offersNoGet)
+        return std::nullopt;
+    Batch batch = std::move(m_queue.front());
+    m_queue.pop_front();
+    return batch;
+}
+
+void RetrievalWork::putBack(Batch batch) {
+    const std::lock_guard lock(m_mutex);
+    std::erase_if(batch.uids, [&](const std::string &uid) { return !m_missing.contains(uid); });
+    if (!batch.uids.empty())
+        m_queue.push_front(std::move(batch));
+}
+
+std::optional<ObjectFolder::Place> RetrievalWork::placeOf(const std::string &uid) {
+    const std::lock_guard lock(m_mutex);
+    const auto missing = m_missing.find(uid);
+    if (missing != m_missing.end())
+        return ObjectFolder::Place{missing->second.studyUid, missing->second.seriesUid};
+    if (++m_unwanted > mostUnwanted + m_state.wanted)
+        throw Error(ErrorCode::unusable, because::serverSendsTooMuch);
+    return std::nullopt;
+}
+
+void RetrievalWork::stored(const StoredObject &object) {
+    const std::lock_guard lock(m_mutex);
+    if (m_missing.erase(object.sopInstanceUid) == 0)
+        return;
+    m_reasons.erase(object.sopInstanceUid);
+    ++m_state.received;
+    if (m_observer.stored)
+        m_observer.stored(object);
+    if (m_observer.changed)
+        m_observer.changed(m_state);
+}
+
+void RetrievalWork::refused(const std::string &uid, const task::Reason &reason) {
+    const std::lock_guard lock(m_mutex);
+    m_reasons.insert_or_assign(uid, reason);
+}
+
+void RetrievalWork::findHere(const Batch &batch) {
+    for (const std::string &uid : batch.uids) {
+        const std::optional<Instance> awaited = [&]() -> std::optional<Instance> {
+            const std::lock_guard lock(m_mutex);
+            const auto missing = m_missing.find(uid);
+            return missing == m_missing.end() ? std::nullopt : std::optional(missing->second);
+        }();
+        if (!awaited || !m_folder.has(awaited->studyUid, awaited->seriesUid, uid))
+            continue;
+        const std::filesystem::path path =
+            m_folder.pathOf(awaited->studyUid, awaited->seriesUid, uid);
+        std::error_code unknown;
+        const auto bytes = std::filesystem::file_size(path, unknown);
+        moved(unknown ? 0 : std::int64_t(bytes));
+        stored({path, awaited->studyUid, awaited->seriesUid, uid, awaited->sopClassUid,
+                unknown ? 0 : std::uint64_t(bytes)});
+    }
+}
+
+void RetrievalWork::ended(const Batch &batch, const exchange::RetrievalEnd &end) {
+    const std::lock_guard lock(m_mutex);
+    for (const std::string &uid : batch.uids)
+        if (m_missing.contains(uid) && !m_reasons.contains(uid))
+            m_reasons.emplace(
+                uid, !end.reason.empty()
+                         ? task::Reason::decoded(end.reason).value_or(because::serverLeftItOut)
+                     : std::find(end.failedInstances.begin(), end.failedInstances.end(), uid) !=
+                             end.failedInstances.end()
+                         ? task::Reason(because::serverCouldNotSendIt)
+                         : task::Reason(because::serverLeftItOut));
+}
+
+void RetrievalWork::failed(const Batch &batch, const task::Reason &reason) {
+    const std::lock_guard lock(m_mutex);
+    for (const std::string &uid : batch.uids)
+        if (m_missing.contains(uid))
+            m_reasons.insert_or_assign(uid, reason);
+}
+
+void RetrievalWork::moved(std::int64_t bytes) {
+    const std::lock_guard lock(m_mutex);
+    m_state.bytes = std::uint64_t(std::int64_t(m_state.bytes) + bytes);
+    if (m_observer.changed)
+        m_observer.changed(m_state);
+}
+
+int RetrievalWork::refusedAgain() {
+    const std::lock_guard lock(m_mutex);
+    if (m_state.received != m_receivedAtRefusal)
+        m_refusals = 0;
+    m_receivedAtRefusal = m_state.received;
+    return ++m_refusals;
+}
+
+void RetrievalWork::refuseAll(const Batch &batch, const task::Reason &reason) {
+    failed(batch, reason);
+    const std::lock_guard lock(m_mutex);
+    for (const Batch &waiting : m_queue)
+        for (const std::string &uid : waiting.uids)
+            m_reasons.insert_or_assign(uid, reason);
+    m_queue.clear();
+}
+
+void RetrievalWork::offersNoGet() {
+    const std::lock_guard lock(m_mutex);
+    m_offersNoGet = true;
+}
+
+void RetrievalWork::stop(std::exception_ptr failure) {
+    const std::lock_guard lock(m_mutex);
+    if (!m_failure)
+        m_failure = std::move(failure);
+}
+
+void RetrievalWork::rethrow() {
+    if (m_failure)
+        std::rethrow_exception(m_failure);
+}
+
+std::size_t RetrievalWork::receivedCount() {
+    const std::lock_guard lock(m_mutex);
+    return m_state.received;
+}
+
+bool RetrievalWork::fillQueueAgain(const std::vector<Instance> &instances) {
+    const std::lock_guard lock(m_mutex);
+    const bool isRefused = std::any_of(m_reasons.begin(), m_reasons.end(), [](const auto &reason) {
+        return reason.second.is(because::serverStatus) ||
+               reason.second.is(because::serverStatusWithComment) ||
+               reason.second.is(because::serverCouldNotSendIt);
+    });
+    if (!isRefused || m_missing.empty())
+        return false;
+    m_refusals = 0;
+    fillQueue(instances);
+    return true;
+}
+
+RetrievalReport RetrievalWork::report() {
+    const std::lock_guard lock(m_mutex);
+    RetrievalReport report{m_state, 0.0, {}, m_unwanted};
+    for (const auto &[uid, instance] : m_missing) {
+        const auto reason = m_reasons.find(uid);
+        report.lacking.push_back(
+            {uid, reason == m_reasons.end() ? because::serverLeftItOut : reason->second});
+    }
+    return report;
+}
+
+void RetrievalWork::fillQueue(const std::vector<Instance> &instances) {
+    for (std::size_t begin = 0; begin < instances.size();) {
+        std::size_t end = begin;
+        while (end < instances.size() && instances[end].seriesUid == instances[begin].seriesUid)
+            ++end;
+        const std::size_t count = end - begin;
+        const std::size_t largest = std::clamp(count / 16, leastOfABatch, mostOfABatch);
+        // Dealt out among the connections: together they bring coarse slices before fine ones.
+        const Batch empty{instances[begin].studyUid, instances[begin].seriesUid, {}};
+        std::vector<Batch> hands(m_connections, empty);
+        std::size_t dealt = 0, taken = 0;
+        const auto flush = [&] {
+            for (Batch &hand : hands)
+                if (!hand.uids.empty())
+                    m_queue.push_back(std::exchange(hand, empty));
+            dealt = 0;
+        };
+        for (const std::size_t index : coarseToFine(count)) {
+            const std::string &uid = instances[begin + index].sopInstanceUid;
+            if (!m_missing.contains(uid))
+                continue;
+            hands[dealt++ % hands.size()].uids.push_back(uid);
+            // Small ones first: what is shown is coarse at first, and must not wait.
+            const std::size_t size = ++taken <= count / 8 + 2 ? leastOfABatch : largest;
+            if (dealt >= size * hands.size())
+                flush();
+        }
+        flush();
+        begin = end;
+    }
+}
+
+} // namespace pellucid::archive

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/archive/retrieval.h"
+#include "core/exchange/query.h"
+
+namespace pellucid::archive {
+
+/// Instances of one series that are asked for together.
+struct Batch {
+    std::string studyUid, seriesUid;
+    std::vector<std::string> uids;
+};
+
+/// The most instances that a first batch has; a connection is worth while for so many.
+inline constexpr std::size_t leastOfABatch = 8;
+
+/// The state of a retrieval, shared by its connections: what lacks and why, and the queue of
+/// batches from coarse to fine. Thread-safe, but for `missing`, `classes`, `needsMove` and
+/// `useMove`, which are for the time when no connection runs.
+class RetrievalWork {
+public:
+    /// `folder` and `observer` outlive this object. *Requires*: at least one connection.
+    RetrievalWork(const std::vector<Instance> &instances, const ObjectFolder &folder,
+                  const RetrievalObserver &observer, int connections);
+
+    std::size_t missing() const { return m_missing.size(); }
+    std::set<std::string> classes() const;
+
+    /// The next batch; nothing when all are taken.
+    std::optional<Batch> next();
+
+    /// After a lost connection: what has not come is asked for again.
+    void putBack(Batch batch);
+
+    /// Where an awaited object belongs; nothing if it is not awaited. *Throws* if the server goes
+    /// on and on with others.
+    std::optional<ObjectFolder::Place> placeOf(const std::string &uid);
+    void stored(const StoredObject &object);
+    void refused(const std::string &uid, const task::Reason &reason);
+    /// Takes what another listener has stored in the folder meanwhile.
+    void findHere(const Batch &batch);
+    /// The server ended a batch: what did not come has this reason unless it has its own.
+    void ended(const Batch &batch, const exchange::RetrievalEnd &end);
+    void failed(const Batch &batch, const task::Reason &reason);
+    void moved(std::int64_t bytes);
+    /// The number of batches that were refused without any object between.
+    int refusedAgain();
+    /// The rest is not asked for.
+    void refuseAll(const Batch &batch, const task::Reason &reason);
+    void offersNoGet();
+    bool needsMove() const { return m_offersNoGet; }
+    void useMove() { m_offersNoGet = false; }
+    /// Ends all connections: the disk is full, or the program is to stop.
+    void stop(std::exception_ptr failure);
+    void rethrow();
+    std::size_t receivedCount();
+
+    /// Asks once more for what the server refused. False if it refused nothing.
+    bool fillQueueAgain(const std::vector<Instance> &instances);
+
+    RetrievalReport report();
+    const ObjectFolder &folder() const { return m_folder; }
+
+private:
+    void fillQueue(const std::vector<Instance> &instances);
+
+    const ObjectFolder &m_folder;
+    const RetrievalObserver &m_observer;
+    const std::size_t m_connections;
+    std::mutex m_mutex;
+    std::map<std::string, Instance> m_missing;
+    std::map<std::string, task::Reason> m_reasons;
+    std::deque<Batch> m_queue;
+    RetrievalState m_state;
+    std::size_t m_unwanted = 0;
+    int m_refusals = 0;
+    std::size_t m_receivedAtRefusal = 0;
+    bool m_offersNoGet = false;
+    std::exception_ptr m_failure;
+};
+
+} // namespace pellucid::archive

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/network/web_client.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+#include <optional>
+#include <set>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "core/decoder/channel.h"
+#include "core/network/dicom_json.h"
+#include "core/network/file_start.h"
+#include "core/network/multipart.h"
+#include "core/network/statuses.h"
+
+namespace pellucid::network {
+
+namespace {
+
+namespace because = task::because;
+using exchange::Level;
+using exchange::Step;
+using task::Error;
+using task::ErrorCode;
+
+constexpr std::uint32_t pageSize = 200;
+
+std::string tagText(std::uint32_t tag) {
+    return fmt::format("{:08X}", tag);
+}
+
+// A value of a URL's query. Unlike libcurl, leaves ^, * and ? as browsers do: Orthanc 1.10 does not
+// decode %5E.
+std::string escaped(const std::string &text) {
+    std::string url;
+    for (const char c : text) {
+        const bool isPlain =
+            std::isalnum((unsigned char)(c)) != 0 || std::strchr("-_.~^*?:,", c) != nullptr;
+        url += isPlain ? std::string(1, c) : fmt::format("%{:02X}", (unsigned char)(c));
+    }
+    return url;
+}
+
+// The reason of an answer with a status beyond 299.
+task::Reason httpReason(long status) {
+    switch (status) {
+    case 401:
+        return because::serverDoesNotAcceptTheLogin;
+    case 403:
+        return because::serverDoesNotAllowIt;
+    case 404:
+        return because::serverHasNothingThere;
+    case 408:
+    case 429:
+    case 503:
+        return because::serverIsBusy;
+    case 413:
+        return because::serverIsOutOfResources;
+    default:
+        return because::serverAnswersHttp(status);
+    }
+}
+
+// The objects of an answer, which become files of the program.
+class Objects {
+public:
+    explicit Objects(Control &control) : m_control(control) {}
+
+    void begin() {
+        m_start.clear();
+        m_storage.reset();
+        m_isRefused = false;
+    }
+    void take(std::span<const std::byte> bytes) {
+        if (m_isRefused)
+            return;
+        if (m_storage) {
+            m_storage->write(bytes);
+            return;
+        }
+        m_start.insert(m_start.end(), bytes.begin(), bytes.end());
+        std::optional<exchange::Arrival> arrival;
+        try {
+            arrival = arrivalOf(m_start);
+        } catch (const Error &) {
+            m_isRefused = true; // an answer that is no object
+            ++m_end.failed;
+            return;
+        }
+        if (!arrival)
+            return;
+        m_storage.emplace(m_control, *arrival);
+        if (m_storage->isWanted()) {
+            m_storage->write(m_start);
+        } else {
+            m_storage.reset();
+            m_isRefused = true;
+        }
+    }
+    void end() {
+        if (!m_storage)
+            return;
+        if (m_storage->finish() == exchange::status::success)
+            ++m_end.completed;
+        else
+            ++m_end.failed;
+        m_storage.reset();
+    }
+    exchange::RetrievalEnd &result() { return m_end; }
+
+private:
+    Control &m_control;
+    std::vector<std::byte> m_start;
+    std::optional<Storage> m_storage;
+    bool m_isRefused = false;
+    exchange::RetrievalEnd m_end;
+};
+
+} // namespace
+
+WebClient::WebClient(const exchange::Connection &connection, Control &control)
+    : m_path(connection.peer.path), m_http(connection.peer, control) {}
+
+void WebClient::echo(Control &control) {
+    const auto answer =
+        m_http.perform({m_path + "/studies?limit=1", "application/dicom+json", {}, {}}, {});
+    if (answer.status >= 300)
+        throw Error(ErrorCode::unusable, httpReason(answer.status));
+    readDicomJson(answer.text);
+    control.step(Step::service, "QIDO-RS");
+}
+
+exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &control) {
+    const auto key = [&](std::uint32_t tag) {
+        const auto at = query.keys.find(tag);
+        return at == query.keys.end() ? std::string() : at->second;
+    };
+    std::string path = m_path + "/studies";
+    std::set<std::uint32_t> inPath;
+    if (query.level != Level::study) {
+        path += "/" + key(exchange::tag::studyUid) + "/series";
+        inPath.insert(exchange::tag::studyUid);
+    }
+    if (query.level == Level::image) {
+        path += "/" + key(exchange::tag::seriesUid) + "/instances";
+        inPath.insert(exchange::tag::seriesUid);
+    }
+    std::string terms;
+    for (const auto &[tag, value] : query.keys) {
+        if (inPath.contains(tag))
+            continue;
+        if (value.empty()) {
+            terms += "&includefield=" + tagText(tag);
+            continue;
+        }
+        terms += "&" + tagText(tag) + "=" + escaped(value);
+    }
+    const std::uint32_t uidTag = query.level == Level::study    ? exchange::tag::studyUid
+                                 : query.level == Level::series ? exchange::tag::seriesUid
+                                                                : exchange::tag::sopInstanceUid;
+    exchange::QueryEnd end;
+    std::set<std::string> known;
+    for (std::uint32_t offset = 0;;) {
+        const auto answer =
+            m_http.perform({fmt::format("{}?limit={}&offset={}{}", path, pageSize, offset, terms),
+                            "application/dicom+json",
+                            {},
+                            {}},
+                           {});
+        if (answer.status == 204)
+            return end;
+        if (answer.status >= 300)
+            throw Error(ErrorCode::unusable, httpReason(answer.status));
+        if (!answer.warning.empty() && end.warnings.empty())
+            end.warnings.push_back(answer.warning);
+        bool hasNew = false;
+        for (exchange::Attributes &match : readDicomJson(answer.text)) {
+            ++offset;
+            // Servers without offsets send the same page again and again.
+            if (!known.insert(match[uidTag]).second)
+                continue;
+            hasNew = true;
+            if (query.limit != 0 && known.size() > query.limit) {
+                end.reachedLimit = true;
+                return end;
+            }
+            for (const auto &[tag, value] : query.keys)
+                if (inPath.contains(tag))
+                    match[tag] = value;
+            control.send({Message::Kind::match, 0, 0, exchange::pack(match)});
+        }
+        if (!hasNew)
+            return end;
+        if (control.isCancelled())
+            throw CancelledByProgram();
+    }
+}
+
+exchange::RetrievalEnd WebClient::retrieve(const exchange::Retrieval &retrieval, Control &control) {
+    Objects objects(control);
+    const std::string series =
+        m_path + "/studies/" + retrieval.studyUid +
+        (retrieval.level == Level::study ? "" : "/series/" + retrieval.seriesUid);
+    std::vector<std::string> paths;
+    if (retrieval.level == Level::image)
+        for (const std::string &uid : retrieval.instanceUids)
+            paths.push_back(series + "/instances/" + uid);
+    else
+        paths.push_back(series);
+    for (std::size_t n = 0; n < paths.size(); ++n) {
+        std::optional<MultipartReader> reader;
+        const auto answer = m_http.perform(
+            {paths[n], "multipart/related; type=\"application/dicom\"; transfer-syntax=*", {}, {}},
+            [&](const HttpClient::Answer &so_far, std::span<const std::byte> bytes) {
+                if (!reader)
+                    reader.emplace(so_far.contentType,
+                                   MultipartReader::Sink{
+                                       [&] { objects.begin(); },
+                                       [&](std::span<const std::byte> part) { objects.take(part); },
+                                       [&] { objects.end(); }});
+                reader->add(bytes);
+            });
+        const bool isFailed = answer.status >= 300 || !reader || !reader->finish();
+        if (answer.status == 401 || answer.status == 403)
+            throw Error(ErrorCode::unusable, httpReason(answer.status));
+        if (isFailed && retrieval.level == Level::image &&
+            exchange::isUid(retrieval.instanceUids[n])) {
+            ++objects.result().failed;
+            objects.result().failedInstances.push_back(retrieval.instanceUids[n]);
+        } else if (isFailed) {
+            throw Error(ErrorCode::unusable, httpReason(answer.status));
+        }
+    }
+    return objects.result();
+}
+
+void WebClient::store(int file, std::uint64_t bytes, Control &) {
+    const decoder::Mapping mapping(file, bytes, decoder::Mapping::Access::read);
+    const auto arrival =
+        arrivalOf(mapping.bytes().first(std::min<std::size_t>(mapping.bytes().size(), 128 << 10)));
+    if (!arrival)
+        throw Error(ErrorCode::unusable, because::isNotDicom);
+    // No data set contains it: 128 random bits.
+    std::array<unsigned char, 16> random{};
+    (void)!::getentropy(random.data(), random.size());
+    std::string boundary = "pellucid-";
+    for (const unsigned char byte : random)
+        boundary += fmt::format("{:02x}", byte);
+    const std::string head = "--" + boundary + "\r\nContent-Type: application/dicom\r\n\r\n",
+                      tail = "\r\n--" + boundary + "--\r\n";
+    const auto answer = m_http.perform(
+        {m_path + "/studies",
+         "application/dicom+json",
+         "multipart/related; type=\"application/dicom\"; boundary=" + boundary,
+         {std::as_bytes(std::span(head)), mapping.bytes(), std::as_bytes(std::span(tail))}},
+        {});
+    const bool hasList = answer.text.find('{') != std::string::npos;
+    if (!hasList)
+        throw Error(ErrorCode::unusable, answer.status >= 300 ? httpReason(answer.status)
+                                                              : because::serverDoesNotConfirm);
+    // A status of success alone means nothing: only the list of what is stored does.
+    const StoreAnswer stored = readStoreAnswer(answer.text);
+    for (const StoreAnswer::Failed &failed : stored.failed)
+        if (failed.uid == arrival->sopInstanceUid)
+            throw Error(ErrorCode::unusable, statusReason(std::uint16_t(failed.reason), {}));
+    if (std::find(stored.stored.begin(), stored.stored.end(), arrival->sopInstanceUid) ==
+        stored.stored.end())
+        throw Error(ErrorCode::unusable, answer.status >= 300 ? httpReason(answer.status)
+                                                              : because::serverDoesNotConfirm);
+}
+
+} // namespace pellucid::network

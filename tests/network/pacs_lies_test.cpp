@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Servers that lie: what is false is refused with a reason, what is true is kept, and nothing else
+// appears in the folder.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "core/archive/retrieval.h"
+#include "core/archive/search.h"
+#include "core/archive/server.h"
+#include "core/task/error.h"
+#include "tests/network/lying_server.h"
+#include "tests/network/pacs.h"
+#include "tests/network/processes.h"
+#include "tests/support/files.h"
+
+namespace pellucid {
+
+using namespace test;
+namespace because = task::because;
+using archive::ObjectFolder;
+using archive::RetrievalReport;
+
+namespace {
+
+constexpr int instances = 4;
+
+class Lies : public PacsScripted {
+protected:
+    static archive::Server at(const LyingServer &lying) {
+        archive::Server server = serverAt(lying.port(), "LIES");
+        server.connections = 1;
+        return server;
+    }
+    // Only these objects are in the folder, each whole and in its place.
+    void expectOnly(const std::string &to, const std::vector<int> &numbers) const {
+        std::set<fs::path> expected;
+        for (const int n : numbers) {
+            const std::string uid = LyingServer::instance(n);
+            const fs::path file =
+                m_folder / to / LyingServer::study / LyingServer::series / (uid + ".dcm");
+            expected.insert(file);
+            EXPECT_EQ(dataSetOf(file), LyingServer::object(uid).dataset({})) << file;
+        }
+        const auto files = filesIn(m_folder / to);
+        EXPECT_EQ(std::set<fs::path>(files.begin(), files.end()), expected);
+    }
+};
+
+// The helper did not break: its own faults have reasons of their own.
+bool blamesTheHelper(const task::Reason &reason) {
+    return reason.is(because::helperCrashed) || reason.is(because::helperSentNonsense) ||
+           reason.is(because::helperBrokeItsConfinement) || reason.is(because::helperDoesNotAnswer);
+}
+
+} // namespace
+
+TEST_F(Lies, AFalseObjectIsRefusedAndTheOthersAreKept) {
+    const std::map<std::string, task::Reason> reasons{
+        {"cut short", because::isTruncated},
+        {"cut in an element's head", because::isTruncated},
+        {"longer than it is", because::isTruncated},
+        {"two gigabytes long", because::isTruncated},
+        {"of undefined length", because::isTruncated},
+        {"another instance", because::isNotWhatWasAnnounced},
+        {"another class", because::isNotWhatWasAnnounced},
+        {"another study", because::isNotWhatWasAnnounced},
+        {"another series", because::isNotWhatWasAnnounced},
+        {"a path as its study", because::hasNoValidUids},
+        {"a path as its series", because::hasNoValidUids},
+        {"a path as its name", because::isNotWhatWasAnnounced},
+        {"no study", because::hasNoValidUids},
+        {"no instance", because::isNotWhatWasAnnounced}};
+    for (const Lie &lie : liesAboutObjects()) {
+        SCOPED_TRACE(lie.what);
+        std::atomic<int> status = -1;
+        const LyingServer lying(instances, [&](ScriptedAssociation &association,
+                                               const ScriptedRequest &request,
+                                               const std::vector<std::string> &uids) {
+            for (const std::string &uid : uids)
+                if (uid == LyingServer::instance(1))
+                    status = association.store(uid::capture, uid, lie.dataset(uid));
+                else
+                    EXPECT_EQ(LyingServer::sendTruly(association, uid), 0);
+            association.endGet(request, 0, int(uids.size())); // all are claimed to be sent
+        });
+        const RetrievalReport report = get(at(lying), LyingServer::study, lie.what);
+        EXPECT_EQ(status, 0xa900); // the server learns that it was not kept
+        ASSERT_EQ(report.lacking.size(), 1U);
+        EXPECT_EQ(report.lacking[0].sopInstanceUid, LyingServer::instance(1));
+        EXPECT_FALSE(report.lacking[0].reason.english().empty());
+        if (const auto reason = reasons.find(lie.what); reason != reasons.end()) {
+            EXPECT_EQ(report.lacking[0].reason.english(), reason->second.english());
+        }
+        EXPECT_FALSE(blamesTheHelper(report.lacking[0].reason));
+        expectOnly(lie.what, {0, 2, 3});
+        EXPECT_FALSE(fs::exists("/tmp/pellucid-lie"));
+    }
+}
+
+TEST_F(Lies, ObjectsThatNobodyAskedForAreNotKept) {
+    std::map<std::string, int> statuses;
+    const LyingServer lying(instances, [&](ScriptedAssociation &association,
+                                           const ScriptedRequest &request,
+                                           const std::vector<std::string> &uids) {
+        // Of the same series, whole and in order, but not of the list.
+        const std::string foreign = LyingServer::instance(77);
+        statuses["foreign"] = LyingServer::sendTruly(association, foreign);
+        for (const char *const path : {"../../../tmp/pellucid-lie", "/tmp/pellucid-lie", ".."})
+            statuses["path"] = association.store(
+                uid::capture, path, LyingServer::object(LyingServer::instance(0)).dataset({}));
+        for (const std::string &uid : uids)
+            statuses["wanted"] = LyingServer::sendTruly(association, uid);
+        // Once more, with other pixels.
+        DicomWriter other = LyingServer::object(LyingServer::instance(0));
+        other.put(DicomWriter::pixelData, "OW", std::string(4000, '\x11'));
+        statuses["again"] =
+            association.store(uid::capture, LyingServer::instance(0), other.dataset({}));
+        association.endGet(request, 0, int(uids.size()));
+    });
+    const RetrievalReport report = get(at(lying), LyingServer::study);
+    EXPECT_TRUE(report.isComplete());
+    EXPECT_EQ(report.state.received, std::size_t(instances));
+    EXPECT_EQ(report.unwanted, 2U); // the invalid ones do not reach the program
+    EXPECT_EQ(statuses["foreign"], 0x0124);
+    EXPECT_EQ(statuses["path"], 0x0117);
+    EXPECT_EQ(statuses["wanted"], 0);
+    EXPECT_EQ(statuses["again"], 0x0124);
+    expectOnly("got", {0, 1, 2, 3});
+    EXPECT_FALSE(fs::exists("/tmp/pellucid-lie"));
+}
+
+// A server that goes on and on with other objects is left.
+TEST_F(Lies, AServerThatSendsWithoutEndIsLeft) {
+    std::atomic<long> sent = 0;
+    const LyingServer lying(instances,
+                            [&](ScriptedAssociation &association, const ScriptedRequest &,
+                                const std::vector<std::string> &) {
+                                for (int n = 1000;; ++n, ++sent)
+                                    LyingServer::sendTruly(association, LyingServer::instance(n));
+                            });
+    const RetrievalReport report = get(at(lying), LyingServer::study);
+    ASSERT_EQ(report.lacking.size(), std::size_t(instances));
+    for (const auto &object : report.lacking)
+        EXPECT_TRUE(object.reason.is(because::serverSendsTooMuch)) << object.reason.english();
+    EXPECT_LT(sent, 3000);
+    expectOnly("got", {});
+}
+
+TEST_F(Lies, ClaimsAreComparedWithWhatCame) {
+    const LyingServer lying(instances, [&](ScriptedAssociation &association,
+                                           const ScriptedRequest &request,
+                                           const std::vector<std::string> &uids) {
+        LyingServer::sendTruly(association, uids.front());
+        association.endGet(request, 0, 1000); // far more than that, as it says
+    });
+    const RetrievalReport report = get(at(lying), LyingServer::study);
+    EXPECT_EQ(report.state.received, 1U);
+    ASSERT_EQ(report.lacking.size(), std::size_t(instances) - 1);
+    for (const auto &object : report.lacking)
+        EXPECT_TRUE(object.reason.is(because::serverLeftItOut)) << object.reason.english();
+    expectOnly("got", {0});
+}
+
+// Each breach ends the connection with a reason, and never the helper. All at the same time: after
+// each, the program waits before it connects again.
+TEST_F(Lies, BrokenMessagesEndTheConnectionOnly) {
+    const std::vector<Violation> all = violations();
+    std::vector<std::optional<RetrievalReport>> reports(all.size());
+    std::vector<std::string> failures(all.size());
+    {
+        std::vector<std::jthread> threads;
+        for (std::size_t n = 0; n < all.size(); ++n)
+            threads.emplace_back([&, n] {
+                const LyingServer lying(instances, [&](ScriptedAssociation &association,
+                                                       const ScriptedRequest &request,
+                                                       const std::vector<std::string> &uids) {
+                    // One object before the breach, which stays.
+                    if (uids.size() == std::size_t(instances))
+                        LyingServer::sendTruly(association, LyingServer::instance(0));
+                    association.send(all[n].bytes(association, uids.back()));
+                    // If it is taken for an object all the same.
+                    if (association.next())
+                        association.endGet(request, 0, 1);
+                });
+                try {
+                    reports[n] = get(at(lying), LyingServer::study, all[n].what);
+                } catch (const task::Error &error) {
+                    failures[n] = error.reason().english();
+                }
+            });
+    }
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        SCOPED_TRACE(all[n].what);
+        EXPECT_EQ(failures[n], "");
+        if (!reports[n])
+            continue;
+        EXPECT_EQ(reports[n]->state.received, 1U);
+        EXPECT_EQ(reports[n]->lacking.size(), std::size_t(instances) - 1);
+        for (const auto &object : reports[n]->lacking) {
+            EXPECT_FALSE(blamesTheHelper(object.reason)) << object.reason.english();
+            EXPECT_FALSE(object.reason.is(because::serverLeftItOut)) << object.reason.english();
+            // An abort is an end that the other side wanted.
+            EXPECT_EQ(object.reason.is(because::serverHungUp), all[n].what == "an abort")
+                << object.reason.english();
+        }
+        expectOnly(all[n].what, {0});
+    }
+}
+
+// An object without an end has no name yet, and a cancel ends it.
+TEST_F(Lies, AnEndlessObjectIsCancelled) {
+    const LyingServer lying(instances, [&](ScriptedAssociation &association,
+                                           const ScriptedRequest &,
+                                           const std::vector<std::string> &uids) {
+        LyingServer::sendTruly(association, uids.front());
+        const auto context = association.contextOf(uid::capture);
+        const std::string piece = ScriptedAssociation::pdu(
+            4, ScriptedAssociation::value(context, 0, std::string(16000, '\x5a')));
+        association.send(association.storeCommand(uid::capture, uids.at(1)));
+        std::string head = LyingServer::object(uids.at(1)).dataset({});
+        head.resize(head.size() - 4000 - 4);
+        head += DicomWriter::number(std::uint32_t(0xfffffff0));
+        association.send(ScriptedAssociation::pdu(4, ScriptedAssociation::value(context, 0, head)));
+        // 16 MB/s: enough to be seen, and not to fill the disk.
+        for (;;) {
+            association.send(piece);
+            ::usleep(1000);
+        }
+    });
+    std::stop_source stop;
+    std::uint64_t bytes = 0;
+    archive::RetrievalObserver observer;
+    observer.changed = [&](const archive::RetrievalState &state) {
+        bytes = state.bytes;
+        if (state.received == 1 && bytes > (std::uint64_t(8) << 20))
+            stop.request_stop();
+    };
+    const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    EXPECT_THROW(archive::retrieve(at(lying), {LyingServer::study, {}}, folder, observer,
+                                   task::Progress(stop.get_token())),
+                 task::Cancelled);
+    EXPECT_GT(bytes, std::uint64_t(8) << 20);
+    EXPECT_TRUE(ownHelpers().empty());
+    const auto files = filesIn(m_folder / "got");
+    ASSERT_EQ(files.size(), 1U);
+    EXPECT_EQ(dataSetOf(files[0]).size(),
+              LyingServer::object(LyingServer::instance(0)).dataset({}).size());
+}
+
+// Lists that lie: paths and noise as identifiers are not rows, and no study is made of them.
+TEST_F(Lies, IdentifiersOfAListAreChecked) {
+    const ScriptedServer lying(
+        [](ScriptedAssociation &association, const ScriptedRequest &request) {
+            for (const char *const uid : {"../../../tmp/pellucid-lie", "", "1..2", "1.2.3\nx",
+                                          "1.2.826.0.1.3680043.8.498.55"}) {
+                DicomWriter row;
+                row.put({0x0008, 0x0052}, "CS", request.text(0x00080052));
+                row.put({0x0008, 0x0018}, "UI", uid);
+                row.put({0x0010, 0x0010}, "PN", "Lies\x1b]0;^Jane\nline");
+                row.put({0x0020, 0x000d}, "UI", uid);
+                row.put({0x0020, 0x000e}, "UI", "..");
+                association.answer(request, 0xff00, row);
+            }
+            association.answer(request, 0);
+        });
+    const archive::Server server = serverAt(lying.port(), "LIES");
+    const auto result = archive::search({server}, {});
+    ASSERT_EQ(result.entries.size(), 1U);
+    EXPECT_EQ(result.entries[0].text(exchange::tag::studyUid), "1.2.826.0.1.3680043.8.498.55");
+    for (const char c : result.entries[0].text(exchange::tag::patientName))
+        EXPECT_GE((unsigned char)(c), 0x20U);
+    const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    try {
+        archive::retrieve(server, {"1.2.826.0.1.3680043.8.498.55", {}}, folder);
+        ADD_FAILURE() << "something was retrieved";
+    } catch (const task::Error &error) {
+        EXPECT_TRUE(error.reason().is(because::serverHasNoSuchStudy)) << error.reason().english();
+    }
+    EXPECT_TRUE(filesIn(m_folder / "got").empty());
+}
+
+// Answers of another kind than the question.
+TEST_F(Lies, AnswersToOtherQuestionsAreRefused) {
+    for (const std::uint16_t other : {command::storeRequest, command::getRequest}) {
+        const ScriptedServer lying(
+            [other](ScriptedAssociation &association, ScriptedRequest request) {
+                request.field = other;
+                association.answer(request, 0);
+            });
+        const auto result = archive::search({serverAt(lying.port(), "LIES")}, {});
+        ASSERT_TRUE(result.outcomes.at(0).failure.has_value());
+        EXPECT_TRUE(result.outcomes[0].failure->is(because::serverSendsTheUnexpected))
+            << result.outcomes[0].failure->english();
+    }
+}
+
+} // namespace pellucid

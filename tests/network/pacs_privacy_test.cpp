@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Neither the patient nor a secret appears where other programs, users or later readers can see it.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <mutex>
+#include <random>
+#include <set>
+#include <string>
+#include <string_view>
+#include <sys/socket.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "core/archive/listener.h"
+#include "core/archive/receiving.h"
+#include "core/archive/run_transfer.h"
+#include "core/archive/search.h"
+#include "core/archive/sending.h"
+#include "core/archive/server.h"
+#include "core/archive/transfer_log.h"
+#include "core/system/log.h"
+#include "tests/network/pacs.h"
+#include "tests/network/processes.h"
+#include "tests/support/command.h"
+#include "tests/support/dicom_writer.h"
+#include "tests/support/files.h"
+
+namespace pellucid {
+
+using namespace test;
+namespace because = task::because;
+
+namespace {
+
+// Words that nothing else on this machine contains.
+struct Words {
+    std::string name = word(), id = word(), password = word(), token = word();
+    std::array<std::string, 4> all() const { return {name, id, password, token}; }
+    bool isIn(std::string_view text) const {
+        for (const std::string &each : all())
+            if (text.find(each) != std::string_view::npos)
+                return true;
+        return false;
+    }
+
+private:
+    static std::string word() {
+        static std::random_device random;
+        std::string text = "Q";
+        for (int n = 0; n < 15; ++n)
+            text += char('A' + random() % 26);
+        return text;
+    }
+};
+
+// Looks at all processes until it is destroyed.
+class Watch {
+public:
+    explicit Watch(const Words &words)
+        : m_words(words), m_thread([this](const std::stop_token &stop) {
+              while (!stop.stop_requested())
+                  look();
+          }) {}
+    /// Where one of the words was seen.
+    std::set<std::string> end() {
+        m_thread.request_stop();
+        m_thread.join();
+        return m_places;
+    }
+    /// The number of looks at a network helper.
+    int helpers() const { return m_helpers; }
+
+private:
+    void look() {
+        for (const ProcessEntry &entry : processes()) {
+            if (m_words.isIn(textOfProcess(entry.pid, "cmdline")))
+                m_places.insert("the arguments of " + entry.name);
+            if (entry.name != "pellucid-net" || entry.parent != ::getpid())
+                continue;
+            ++m_helpers;
+            if (m_words.isIn(textOfProcess(entry.pid, "environ")))
+                m_places.insert("the environment of " + entry.name);
+        }
+    }
+
+    const Words &m_words;
+    std::set<std::string> m_places;
+    std::atomic<int> m_helpers = 0;
+    std::jthread m_thread;
+};
+
+std::mutex logMutex;
+std::string logText;
+
+// The sink stays until the program ends.
+void keepLog() {
+    system::setLogSink([](const std::string &line) {
+        const std::lock_guard lock(logMutex);
+        logText += line + "\n";
+    });
+}
+
+// A study of small objects.
+void writeStudy(const fs::path &folder, const Words &words, const std::string &study, int objects) {
+    fs::create_directories(folder);
+    for (int n = 0; n < objects; ++n) {
+        DicomWriter writer;
+        writer.put({0x0008, 0x0016}, "UI", "1.2.840.10008.5.1.4.1.1.7");
+        writer.put({0x0008, 0x0018}, "UI", study + ".1." + std::to_string(n + 1));
+        writer.put({0x0008, 0x0020}, "DA", "20260101");
+        writer.put({0x0008, 0x0060}, "CS", "OT");
+        writer.put({0x0010, 0x0010}, "PN", words.name + "^" + words.name);
+        writer.put({0x0010, 0x0020}, "LO", words.id);
+        writer.put({0x0020, 0x000d}, "UI", study);
+        writer.put({0x0020, 0x000e}, "UI", study + ".1");
+        writer.put({0x0020, 0x0013}, "IS", std::to_string(n + 1));
+        writer.write(folder / ("object" + std::to_string(n)));
+    }
+}
+
+// Answers one HTTP request: the login is refused.
+class RefusingWebServer {
+public:
+    RefusingWebServer()
+        : m_listening(listenOn(m_port)), m_thread([this](const std::stop_token &stop) {
+              while (!stop.stop_requested()) {
+                  pollfd waiting{m_listening, POLLIN, 0};
+                  if (::poll(&waiting, 1, 20) <= 0)
+                      continue;
+                  const int client = ::accept4(m_listening, nullptr, nullptr, SOCK_CLOEXEC);
+                  std::array<char, 4096> buffer{};
+                  ssize_t got = 0;
+                  while (m_request.find("\r\n\r\n") == std::string::npos &&
+                         (got = ::recv(client, buffer.data(), buffer.size(), 0)) > 0)
+                      m_request.append(buffer.data(), std::size_t(got));
+                  constexpr std::string_view answer = "HTTP/1.1 401 Unauthorized\r\n"
+                                                      "Content-Length: 0\r\n"
+                                                      "Connection: close\r\n\r\n";
+                  ::send(client, answer.data(), answer.size(), MSG_NOSIGNAL);
+                  ::close(client);
+              }
+          }) {}
+    ~RefusingWebServer() {
+        m_thread.request_stop();
+        m_thread.join();
+        ::close(m_listening);
+    }
+    int port() const { return m_port; }
+    /// What came. *Requires*: the program has got its answer.
+    const std::string &request() const { return m_request; }
+
+private:
+    int m_port = 0, m_listening;
+    std::string m_request;
+    std::jthread m_thread;
+};
+
+} // namespace
+
+TEST_F(Pacs, NeitherPatientsNorSecretsShowOutside) {
+    if (!isInstalled("storescu"))
+        GTEST_SKIP() << "storescu is not installed";
+    keepLog();
+    const Words words;
+    const std::string study = "1.2.826.0.1.3680043.8.498.66";
+    const fs::path sent = m_folder / "sent";
+    constexpr int objects = 12;
+    writeStudy(sent, words, study, objects);
+    const std::string data = (m_folder / "data").string();
+    fs::create_directories(data);
+    ::setenv("XDG_DATA_HOME", data.c_str(), 1);
+
+    Dcmqrscp dcmqrscp;
+    Proxy proxy(dcmqrscp.port());
+    proxy.set({.delayMs = 5}); // long enough to look at the helpers
+    archive::Server server = serverAt(proxy.port(), "COMMON");
+    server.peer.authentication = exchange::Authentication::basic;
+    server.peer.user = "reader";
+    server.peer.secret = words.password;
+    auto list = archive::ServerList::ofUser();
+    list.put(server);
+    const RefusingWebServer refusing;
+    archive::Server web{"web", archive::webPeer("http://127.0.0.1:" +
+                                                std::to_string(refusing.port()) + "/dicom-web")};
+    web.peer.authentication = exchange::Authentication::bearer;
+    web.peer.secret = words.token;
+    list.put(web);
+
+    Watch watch(words);
+    put(server, sent);
+    // By name, and by the ID.
+    EXPECT_EQ(archive::search({server}, {.patientName = words.name + "*"}).entries.size(), 1U);
+    EXPECT_EQ(archive::search({server}, {.patientId = words.id}).entries.size(), 1U);
+    const auto refused = archive::search({web}, {.patientName = words.name});
+    ASSERT_TRUE(refused.outcomes.at(0).failure.has_value());
+    EXPECT_TRUE(refused.outcomes[0].failure->is(because::serverDoesNotAcceptTheLogin))
+        << refused.outcomes[0].failure->english();
+    EXPECT_FALSE(words.isIn(refused.outcomes[0].failure->english()));
+    // A retrieval for the library, as the workstation does it.
+    const fs::path log = archive::TransferLog::fileOfUser();
+    archive::TransferLog transfers(log);
+    archive::Transfer transfer;
+    transfer.server = server.name;
+    transfer.wanted = {study, {}};
+    transfer.title = "2026-01-01 OT";
+    transfer.folder = archive::libraryObjectFolder();
+    EXPECT_TRUE(archive::runTransfer(transfers, transfers.add(transfer), server).isComplete());
+    // The same objects are received in another folder.
+    const archive::ObjectFolder received(m_folder / "received",
+                                         archive::ObjectFolder::Keeps::onDisk);
+    fs::create_directories(received.folder());
+    archive::TransferLog arrivals(log);
+    archive::Receiving receiving(received, &arrivals);
+    {
+        archive::ListenerOptions options;
+        options.port = 0;
+        options.acceptsAnyone = true;
+        const archive::Listener listener(options, [&] { return receiving.receiver(); });
+        const auto result = run("storescu -R -aec PELLUCID +sd 127.0.0.1 " +
+                                std::to_string(listener.port()) + " '" + sent.string() + "'");
+        EXPECT_EQ(result.exitCode, 0) << result.error;
+    }
+    EXPECT_EQ(watch.end(), std::set<std::string>());
+    EXPECT_GT(watch.helpers(), 5);
+    ::unsetenv("XDG_DATA_HOME");
+
+    // All of this was used: the servers got it, and the objects contain it.
+    EXPECT_NE(proxy.fromProgram().find(words.password), std::string::npos);
+    EXPECT_NE(refusing.request().find(words.token), std::string::npos);
+    EXPECT_EQ(dataSetsIn(received.folder()), dataSetsIn(sent));
+    EXPECT_EQ(dataSetsIn(transfer.folder), dataSetsIn(sent));
+    EXPECT_TRUE(words.isIn(readText(filesIn(received.folder()).front())));
+
+    // Names of files and folders.
+    for (const auto &entry : fs::recursive_directory_iterator(m_folder.path()))
+        EXPECT_FALSE(words.isIn(entry.path().string())) << entry.path();
+    for (const auto &entry : fs::directory_iterator(fs::temp_directory_path()))
+        EXPECT_FALSE(words.isIn(entry.path().string())) << entry.path();
+    // Files beside the objects: the list of servers, the database and its journal.
+    std::size_t others = 0;
+    for (const fs::path &file : filesIn(data)) {
+        if (file.extension() == ".dcm")
+            continue;
+        ++others;
+        EXPECT_FALSE(words.isIn(readText(file))) << file;
+    }
+    EXPECT_GE(others, 2U);
+    EXPECT_EQ(transfers.arrivals().size(), 2U * objects);
+    const std::lock_guard lock(logMutex);
+    EXPECT_FALSE(words.isIn(logText)) << logText;
+}
+
+} // namespace pellucid

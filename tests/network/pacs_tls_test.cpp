@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// TLS of DICOM connections, with servers that have the right certificate and with others.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <sys/socket.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "core/exchange/link.h"
+#include "core/task/error.h"
+#include "tests/network/pacs.h"
+#include "tests/support/command.h"
+#include "tests/support/files.h"
+
+namespace pellucid {
+
+using namespace test;
+
+namespace {
+
+// The bytes of a question or an answer in what one side sends by TLS (RFC 5246, 6.2).
+std::size_t applicationBytesIn(const std::string &records) {
+    constexpr unsigned char applicationData = 23;
+    const auto byte = [&](std::size_t at) { return std::size_t((unsigned char)(records[at])); };
+    std::size_t count = 0;
+    for (std::size_t at = 0; at + 5 <= records.size();) {
+        const std::size_t length = byte(at + 3) << 8 | byte(at + 4);
+        if (byte(at) == applicationData)
+            count += length;
+        at += 5 + length;
+    }
+    return count;
+}
+
+// Certificates of an authority of our own, made for the test.
+class PacsTls : public Pacs {
+protected:
+    void SetUp() override {
+        Pacs::SetUp();
+        if (!test::isInstalled("openssl"))
+            GTEST_SKIP() << "openssl is not installed";
+        shell("openssl req -x509 -newkey rsa:2048 -nodes -keyout ca.key -out ca.pem -days 30 -subj "
+              "'/CN=Test CA' -addext basicConstraints=critical,CA:TRUE");
+        shell("openssl req -x509 -newkey rsa:2048 -nodes -keyout ca2.key -out ca2.pem -days 30 "
+              "-subj '/CN=Other CA' -addext basicConstraints=critical,CA:TRUE");
+        certificate("good", "IP:127.0.0.1", "-days 30");
+        certificate("wrong", "DNS:other.example.org", "-days 30");
+        certificate("client", "DNS:client", "-days 30");
+        // Valid for a day, ten days ago.
+        certificate("old", "IP:127.0.0.1",
+                    "-not_before 20200101000000Z -not_after 20200102000000Z");
+    }
+    void shell(const std::string &command) {
+        const auto result = test::run("cd '" + m_folder.path().string() + "' && " + command);
+        ASSERT_EQ(result.exitCode, 0) << command << result.error;
+    }
+    void certificate(const std::string &name, const std::string &host,
+                     const std::string &validity) {
+        test::writeText(m_folder / (name + ".ext"), "subjectAltName=" + host + "\n");
+        shell("openssl req -newkey rsa:2048 -nodes -keyout " + name + ".key -out " + name +
+              ".csr -subj '/CN=" + name + "'");
+        if (validity.find("not_before") == std::string::npos) {
+            shell("openssl x509 -req -in " + name +
+                  ".csr -CA ca.pem -CAkey ca.key -CAcreateserial -out " + name + ".pem -extfile " +
+                  name + ".ext " + validity);
+            return;
+        }
+        // openssl x509 cannot set a date in the past, openssl ca can.
+        test::writeText(m_folder / "index.txt", "");
+        test::writeText(m_folder / "serial", "01\n");
+        test::writeText(
+            m_folder / "ca.cnf",
+            "[ca]\ndefault_ca=d\n[d]\ndatabase=index.txt\nserial=serial\nnew_certs_dir=.\n"
+            "default_md=sha256\npolicy=p\nrand_serial=no\n[p]\ncommonName=supplied\n");
+        shell("openssl ca -batch -config ca.cnf -cert ca.pem -keyfile ca.key -in " + name +
+              ".csr -out " + name +
+              ".pem -startdate 20200101000000Z -enddate 20200102000000Z "
+              "-extfile " +
+              name + ".ext");
+    }
+    std::string at(const std::string &name) const { return (m_folder / name).string(); }
+
+    // A storage server, which answers C-ECHO.
+    std::unique_ptr<test::Server> server(const std::string &name, bool requiresClient = false) {
+        const int port = test::freePort();
+        return std::make_unique<test::Server>(
+            std::vector<std::string>{"storescp", "+tls", at(name + ".key"), at(name + ".pem"),
+                                     requiresClient ? "-rc" : "-ic", "+cf", at("ca.pem"), "-od",
+                                     m_folder.path().string(), std::to_string(port)},
+            port);
+    }
+    archive::Server client(int port) const {
+        archive::Server server = serverAt(port, "COMMON");
+        server.peer.usesTls = true;
+        server.peer.authorities = at("ca.pem");
+        return server;
+    }
+    static std::string echo(const archive::Server &server) {
+        return failureOf([&] {
+            exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::echo});
+            link.echo();
+        });
+    }
+};
+
+} // namespace
+
+TEST_F(PacsTls, ObjectsComeOverTls) {
+    if (!test::isInstalled("Orthanc"))
+        GTEST_SKIP() << "Orthanc is not installed";
+    test::Orthanc orthanc(", \"DicomTlsEnabled\": true, \"DicomTlsCertificate\": \"" +
+                          at("good.pem") + "\", \"DicomTlsPrivateKey\": \"" + at("good.key") +
+                          "\", \"DicomTlsTrustedCertificates\": \"" + at("ca.pem") + "\"");
+    archive::Server secure = client(orthanc.port());
+    secure.peer.calledAe = "ORTHANC";
+    // Orthanc wants a certificate of ours.
+    EXPECT_NE(echo(secure), "nothing failed");
+    secure.peer.certificate = at("client.pem");
+    secure.peer.key = at("client.key");
+    std::string parameters;
+    exchange::Link link(exchange::Connection{secure.peer, exchange::Purpose::echo}, {},
+                        [&](exchange::Step step, const std::string &found) {
+                            if (step == exchange::Step::tls)
+                                parameters = found;
+                        });
+    EXPECT_TRUE(parameters.starts_with("TLSv1.")) << parameters;
+    const fs::path sent = series("T", 12);
+    put(secure, sent);
+    EXPECT_TRUE(get(secure, studyIn(sent)).isComplete());
+    EXPECT_EQ(dataSetsIn(m_folder / "got"), dataSetsIn(sent));
+}
+
+// No byte of a question is sent to a server that is not the right one, and the user learns why.
+TEST_F(PacsTls, WrongServersAreRefusedAndNamed) {
+    using testing::HasSubstr;
+    {
+        const auto storescp = server("wrong");
+        EXPECT_THAT(echo(client(storescp->port())), HasSubstr("IP address mismatch"));
+    }
+    {
+        const auto storescp = server("old");
+        EXPECT_THAT(echo(client(storescp->port())), HasSubstr("expired"));
+    }
+    {
+        const auto storescp = server("good");
+        archive::Server stranger = client(storescp->port());
+        stranger.peer.authorities = at("ca2.pem");
+        EXPECT_THAT(echo(stranger), HasSubstr("certificate"));
+        stranger.peer.authorities = at("missing.pem");
+        EXPECT_THROW(exchange::Link(exchange::Connection{stranger.peer, exchange::Purpose::echo}),
+                     task::Error);
+        // A client that speaks no TLS.
+        archive::Server plain = serverAt(storescp->port(), "COMMON");
+        EXPECT_NE(echo(plain), "nothing failed");
+    }
+    {
+        const auto storescp = server("good", true);
+        archive::Server without = client(storescp->port());
+        EXPECT_NE(echo(without), "nothing failed");
+        without.peer.certificate = at("client.pem");
+        without.peer.key = at("client.key");
+        EXPECT_EQ(echo(without), "nothing failed");
+        without.peer.key = at("good.key");
+        EXPECT_THROW(exchange::Link(exchange::Connection{without.peer, exchange::Purpose::echo}),
+                     task::Error);
+    }
+    { // A server that speaks no TLS.
+        test::Dcmqrscp plain;
+        archive::Server secure = client(plain.port());
+        secure.peer.silenceSeconds = 3.0;
+        EXPECT_NE(echo(secure), "nothing failed");
+    }
+}
+
+// Servers that know only what is too old: the reason names the protocol, and not a byte of the
+// question leaves this computer.
+TEST_F(PacsTls, ProtocolsThatAreTooOldAreRefused) {
+    using testing::HasSubstr;
+    // Debian's openssl offers them at security level 0 only.
+    const auto serve = [&](const std::string &protocol) {
+        const int port = test::freePort();
+        return std::make_unique<test::Server>(
+            std::vector<std::string>{"openssl", "s_server", protocol, "-cipher", "ALL:@SECLEVEL=0",
+                                     "-accept", "127.0.0.1:" + std::to_string(port), "-cert",
+                                     at("good.pem"), "-key", at("good.key"), "-www"},
+            port);
+    };
+    for (const char *const old : {"-tls1_1", "-tls1"}) {
+        const auto server = serve(old);
+        test::Proxy proxy(server->port());
+        const std::string reason = echo(client(proxy.port()));
+        EXPECT_THAT(reason, HasSubstr("protocol")) << old;
+        EXPECT_GT(proxy.fromProgram().size(), 0U);
+        EXPECT_EQ(applicationBytesIn(proxy.fromProgram()), 0U) << old;
+    }
+    // The count does count: here the question is sent, to a server that is no DICOM server.
+    const auto server = serve("-tls1_2");
+    test::Proxy proxy(server->port());
+    archive::Server current = client(proxy.port());
+    current.peer.associationSeconds = 2.0;
+    EXPECT_NE(echo(current), "nothing failed");
+    EXPECT_GT(applicationBytesIn(proxy.fromProgram()), 0U);
+}
+
+// A server, or somebody before it, that answers with TLS 1.1 although it was offered TLS 1.2 and
+// 1.3.
+TEST_F(PacsTls, ADowngradeIsRefused) {
+    int port = 0;
+    const int listening = test::listenOn(port);
+    std::string received;
+    std::jthread peer([&] {
+        const int client = ::accept4(listening, nullptr, nullptr, SOCK_CLOEXEC);
+        std::string buffer(1 << 14, '\0');
+        if (::recv(client, buffer.data(), buffer.size(), 0) <= 0) // its ClientHello
+            return;
+        // ServerHello: TLS 1.1, a random number, no session, ECDHE-RSA-AES128-SHA, no compression.
+        const std::string hello = std::string("\x02\0\0\x26\x03\x02", 6) + std::string(32, '\x5a') +
+                                  std::string("\0\xc0\x13\0", 4);
+        const std::string record = std::string("\x16\x03\x02\0\x2a", 5) + hello;
+        ::send(client, record.data(), record.size(), MSG_NOSIGNAL);
+        for (ssize_t got = 0; (got = ::recv(client, buffer.data(), buffer.size(), 0)) > 0;)
+            received.append(buffer, 0, std::size_t(got));
+        ::close(client);
+    });
+    const std::string reason = echo(client(port));
+    peer.join();
+    ::close(listening);
+    EXPECT_THAT(reason,
+                testing::AnyOf(testing::HasSubstr("protocol"), testing::HasSubstr("version")));
+    // An alert at most.
+    EXPECT_EQ(applicationBytesIn(received), 0U);
+    EXPECT_LE(received.size(), 7U);
+    EXPECT_EQ(received.find("PELLUCID"), std::string::npos);
+}
+
+} // namespace pellucid

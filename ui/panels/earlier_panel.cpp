@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/earlier_panel.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include "ui/language/plain_tooltip.h"
+#include "ui/language/reasons.h"
+#include "ui/servers/earlier_studies.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr int indexRole = Qt::UserRole;
+
+// The patient as a study names it, to be compared by eye.
+QString identityText(const StudyFacts &study) {
+    return QString("%1, %2, ID %3")
+        .arg(patientText(study), dateText(study.birthDate), study.patientId);
+}
+
+QString placeText(const EarlierStudy &one) {
+    if (one.isHere())
+        return EarlierPanel::tr("here");
+    const QString server = one.servers.join(", ");
+    return one.instances > 0 ? EarlierPanel::tr("%1, %n images", "", one.instances).arg(server)
+                             : server;
+}
+
+} // namespace
+
+EarlierPanel::EarlierPanel(EarlierStudies &studies, QWidget *parent)
+    : QWidget(parent), m_studies(studies), m_tree(new QTreeWidget), m_state(new QLabel),
+      m_inAdvance(new QComboBox) {
+    setObjectName("earlierPanel");
+    setAttribute(Qt::WA_StyledBackground);
+    m_tree->setObjectName("earlierTree");
+    m_tree->setAccessibleName(tr("Earlier studies"));
+    m_tree->setHeaderHidden(true);
+    m_tree->setIndentation(0);
+    m_tree->setRootIsDecorated(false);
+    m_tree->setColumnCount(2);
+    m_tree->header()->setStretchLastSection(false);
+    m_tree->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+    m_tree->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+    m_state->setObjectName("earlierState");
+    m_state->setProperty("role", "muted");
+    m_state->setWordWrap(true);
+    m_state->setTextFormat(Qt::PlainText);
+    m_inAdvance->setObjectName("inAdvanceBox");
+    m_inAdvance->setToolTip(
+        tr("Retrieves the latest earlier studies of the same modality when a study is opened"));
+    m_inAdvance->addItems(
+        {tr("none"), tr("the latest"), tr("the latest two"), tr("the latest three")});
+    m_inAdvance->setCurrentIndex(studies.inAdvance());
+    auto *label = new QLabel(tr("Retrieve in advance"));
+    label->setBuddy(m_inAdvance);
+    auto *choice = new QHBoxLayout;
+    choice->addWidget(label);
+    choice->addWidget(m_inAdvance, 1);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(14, 4, 10, 12);
+    layout->addWidget(m_state, 0, Qt::AlignTop);
+    layout->addWidget(m_tree, 1);
+    layout->addLayout(choice);
+    connect(&m_studies, &EarlierStudies::changed, this, &EarlierPanel::list);
+    connect(m_inAdvance, &QComboBox::activated, this,
+            [this](int count) { m_studies.setInAdvance(count); });
+    const auto open = [this](const QTreeWidgetItem *item) {
+        if (item != nullptr)
+            activate(*item);
+    };
+    connect(m_tree, &QTreeWidget::itemClicked, this, open);
+    // Enter, which is no click.
+    connect(m_tree, &QTreeWidget::itemActivated, this, [this, open](QTreeWidgetItem *item) {
+        if (!m_tree->viewport()->underMouse())
+            open(item);
+    });
+    list();
+}
+
+void EarlierPanel::showEvent(QShowEvent *event) {
+    QWidget::showEvent(event);
+    m_studies.setShown(true);
+}
+
+void EarlierPanel::hideEvent(QHideEvent *event) {
+    QWidget::hideEvent(event);
+    m_studies.setShown(false);
+}
+
+void EarlierPanel::list() {
+    m_tree->clear();
+    bool isCertain = true;
+    for (std::size_t n = 0; n < m_studies.studies().size(); ++n) {
+        const EarlierStudy &one = m_studies.studies()[n];
+        if (isCertain && !one.isCertain) {
+            isCertain = false;
+            auto *const heading = new QTreeWidgetItem(m_tree, {tr("Perhaps another patient")});
+            heading->setFlags(Qt::ItemIsEnabled);
+            heading->setFirstColumnSpanned(true);
+            heading->setForeground(0, palette().brush(QPalette::Disabled, QPalette::Text));
+            heading->setData(0, indexRole, -1);
+        }
+        auto *const item = new QTreeWidgetItem(
+            m_tree, {one.isCertain ? studyText(one.study)
+                                   : patientText(one.study) + ", " + studyText(one.study),
+                     placeText(one)});
+        item->setData(0, indexRole, int(n));
+        const QString tip =
+            plainToolTip(tr("Click to open it beside") + "\n" + identityText(one.study));
+        item->setToolTip(0, tip);
+        item->setToolTip(1, tip);
+    }
+    QStringList texts;
+    if (m_studies.isSearching())
+        texts << tr("Searching...");
+    else if (m_studies.studies().empty())
+        texts << tr("No other study of this patient is known.");
+    for (const auto &[server, reason] : m_studies.failures())
+        texts << QString::fromUtf8("\u26A0 %1: %2").arg(server, translated(reason));
+    m_state->setText(texts.join("\n"));
+    m_state->setVisible(!texts.isEmpty());
+    m_tree->setVisible(m_tree->topLevelItemCount() > 0);
+}
+
+void EarlierPanel::activate(const QTreeWidgetItem &item) {
+    const int index = item.data(0, indexRole).toInt();
+    if (index < 0 || index >= int(m_studies.studies().size()))
+        return;
+    const EarlierStudy chosen = m_studies.studies()[std::size_t(index)];
+    if (chosen.isCertain) {
+        emit besideRequested(chosen);
+        return;
+    }
+    auto *question =
+        new QMessageBox(QMessageBox::NoIcon, tr("Perhaps another patient"),
+                        tr("This study may be of another patient:\n%1\n\nOpen it beside?")
+                            .arg(identityText(chosen.study)),
+                        QMessageBox::Cancel, window());
+    question->setObjectName("otherPatientQuestion");
+    question->setAttribute(Qt::WA_DeleteOnClose);
+    question->setTextFormat(Qt::PlainText);
+    const QPushButton *const yes = question->addButton(tr("Open"), QMessageBox::AcceptRole);
+    question->setDefaultButton(QMessageBox::Cancel);
+    connect(question, &QMessageBox::buttonClicked, this,
+            [this, chosen, yes](const QAbstractButton *button) {
+                if (button == static_cast<const void *>(yes))
+                    emit besideRequested(chosen);
+            });
+    question->open();
+}
+
+} // namespace pellucid::ui

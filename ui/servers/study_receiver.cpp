@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/servers/study_receiver.h"
+
+#include <algorithm>
+
+#include <QSettings>
+
+#include "core/archive/receiving.h"
+#include "core/archive/run_transfer.h"
+#include "core/archive/transfer_log.h"
+#include "core/task/error.h"
+#include "ui/servers/server_book.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+namespace because = task::because;
+
+// A sender may keep a connection for hours. What it has brought is listed meanwhile, but rarely:
+// listing reads the whole study.
+constexpr int listingMs = 20000;
+
+} // namespace
+
+ReceiverSettings ReceiverSettings::load() {
+    const QSettings settings;
+    const ReceiverSettings defaults;
+    ReceiverSettings r;
+    r.isOn = settings.value("receiver/on", defaults.isOn).toBool();
+    r.port = std::clamp(settings.value("receiver/port", defaults.port).toInt(), 1, 65535);
+    r.ae = settings.value("receiver/ae", defaults.ae).toString();
+    r.usesTls = settings.value("receiver/tls", defaults.usesTls).toBool();
+    r.certificate = settings.value("receiver/certificate").toString();
+    r.key = settings.value("receiver/key").toString();
+    r.authorities = settings.value("receiver/authorities").toString();
+    return r;
+}
+
+void ReceiverSettings::save() const {
+    QSettings settings;
+    settings.setValue("receiver/on", isOn);
+    settings.setValue("receiver/port", port);
+    settings.setValue("receiver/ae", ae);
+    settings.setValue("receiver/tls", usesTls);
+    settings.setValue("receiver/certificate", certificate);
+    settings.setValue("receiver/key", key);
+    settings.setValue("receiver/authorities", authorities);
+}
+
+// What a listener needs, for as long as it runs.
+struct StudyReceiver::Running {
+    archive::ListenerOptions options;
+    archive::ObjectFolder folder;
+    archive::TransferLog log;
+    archive::Receiving receiving;
+    archive::Listener listener; // last: its threads use the others
+
+    Running(const archive::ListenerOptions &given, archive::ReceivingObserver observer,
+            archive::ListenerObserver connections)
+        : options(given),
+          folder(archive::libraryObjectFolder(), archive::ObjectFolder::Keeps::onDisk),
+          log(archive::TransferLog::fileOfUser()), receiving(folder, &log, std::move(observer)),
+          listener(
+              given, [this] { return receiving.receiver(); }, std::move(connections)) {}
+};
+
+StudyReceiver::StudyReceiver(ServerBook &book, QObject *parent)
+    : QObject(parent), m_book(book), m_settings(ReceiverSettings::load()) {
+    m_listing.setSingleShot(true);
+    m_listing.setInterval(listingMs);
+    connect(&m_listing, &QTimer::timeout, this, &StudyReceiver::arrived);
+    // The servers that may send.
+    connect(&book, &ServerBook::changed, this, &StudyReceiver::restart);
+    // After others have connected to the signals.
+    QMetaObject::invokeMethod(this, &StudyReceiver::restart, Qt::QueuedConnection);
+}
+
+StudyReceiver::~StudyReceiver() = default;
+
+void StudyReceiver::setSettings(const ReceiverSettings &settings) {
+    if (settings == m_settings)
+        return;
+    m_settings = settings;
+    m_settings.save();
+    restart();
+}
+
+archive::ListenerOptions StudyReceiver::options() const {
+    archive::ListenerOptions options;
+    options.port = m_settings.port;
+    options.ae = m_settings.ae.trimmed().toStdString();
+    options.usesTls = m_settings.usesTls;
+    if (m_settings.usesTls) {
+        options.certificate = m_settings.certificate.toStdString();
+        options.key = m_settings.key.toStdString();
+        options.authorities = m_settings.authorities.toStdString();
+    }
+    for (const archive::Server &server : m_book.servers())
+        if (server.peer.protocol == exchange::Protocol::dicom)
+            options.senders.push_back({server.peer.calledAe, server.peer.host});
+    return options;
+}
+
+void StudyReceiver::restart() {
+    const archive::ListenerOptions wanted = options();
+    // A connection that is in use is not ended by a change that does not concern it.
+    if (m_settings.isOn && m_listener && m_listener->options == wanted)
+        return;
+    m_listener.reset();
+    m_failure.reset();
+    if (m_settings.isOn)
+        start();
+    emit changed();
+}
+
+void StudyReceiver::start() {
+    try {
+        const archive::ListenerOptions wanted = options();
+        if (wanted.senders.empty())
+            throw task::Error(task::ErrorCode::usage, because::noSenderIsKnown);
+        if (wanted.usesTls && (wanted.certificate.empty() || wanted.key.empty()))
+            throw task::Error(task::ErrorCode::usage, because::certificateNeedsItsKey);
+        if (wanted.usesTls && archive::isEncryptedKey(wanted.key))
+            throw task::Error(task::ErrorCode::usage, because::keyOfReceiverHasAPassword);
+        std::error_code failed;
+        std::filesystem::create_directories(archive::libraryObjectFolder(), failed);
+        if (failed)
+            throw task::Error(task::ErrorCode::output,
+                              because::cannotBeMade(task::systemReason(failed.value())),
+                              archive::libraryObjectFolder());
+        const auto tell = [this](const task::Reason &reason, const std::string &what) {
+            QMetaObject::invokeMethod(
+                this,
+                [this, reason, path = QString::fromStdString(what)] {
+                    emit this->failed(reason, path);
+                },
+                Qt::QueuedConnection);
+        };
+        m_listener = std::make_unique<Running>(
+            wanted,
+            archive::ReceivingObserver{[this](const archive::StoredObject &) { countArrival(); },
+                                       [tell](const archive::RefusedObject &object) {
+                                           tell(object.reason, object.sopInstanceUid);
+                                       }},
+            archive::ListenerObserver{
+                [this, tell](const std::string &sender, const std::optional<task::Reason> &reason) {
+                    if (reason && !reason->is(because::wasCancelled))
+                        tell(*reason, sender);
+                    QMetaObject::invokeMethod(
+                        this,
+                        [this] {
+                            if (m_listing.isActive()) {
+                                m_listing.stop();
+                                emit arrived();
+                            }
+                        },
+                        Qt::QueuedConnection);
+                }});
+    } catch (const task::Error &error) {
+        m_failure = error.reason();
+    }
+}
+
+// Called by the threads of connections.
+void StudyReceiver::countArrival() {
+    ++m_count;
+    QMetaObject::invokeMethod(
+        this,
+        [this] {
+            if (!m_listing.isActive())
+                m_listing.start();
+            emit changed();
+        },
+        Qt::QueuedConnection);
+}
+
+archive::MoveDestination StudyReceiver::destinationFor(const archive::Server &server) const {
+    archive::MoveDestination destination;
+    // What is asked for with TLS does not come without.
+    if (isListening() && m_settings.usesTls == server.peer.usesTls) {
+        destination.ae = m_listener->options.ae;
+        destination.port = m_settings.port;
+        destination.hasListener = true;
+    }
+    return destination;
+}
+
+} // namespace pellucid::ui
