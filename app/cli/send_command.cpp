@@ -43,6 +43,7 @@ void send(const Options &o, const Context &context) {
                             {"sent", report.state.sent},
                             {"bytes", report.state.bytes},
                             {"seconds", report.seconds},
+                            {"uncompressed", report.uncompressed},
                             {"not_sent", jsonOf(report.notSent)},
                             {"left_out", jsonOf(report.leftOut)}})
                       .c_str());

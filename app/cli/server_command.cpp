@@ -29,7 +29,7 @@ struct Options {
                                   authentication = "none", user, set;
     int connections = 4;
     std::uint32_t limit = 200;
-    bool json = false;
+    bool json = false, uncompress = false;
 };
 
 // The program may be started in another folder the next time.
@@ -58,6 +58,7 @@ void add(const Options &o) {
                                              : archive::RetrieveMethod::automatic;
     server.connections = o.connections;
     server.limit = o.limit;
+    server.mayUncompress = o.uncompress;
     auto list = archive::ServerList::ofUser();
     list.put(server);
     std::puts(printable(fmt::format("{}: {}", server.name, archive::addressOf(peer))).c_str());
@@ -156,6 +157,8 @@ void addServerCommand(CLI::App &app, const Context &context) {
     put->add_option("--connections", o->connections, "Connections at once, 1 to 8; default 4")
         ->check(CLI::Range(1, archive::maxConnections));
     put->add_option("--limit", o->limit, "Most answers to a search; default 200; 0: no limit");
+    put->add_flag("--uncompress", o->uncompress,
+                  "Send files uncompressed whose encoding a DICOM server does not accept");
     put->callback([o] {
         if (o->dicom.empty() == o->web.empty())
             throw CLI::RequiredError("--dicom or --web");

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <future>
 #include <memory>
 #include <optional>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "core/archive/listener.h"
 #include "core/archive/retrieval_work.h"
@@ -71,13 +73,53 @@ private:
     std::uint64_t m_reported = 0;
 };
 
+// Connections for the common kinds of objects, which are made while the server still lists what it
+// has: the slices at both ends come first, and are shown first.
+class EarlyLinks {
+public:
+    EarlyLinks(const Server &server, const task::Progress &progress) {
+        constexpr int useful = 2;
+        if (server.retrieve == RetrieveMethod::move ||
+            server.peer.protocol != exchange::Protocol::dicom)
+            return;
+        for (int n = 0; n < std::min(useful, server.connections - 1); ++n) // one lists
+            m_links.push_back(std::async(std::launch::async, [&server, &progress] {
+                return std::make_unique<exchange::Link>(
+                    exchange::Connection{server.peer, Purpose::get}, progress);
+            }));
+    }
+    /// Null if there is none. What has failed is tried again, and then reported.
+    std::unique_ptr<exchange::Link> take() {
+        std::unique_ptr<exchange::Link> link;
+        while (!link && !m_links.empty()) {
+            try {
+                link = m_links.back().get();
+            } catch (const std::exception &) {
+            }
+            m_links.pop_back();
+        }
+        return link;
+    }
+
+private:
+    std::vector<std::future<std::unique_ptr<exchange::Link>>> m_links;
+};
+
+bool areCommon(const std::set<std::string> &classes) {
+    const auto &common = exchange::commonClasses();
+    return std::all_of(classes.begin(), classes.end(), [&](const std::string &one) {
+        return std::find(common.begin(), common.end(), one) != common.end();
+    });
+}
+
 // One connection after the other, until no batch is left.
 class Worker {
 public:
     Worker(const Server &server, Purpose purpose, std::vector<std::string> classes,
-           std::vector<std::string> syntaxes, std::string destinationAe, RetrievalWork &work,
+           std::vector<std::string> syntaxes, std::string destinationAe,
+           std::unique_ptr<exchange::Link> first, RetrievalWork &work,
            const task::Progress &progress)
-        : m_work(work), m_progress(progress),
+        : m_work(work), m_progress(progress), m_link(std::move(first)),
           m_objects(work), m_connection{server.peer, purpose, std::move(classes),
                                         std::move(syntaxes)},
           m_destinationAe(std::move(destinationAe)),
@@ -124,7 +166,7 @@ private:
     void take(const Batch &batch) {
         try {
             if (!m_link)
-                m_link.emplace(m_connection, m_progress);
+                m_link = std::make_unique<exchange::Link>(m_connection, m_progress);
             const exchange::RetrievalEnd end = m_link->retrieve({.level = Level::image,
                                                                  .studyUid = batch.studyUid,
                                                                  .seriesUid = batch.seriesUid,
@@ -159,11 +201,11 @@ private:
 
     RetrievalWork &m_work;
     const task::Progress &m_progress;
+    std::unique_ptr<exchange::Link> m_link;
     Objects m_objects;
     exchange::Connection m_connection;
     std::string m_destinationAe;
     bool m_mayMove;
-    std::optional<exchange::Link> m_link;
     std::optional<Error> m_failure;
 };
 
@@ -171,14 +213,15 @@ private:
 // if nothing has come.
 void runWorkers(const Server &server, Purpose purpose, const std::vector<std::string> &classes,
                 const std::vector<std::string> &syntaxes, const std::string &destinationAe,
-                RetrievalWork &work, const task::Progress &progress) {
+                EarlyLinks *early, RetrievalWork &work, const task::Progress &progress) {
     // A connection costs round trips, which a few objects do not repay.
     const std::size_t useful = (work.missing() + leastOfABatch - 1) / leastOfABatch;
     const std::size_t count = std::min<std::size_t>(useful, std::size_t(server.connections));
     std::vector<std::unique_ptr<Worker>> workers;
     for (std::size_t n = 0; n < count; ++n)
-        workers.push_back(std::make_unique<Worker>(server, purpose, classes, syntaxes,
-                                                   destinationAe, work, progress));
+        workers.push_back(
+            std::make_unique<Worker>(server, purpose, classes, syntaxes, destinationAe,
+                                     early != nullptr ? early->take() : nullptr, work, progress));
     {
         std::vector<std::jthread> threads;
         for (std::size_t n = 1; n < workers.size(); ++n)
@@ -217,6 +260,7 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
                          const RetrievalObserver &observer, const task::Progress &progress,
                          const MoveDestination &destination) {
     const auto begin = Clock::now();
+    std::optional<EarlyLinks> early(std::in_place, server, progress);
     const std::vector<Instance> instances = listInstances(server, wanted, progress);
     if (observer.listed)
         observer.listed(instances);
@@ -232,7 +276,9 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     if (classes.contains(""))
         classes.clear();
     if (server.retrieve != RetrieveMethod::move)
-        runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {}, {}, work, progress);
+        runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {}, {},
+                   areCommon(classes) ? &*early : nullptr, work, progress);
+    early.reset(); // servers count connections
     const bool hasMoved = server.retrieve == RetrieveMethod::move || work.needsMove();
     if (hasMoved) {
         work.useMove();
@@ -241,7 +287,7 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
         if (!destination.hasListener)
             listener.emplace(listenerFor(server, ae, destination.port),
                              [&] { return std::make_unique<Objects>(work); });
-        runWorkers(server, Purpose::move, {}, {}, ae, work, progress);
+        runWorkers(server, Purpose::move, {}, {}, ae, nullptr, work, progress);
     }
     // Some servers take the first presentation context of a kind, whatever they have stored, and
     // then cannot send it: one encoding at a time, until all is here.
@@ -250,7 +296,7 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
         for (const std::string &syntax : exchange::transferSyntaxes())
             if (work.fillQueueAgain(instances))
                 runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {syntax}, {},
-                           work, progress);
+                           nullptr, work, progress);
     RetrievalReport report = work.report();
     if (report.state.received > 0)
         files::flush(folder.folder());

@@ -11,6 +11,8 @@
 #include "core/decoder/decoder.h"
 #include "core/dicom/file_list.h"
 #include "core/exchange/link.h"
+#include "core/files/atomic_file.h"
+#include "core/files/session_folder.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -106,9 +108,37 @@ private:
         struct stat about {};
         if (::fstat(file.get(), &about) != 0)
             throw Error(ErrorCode::unusable, task::systemReason(errno), path);
-        link.store(file.get(), std::uint64_t(about.st_size), m_progress);
+        try {
+            storeFile(link, file.get(), std::uint64_t(about.st_size));
+        } catch (const Error &error) {
+            if (!m_server.mayUncompress ||
+                !error.reason().is(because::serverDoesNotTakeTheEncoding))
+                throw;
+            storeUncompressed(link, path);
+        }
+    }
+    // In the encoding that every DICOM server has to accept, if not in the better one.
+    void storeUncompressed(exchange::Link &link, const fs::path &path) {
+        for (const bool isExplicit : {true, false}) {
+            const auto plain =
+                decoder::Decoder::shared().uncompressed(path, isExplicit, m_progress);
+            // Without a name, and gone when it is sent.
+            files::AtomicFile file(m_folder.path() / "uncompressed.dcm");
+            file.write(plain.bytes);
+            try {
+                storeFile(link, file.descriptor(), plain.bytes.size());
+                ++m_report.uncompressed;
+                return;
+            } catch (const Error &error) {
+                if (!isExplicit || !error.reason().is(because::serverDoesNotTakeTheEncoding))
+                    throw;
+            }
+        }
+    }
+    void storeFile(exchange::Link &link, int file, std::uint64_t bytes) {
+        link.store(file, bytes, m_progress);
         ++m_report.state.sent;
-        m_report.state.bytes += std::uint64_t(about.st_size);
+        m_report.state.bytes += bytes;
         m_progress.report(double(m_report.state.sent) / double(m_report.state.files));
         if (m_changed)
             m_changed(m_report.state);
@@ -118,6 +148,7 @@ private:
     const std::function<void(const SendingState &)> &m_changed;
     const task::Progress &m_progress;
     SendingReport &m_report;
+    files::SessionFolder m_folder; ///< for what is uncompressed
 };
 
 } // namespace
@@ -144,11 +175,15 @@ SendingReport send(const Server &server, const std::vector<fs::path> &paths,
         std::set<Encoding> encodings;
         std::size_t last = first;
         for (; last < outgoing.size(); ++last) {
-            encodings.insert(outgoing[last].encoding);
-            if (encodings.size() > encodingsAtOnce) {
-                encodings.erase(outgoing[last].encoding);
+            std::set<Encoding> more = encodings;
+            more.insert(outgoing[last].encoding);
+            if (server.mayUncompress)
+                for (const char *const plain :
+                     {decoder::explicitLittleEndian, decoder::implicitLittleEndian})
+                    more.insert({outgoing[last].encoding.sopClassUid, plain});
+            if (more.size() > encodingsAtOnce)
                 break;
-            }
+            encodings = std::move(more);
         }
         sender.send(
             {outgoing.begin() + std::ptrdiff_t(first), outgoing.begin() + std::ptrdiff_t(last)},

@@ -20,13 +20,15 @@ struct SendingState {
 struct SendingReport {
     SendingState state;
     double seconds = 0.0;
+    std::size_t uncompressed = 0;        ///< of those sent, see Server::mayUncompress
     std::vector<dicom::Skipped> notSent; ///< each with its reason
     /// Files of other kinds in folders and archives, such as texts and the DICOMDIR.
     std::vector<dicom::Skipped> leftOut;
 };
 
 /// Sends DICOM files to a server, each confirmed by it: those that the paths name, and those in
-/// folders, DICOMDIRs and archives that they name. Compressed files stay compressed. *Throws*
+/// folders, DICOMDIRs and archives that they name. Compressed files stay compressed, unless the
+/// server does not accept their encoding and may get them uncompressed. *Throws*
 /// Error{unusable} if a path does not exist or contains no DICOM file; Error{unreachable} if the
 /// server cannot be reached at all, as exchange::Link otherwise; Cancelled.
 SendingReport send(const Server &server, const std::vector<std::filesystem::path> &paths,

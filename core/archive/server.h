@@ -21,6 +21,8 @@ struct Server {
     RetrieveMethod retrieve = RetrieveMethod::automatic;
     int connections = 4;       ///< at once, 1 to 8
     std::uint32_t limit = 200; ///< of answers to a search
+    /// Whether compressed files are sent uncompressed if the server does not accept their encoding.
+    bool mayUncompress = false;
 
     bool operator==(const Server &) const = default;
 };

@@ -54,6 +54,8 @@ Json toJson(const Server &server) {
         json["user"] = peer.user;
     if (!peer.characterSet.empty())
         json["character_set"] = peer.characterSet;
+    if (server.mayUncompress)
+        json["uncompress"] = true;
     return json;
 }
 
@@ -87,6 +89,8 @@ Server fromJson(const JsonValue &json) {
         peer.authentication = json["authentication"].meaning(authentications);
     peer.user = textOr(json["user"], {});
     peer.characterSet = textOr(json["character_set"], {});
+    if (json["uncompress"])
+        server.mayUncompress = json["uncompress"].boolean();
     json.checked([&] { requireValid(server); });
     return server;
 }

@@ -231,6 +231,24 @@ DecodedSegmentation Decoder::segmentation(const fs::path &path, const task::Prog
     });
 }
 
+UncompressedFile Decoder::uncompressed(const fs::path &path, bool isExplicit,
+                                       const task::Progress &progress) {
+    const OpenFile file = open(path);
+    checkStart(file, path);
+    return naming(path, [&] {
+        auto child = ask({Message::Kind::uncompressed, isExplicit ? 1 : 0, file.bytes, 0},
+                         file.descriptor.get(), progress);
+        const std::span<const std::byte> bytes =
+            answerOf(child, progress, [&](const Child::Answer &answer) {
+                if (!looksLikeDicom(answer.data))
+                    throw Error(ErrorCode::unusable, because::decodedToNonsense);
+                file.requireUnchanged();
+                return answer.data;
+            });
+        return UncompressedFile{bytes, {std::move(child), *this}};
+    });
+}
+
 DecodedStructureSet Decoder::structureSet(const fs::path &path, const task::Progress &progress) {
     const OpenFile file = open(path);
     checkStart(file, path);

@@ -51,6 +51,12 @@ struct DecodedSegmentation {
     HeldDecoder decoder;
 };
 
+/// A file with uncompressed pixels. A compromised decoder may change the bytes while they are read.
+struct UncompressedFile {
+    std::span<const std::byte> bytes;
+    HeldDecoder decoder;
+};
+
 /// An RT structure set. *Shape* of the points: of every contour of every structure, in order.
 struct DecodedStructureSet {
     StructureSetHeader header;
@@ -92,6 +98,10 @@ public:
                                      const task::Progress &progress = {});
     AttributeList attributes(const std::filesystem::path &path,
                              const task::Progress &progress = {});
+    /// The same file with uncompressed pixels in Explicit or, if not `isExplicit`, Implicit VR
+    /// Little Endian. Images in color are refused.
+    UncompressedFile uncompressed(const std::filesystem::path &path, bool isExplicit,
+                                  const task::Progress &progress = {});
     DirectoryFile directory(const std::filesystem::path &path, const task::Progress &progress = {});
     /// Calls `announce` with the names and sizes of all files first, then passes on their data.
     /// Callbacks may throw.
@@ -131,6 +141,10 @@ private:
     std::vector<std::unique_ptr<Child>> m_idle;
     std::uint64_t m_opening = 0;
 };
+
+/// The UIDs of these transfer syntaxes.
+inline constexpr const char *implicitLittleEndian = "1.2.840.10008.1.2",
+                            *explicitLittleEndian = "1.2.840.10008.1.2.1";
 
 /// Whether a file starts like a DICOM file, with or without a preamble.
 bool looksLikeDicom(std::span<const std::byte> start);

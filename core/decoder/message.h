@@ -32,6 +32,7 @@ struct Message {
         segmentation, ///< a DICOM segmentation
         structureSet, ///< an RT structure set
         attributes,   ///< all attributes of a DICOM file
+        uncompressed, ///< the file with plain pixels; `code`: 1 with explicit value types, else 0
         // sent by the decoder
         ready = 100, ///< it is confined, see helper::Confinement, in `code`
         need,        ///< `size`: of the arena

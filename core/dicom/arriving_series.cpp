@@ -94,13 +94,20 @@ interpolated(const std::vector<Slice> &slices, std::size_t count, std::size_t pl
         const T *a = here.data() + lower * plane, *b = here.data() + upper * plane;
         T *const out = all.data() + k * plane;
         const double gapMm = slices[upper].depthMm - slices[lower].depthMm;
-        const float weight = gapMm > 0.0 ? float((depthMm - slices[lower].depthMm) / gapMm) : 0.0F;
-        for (std::size_t n = 0; n < plane; ++n) {
-            const float value = float(a[n]) + weight * (float(b[n]) - float(a[n]));
-            if constexpr (std::is_integral_v<T>)
-                out[n] = T(std::lrintf(value));
-            else
-                out[n] = value;
+        const double weight = gapMm > 0.0 ? (depthMm - slices[lower].depthMm) / gapMm : 0.0;
+        if (lower == upper) {
+            std::copy(a, a + plane, out);
+        } else if constexpr (std::is_integral_v<T>) {
+            // In fixed point, which compilers vectorise. The largest difference of 16-bit values
+            // times the largest weight just fits.
+            constexpr int bits = 15;
+            const auto share = std::int32_t(std::lrint(weight * (1 << bits)));
+            for (std::size_t n = 0; n < plane; ++n)
+                out[n] =
+                    T(a[n] + (((std::int32_t(b[n]) - a[n]) * share + (1 << (bits - 1))) >> bits));
+        } else {
+            for (std::size_t n = 0; n < plane; ++n)
+                out[n] = a[n] + float(weight) * (b[n] - a[n]);
         }
     });
     return all;

@@ -46,4 +46,18 @@ std::vector<std::string> addressesOf(const std::string &host) {
     return addresses;
 }
 
+const std::vector<std::string> &commonClasses() {
+    static const std::vector<std::string> classes{
+        "1.2.840.10008.5.1.4.1.1.2",     // CT
+        "1.2.840.10008.5.1.4.1.1.4",     // MR
+        "1.2.840.10008.5.1.4.1.1.128",   // PET
+        "1.2.840.10008.5.1.4.1.1.7",     // Secondary Capture
+        "1.2.840.10008.5.1.4.1.1.2.1",   // Enhanced CT
+        "1.2.840.10008.5.1.4.1.1.4.1",   // Enhanced MR
+        "1.2.840.10008.5.1.4.1.1.66.4",  // Segmentation
+        "1.2.840.10008.5.1.4.1.1.481.3", // RT Structure Set
+    };
+    return classes;
+}
+
 } // namespace pellucid::exchange

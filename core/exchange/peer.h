@@ -41,13 +41,16 @@ struct Encoding {
 /// The ways to encode objects that are asked for, as UIDs; the best first.
 const std::vector<std::string> &transferSyntaxes();
 
+/// The kinds of objects that are asked for if nobody knows what there is, as UIDs.
+const std::vector<std::string> &commonClasses();
+
 /// What a connection is for, since a DICOM association is negotiated for it.
 enum class Purpose : std::int32_t { echo, find, get, move, store };
 
 struct Connection {
     Peer peer;
     Purpose purpose = Purpose::echo;
-    std::vector<std::string> sopClasses{}; ///< of `get`: what may arrive; empty: common images
+    std::vector<std::string> sopClasses{}; ///< of `get`: what may arrive; empty: `commonClasses`
     /// Of `get`: the only encodings that are asked for; empty: all.
     std::vector<std::string> transferSyntaxes{};
     std::vector<Encoding> encodings{}; ///< of `store`: what is sent

@@ -144,6 +144,8 @@ std::string AtomicFile::copyTo(std::string name) {
 }
 
 int AtomicFile::descriptor() const {
+    if (std::fflush(m_file) != 0)
+        fail(errno);
     return fileno(m_file);
 }
 

@@ -29,7 +29,7 @@ public:
     /// *Throws* Error{output}, for example if the disk is full.
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
-    /// The open file, for another process that writes it.
+    /// The open file with what has been written, for another process. *Throws* Error{output}.
     int descriptor() const;
     /// Chooses a different path before the file appears, on the same file system. *Throws* as
     /// `targetOf`.

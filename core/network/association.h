@@ -70,7 +70,4 @@ private:
     T_ASC_Association *m_association = nullptr;
 };
 
-/// The kinds of object that are asked for if the server does not tell which there are.
-const std::vector<std::string> &storageClasses();
-
 } // namespace pellucid::network

@@ -96,7 +96,8 @@ std::vector<Proposal> proposalsFor(const exchange::Connection &connection) {
     case Purpose::get:
         proposals.push_back({UID_GETStudyRootQueryRetrieveInformationModel, plainSyntaxes});
         proposeEach(proposals,
-                    connection.sopClasses.empty() ? storageClasses() : connection.sopClasses,
+                    connection.sopClasses.empty() ? exchange::commonClasses()
+                                                  : connection.sopClasses,
                     connection.transferSyntaxes.empty() ? exchange::transferSyntaxes()
                                                         : connection.transferSyntaxes);
         break;
@@ -110,20 +111,6 @@ std::vector<Proposal> proposalsFor(const exchange::Connection &connection) {
 }
 
 } // namespace
-
-const std::vector<std::string> &storageClasses() {
-    static const std::vector<std::string> classes{
-        UID_CTImageStorage,
-        UID_MRImageStorage,
-        UID_PositronEmissionTomographyImageStorage,
-        UID_SecondaryCaptureImageStorage,
-        UID_EnhancedCTImageStorage,
-        UID_EnhancedMRImageStorage,
-        UID_SegmentationStorage,
-        UID_RTStructureSetStorage,
-    };
-    return classes;
-}
 
 Association::Association(const exchange::Connection &connection, Control &control)
     : m_characterSet(connection.peer.characterSet),

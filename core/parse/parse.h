@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/decoder/attribute.h"
@@ -56,6 +57,10 @@ DecodedStructureSet decodeStructureSet(std::span<const std::byte> file);
 /// All attributes of a DICOM file in words; pixels and other bulk data only by their size. *Throws*
 /// Error{unusable} with the reason.
 AttributeList listAttributes(std::span<const std::byte> file);
+
+/// The same DICOM file with uncompressed pixels. `syntaxUid`: Explicit or Implicit VR Little
+/// Endian. *Throws* Error{unusable, outOfMemory} with the reason, also for images in color.
+std::vector<std::byte> uncompress(std::span<const std::byte> file, const std::string &syntaxUid);
 
 /// Whether it is a DICOMDIR, and the files that it lists. *Throws* Error{unusable} for a damaged
 /// DICOMDIR.

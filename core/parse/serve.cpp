@@ -79,6 +79,12 @@ private:
             ::madvise(file.data(), file.size(), MADV_RANDOM);
             finish(0, decoder::pack(listAttributes(file.bytes())), {});
             break;
+        case Message::Kind::uncompressed:
+            finish(0, {},
+                   uncompress(file.bytes(), request.message.code == 1
+                                                ? decoder::explicitLittleEndian
+                                                : decoder::implicitLittleEndian));
+            break;
         case Message::Kind::directory:
             finish(0, decoder::pack(parseDirectory(file.bytes())), {});
             break;

@@ -18,6 +18,7 @@
 #include "core/archive/search.h"
 #include "core/archive/sending.h"
 #include "core/dicom/arriving_series.h"
+#include "core/dicom/load_volume.h"
 #include "core/task/error.h"
 #include "tests/network/pacs.h"
 #include "tests/support/command.h"
@@ -110,6 +111,37 @@ TEST_F(Pacs, CompressedObjectsStayCompressed) {
     }
 }
 
+// A server that accepts only plain pixels gets them if the user allows it; the values stay.
+TEST_F(Pacs, RefusedEncodingsAreUncompressedIfAllowed) {
+    test::Dcmqrscp dcmqrscp; // without an option, it accepts plain pixels
+    archive::Server server = serverAt(dcmqrscp.port(), "COMMON");
+    const auto valuesIn = [](const fs::path &folder) {
+        const auto catalogue = dicom::scan({folder});
+        const volume::Volume volume =
+            dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
+        std::vector<double> values;
+        volume.visit([&](auto samples) { values.assign(samples.begin(), samples.end()); });
+        return values;
+    };
+    int number = 0;
+    for (const auto syntax : {dicom::TransferSyntax::jpegLs, dicom::TransferSyntax::jpegLossless,
+                              dicom::TransferSyntax::jpeg2000, dicom::TransferSyntax::rle,
+                              dicom::TransferSyntax::deflated}) {
+        const std::string name = "U" + std::to_string(number++);
+        const fs::path sent = series(name, 4, 33, syntax);
+        server.mayUncompress = false;
+        const auto refused = archive::send(server, {sent});
+        ASSERT_EQ(refused.notSent.size(), 4U) << name;
+        EXPECT_TRUE(refused.notSent[0].reason.is(because::serverDoesNotTakeTheEncoding)) << name;
+        server.mayUncompress = true;
+        const auto report = archive::send(server, {sent});
+        EXPECT_TRUE(report.notSent.empty()) << name << report.notSent.front().reason.english();
+        EXPECT_EQ(report.uncompressed, 4U);
+        EXPECT_TRUE(get(server, studyIn(sent), "got" + name).isComplete()) << name;
+        EXPECT_EQ(valuesIn(m_folder / ("got" + name)), valuesIn(sent)) << name;
+    }
+}
+
 TEST_F(Pacs, EveryServiceOfDicomWeb) {
     if (!test::isInstalled("Orthanc") ||
         !fs::exists("/usr/share/orthanc/plugins/libOrthancDicomWeb.so"))
@@ -155,9 +187,9 @@ TEST_F(Pacs, CommandsTakeAStudyFromAServer) {
     const auto run = [&](const std::string &arguments) {
         return test::run(std::string("'") + cli + "' " + arguments);
     };
-    ASSERT_EQ(run("server add s --dicom COMMON@127.0.0.1:" + std::to_string(dcmqrscp.port()))
-                  .exitCode,
-              0);
+    ASSERT_EQ(
+        run("server add s --dicom COMMON@127.0.0.1:" + std::to_string(dcmqrscp.port())).exitCode,
+        0);
     const std::string from = " --from s --study " + studyIn(sent);
     const std::string here = (m_folder / "here.npy").string(),
                       there = (m_folder / "there.npy").string();
@@ -334,7 +366,7 @@ TEST_F(Pacs, ASeriesIsSeenLongBeforeItIsHere) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     const auto since = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-    double first = 0.0, eighth = 0.0, whole = 0.0;
+    double first = 0.0, eighth = 0.0, whole = 0.0, listing = 0.0, firstObject = 0.0;
     std::atomic<double> lastByte = 0.0;
     std::map<std::string, std::size_t> numbers;
     std::shared_ptr<dicom::ArrivingSeries> arriving;
@@ -355,16 +387,19 @@ TEST_F(Pacs, ASeriesIsSeenLongBeforeItIsHere) {
         for (const archive::Instance &instance : instances)
             numbers.emplace(instance.sopInstanceUid, numbers.size());
         arriving = std::make_shared<dicom::ArrivingSeries>(numbers.size());
+        listing = since();
         listed.set_value();
     };
     observer.stored = [&](const archive::StoredObject &object) {
         lastByte = since();
+        firstObject = firstObject == 0.0 ? double(lastByte) : firstObject;
         arriving->add(numbers.at(object.sopInstanceUid), object.path);
     };
     const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
     EXPECT_TRUE(archive::retrieve(server, {study, {}}, folder, observer).isComplete());
     loader.join();
-    std::cout << slices << " slices at 100 Mbit/s: the first shown after " << first
+    std::cout << slices << " slices at 100 Mbit/s: listed after " << listing
+              << " s, the first here after " << firstObject << " s, shown after " << first
               << " s, an eighth after " << eighth << " s, all here after " << lastByte
               << " s, assembled " << whole - lastByte << " s later\n";
     EXPECT_GT(first, 0.0);

@@ -157,6 +157,10 @@ QWidget *ServersDialog::makeForm() {
     m_limit = spinBox("limitBox", 0, 100000, tr("Most answers to a search; 0: no limit"));
     m_characterSet = lineEdit("characterSetEdit",
                               tr("Character set of answers that name none, such as ISO_IR 100"));
+    m_uncompress = new QCheckBox(tr("&Uncompress what it does not accept"));
+    m_uncompress->setObjectName("uncompressBox");
+    m_uncompress->setToolTip(
+        tr("Sends compressed images uncompressed if the server does not accept their encoding"));
     m_tls = new QCheckBox(tr("&Encrypt the connection (TLS)"));
     m_tls->setObjectName("tlsBox");
     m_authentication = new QComboBox;
@@ -179,6 +183,7 @@ QWidget *ServersDialog::makeForm() {
     m_form->addRow(tr("Connections"), m_connections);
     m_form->addRow(tr("Answers"), m_limit);
     m_form->addRow(tr("Character set"), m_characterSet);
+    m_form->addRow({}, m_uncompress);
     m_form->addRow({}, m_tls);
     m_authorities =
         addFileRow(*m_form, tr("Authorities"), "authoritiesEdit",
@@ -207,8 +212,8 @@ void ServersDialog::enableFields() {
         QWidget *const parent = field->parentWidget();
         m_form->setRowVisible(parent == m_form->parentWidget() ? field : parent, isShown);
     };
-    for (QWidget *field : std::initializer_list<QWidget *>{m_ae, m_host, m_port, m_callingAe,
-                                                           m_retrieve, m_characterSet, m_tls})
+    for (QWidget *field : std::initializer_list<QWidget *>{
+             m_ae, m_host, m_port, m_callingAe, m_retrieve, m_characterSet, m_uncompress, m_tls})
         place(field, !isWeb);
     place(m_url, isWeb);
     for (QWidget *field :
@@ -238,6 +243,7 @@ void ServersDialog::showServer(const Server &server, bool isNew) {
     m_connections->setValue(server.connections);
     m_limit->setValue(int(server.limit));
     m_characterSet->setText(shown(peer.characterSet));
+    m_uncompress->setChecked(server.mayUncompress);
     m_tls->setChecked(peer.usesTls);
     m_authorities->setText(shown(peer.authorities));
     m_certificate->setText(shown(peer.certificate));
@@ -280,6 +286,7 @@ Server ServersDialog::entered() const {
     server.retrieve = RetrieveMethod(m_retrieve->currentIndex());
     server.connections = m_connections->value();
     server.limit = std::uint32_t(m_limit->value());
+    server.mayUncompress = !m_uncompress->isHidden() && m_uncompress->isChecked();
     archive::requireValid(server);
     return server;
 }

@@ -45,7 +45,7 @@ private:
     QLineEdit *m_authorities, *m_certificate, *m_key, *m_keyPassword;
     QComboBox *m_protocol, *m_retrieve, *m_authentication;
     QSpinBox *m_port, *m_connections, *m_limit;
-    QCheckBox *m_tls;
+    QCheckBox *m_tls, *m_uncompress;
     QLabel *m_message;
     QPushButton *m_test, *m_save, *m_remove;
     JobRunner m_jobs;

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dcostrmb.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include "core/parse/damage.h"
+#include "core/parse/dataset.h"
+#include "core/parse/decode_pixels.h"
+#include "core/parse/load_file.h"
+#include "core/parse/parse.h"
+#include "core/task/error.h"
+
+namespace pellucid::parse {
+
+namespace {
+
+namespace because = task::because;
+using task::Error;
+using task::ErrorCode;
+
+void require(const OFCondition &condition) {
+    if (condition.bad())
+        throw Error(ErrorCode::unusable, because::isDamagedBy(std::string(condition.text())));
+}
+
+// Replaces the fragments by the samples. Attributes of the pixels follow what was decoded.
+void putSamples(DcmDataset &dataset, const DecodedImage &image) {
+    const InstanceHeader &h = image.header;
+    delete dataset.remove(DCM_PixelData);
+    require(dataset.putAndInsertUint16(DCM_BitsAllocated, Uint16(h.bitsAllocated)));
+    require(dataset.putAndInsertUint16(DCM_BitsStored, Uint16(h.bitsStored)));
+    require(dataset.putAndInsertUint16(DCM_HighBit, Uint16(h.bitsStored - 1)));
+    if (h.bitsAllocated == 8) {
+        std::vector<Uint8> bytes(image.samples.begin(), image.samples.end());
+        if (bytes.size() % 2 != 0) // DICOM requires an even length
+            bytes.push_back(0);
+        require(dataset.putAndInsertUint8Array(DCM_PixelData, bytes.data(),
+                                               static_cast<unsigned long>(bytes.size())));
+    } else {
+        // Values outside the stored bits are the sign.
+        const std::uint16_t mask = std::uint16_t((1U << h.bitsStored) - 1U);
+        std::vector<Uint16> words(image.samples.begin(), image.samples.end());
+        if (!h.isSigned())
+            for (Uint16 &word : words)
+                word &= mask;
+        require(dataset.putAndInsertUint16Array(DCM_PixelData, words.data(),
+                                                static_cast<unsigned long>(words.size())));
+    }
+}
+
+std::vector<std::byte> written(DcmFileFormat &format, E_TransferSyntax syntax) {
+    require(format.validateMetaInfo(syntax, EWM_createNewMeta));
+    std::vector<std::byte> out;
+    std::vector<std::byte> part(std::size_t(1) << 20);
+    DcmOutputBufferStream stream(part.data(), offile_off_t(part.size()));
+    format.transferInit();
+    for (OFCondition state = EC_StreamNotifyClient; state == EC_StreamNotifyClient;) {
+        state = format.write(stream, syntax, EET_UndefinedLength, nullptr, EGL_recalcGL,
+                             EPD_withoutPadding);
+        void *bytes = nullptr;
+        offile_off_t count = 0;
+        stream.flushBuffer(bytes, count);
+        out.insert(out.end(), static_cast<const std::byte *>(bytes),
+                   static_cast<const std::byte *>(bytes) + count);
+        if (state != EC_StreamNotifyClient)
+            require(state);
+    }
+    format.transferEnd();
+    return out;
+}
+
+std::vector<std::byte> rewritten(std::span<const std::byte> bytes, const std::string &syntaxUid) {
+    const E_TransferSyntax syntax = DcmXfer(syntaxUid.c_str()).getXfer();
+    const LoadedFile file = loadFile(bytes, Extent::everything);
+    DcmDataset &dataset = file.dataset();
+    if (!isNative(file.syntaxUid)) {
+        const InstanceHeader header = headerOf(file, bytes.size());
+        if (const auto reason = whyUnusable(header))
+            throw Error(ErrorCode::unusable, *reason);
+        const DecodedImage image = decodePixels(file, bytes.size(), header);
+        // DCMTK's codecs have put the samples into the data set, ours have not.
+        if (isJpeg2000(file.syntaxUid) || isJpegXl(file.syntaxUid))
+            putSamples(dataset, image);
+    }
+    require(dataset.chooseRepresentation(syntax, nullptr));
+    return written(*file.format, syntax);
+}
+
+} // namespace
+
+std::vector<std::byte> uncompress(std::span<const std::byte> file, const std::string &syntaxUid) {
+    return orDamaged([&] { return rewritten(file, syntaxUid); });
+}
+
+} // namespace pellucid::parse
