@@ -65,7 +65,7 @@ FetchedStudy::FetchedStudy(const RemoteOptions &remote, const std::string &serie
                            const Context &context) {
     if (!exchange::isUid(remote.studyUid))
         throw Error(ErrorCode::usage, because::isNoUid(remote.studyUid));
-    const archive::Server server = serverNamed(remote.server);
+    const archive::Server server = serverNamed(remote.server, context);
     const task::Progress progress(context.stop);
     task::naming(server.name, [&] {
         archive::Wanted wanted{remote.studyUid, {}};

@@ -83,7 +83,7 @@ std::string lineOf(const archive::FoundEntry &entry, Level level) {
 }
 
 void find(const Options &o, const Context &context) {
-    std::vector<archive::Server> servers = serversNamed(o.names);
+    std::vector<archive::Server> servers = serversNamed(o.names, context);
     if (o.hasLimit)
         for (archive::Server &server : servers)
             server.limit = o.limit;

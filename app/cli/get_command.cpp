@@ -59,7 +59,7 @@ std::string summaryOf(const RetrievalReport &report) {
 
 void run(TransferLog &log, std::int64_t id, const Options &o, const Context &context) {
     const Transfer transfer = log.transfer(id).value();
-    const archive::Server server = serverNamed(transfer.server);
+    const archive::Server server = serverNamed(transfer.server, context);
     const RetrievalReport report = task::naming(server.name, [&] {
         return watched([&](const archive::RetrievalObserver &observer) {
             return archive::runTransfer(log, id, server, observer, task::Progress(context.stop),

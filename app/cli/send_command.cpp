@@ -27,7 +27,7 @@ struct Options {
 };
 
 void send(const Options &o, const Context &context) {
-    const archive::Server server = serverNamed(o.name);
+    const archive::Server server = serverNamed(o.name, context);
     const archive::SendingReport report = task::naming(server.name, [&] {
         return archive::send(server, {o.paths.begin(), o.paths.end()}, {},
                              task::Progress(context.stop));
@@ -50,6 +50,9 @@ void send(const Options &o, const Context &context) {
     } else {
         for (const dicom::Skipped &file : report.notSent)
             warn(file.path.string() + ": not sent: " + file.reason.english());
+        if (!report.leftOut.empty())
+            warn(
+                fmt::format("files of other kinds, which are not sent: {}", report.leftOut.size()));
         std::puts(printable(fmt::format("{} of {}; {}", report.state.sent, report.state.files,
                                         rateText(report.state.bytes, report.seconds)))
                       .c_str());

@@ -11,6 +11,7 @@
 #include "app/cli/json_text.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
+#include "core/archive/login.h"
 #include "core/archive/server.h"
 #include "core/exchange/link.h"
 #include "core/task/error.h"
@@ -27,6 +28,7 @@ struct Options {
     std::string name, dicom, web, tls = "off", authorities, certificate, key,
                                   callingAe = "PELLUCID", retrieve = "automatic",
                                   authentication = "none", user, set;
+    archive::LoginSettings login;
     int connections = 4;
     std::uint32_t limit = 200;
     bool json = false, uncompress = false;
@@ -52,7 +54,9 @@ void add(const Options &o) {
     peer.characterSet = o.set;
     peer.authentication = o.authentication == "basic"    ? exchange::Authentication::basic
                           : o.authentication == "bearer" ? exchange::Authentication::bearer
+                          : o.authentication == "oauth"  ? exchange::Authentication::oauth
                                                          : exchange::Authentication::none;
+    server.loginSettings = o.login;
     server.retrieve = o.retrieve == "get"    ? archive::RetrieveMethod::get
                       : o.retrieve == "move" ? archive::RetrieveMethod::move
                                              : archive::RetrieveMethod::automatic;
@@ -103,16 +107,18 @@ const char *nameOf(Step step) {
 
 // Prints each step as it succeeds; the one that fails is the error.
 void test(const Options &o, const Context &context, bool isVerbose) {
-    const Server server = serverNamed(o.name);
+    const Server server = serverNamed(o.name, context);
     const task::Progress progress(context.stop);
     const auto print = [&](Step step, const std::string &found) {
         if (isVerbose)
             std::puts(printable(fmt::format("{:<12} {}", nameOf(step), found)).c_str());
     };
     task::naming(server.name, [&] {
-        exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::echo}, progress,
-                            print);
-        link.echo(progress, print);
+        archive::withLogin(server, progress, [&](const exchange::Peer &peer) {
+            exchange::Link link(exchange::Connection{peer, exchange::Purpose::echo}, progress,
+                                print);
+            link.echo(progress, print);
+        });
     });
     if (!isVerbose)
         std::puts(printable(fmt::format("{} answers", server.name)).c_str());
@@ -148,9 +154,20 @@ void addServerCommand(CLI::App &app, const Context &context) {
     put->add_option("--calling-ae", o->callingAe, "AE title of this program; default PELLUCID");
     put->add_option("--retrieve", o->retrieve, "How objects are retrieved; default automatic")
         ->check(CLI::IsMember({"automatic", "get", "move"}));
-    put->add_option("--authentication", o->authentication,
-                    "How this program authenticates itself; default none")
-        ->check(CLI::IsMember({"none", "basic", "bearer"}));
+    put->add_option("--authentication,--login", o->authentication,
+                    "How this program authenticates itself; default none; oauth: by a login in the "
+                    "browser (DICOMweb)")
+        ->check(CLI::IsMember({"none", "basic", "bearer", "oauth"}));
+    put->add_option("--issuer", o->login.issuer,
+                    "URL of the login server for oauth; it describes the next two");
+    put->add_option("--authorization-url", o->login.authorizationUrl,
+                    "URL of the login server's page, if there is no issuer");
+    put->add_option("--token-url", o->login.tokenUrl,
+                    "URL where the login server gives tokens, if there is no issuer");
+    put->add_option("--client-id", o->login.clientId,
+                    "ID that the login server has for this program");
+    put->add_option("--scope", o->login.scope,
+                    "What the login is to allow, such as 'openid offline_access'");
     put->add_option("--user", o->user, "User name for basic authentication");
     put->add_option("--character-set", o->set,
                     "Character set of answers that name none, such as 'ISO_IR 100'");

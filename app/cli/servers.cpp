@@ -2,13 +2,17 @@
 #include "app/cli/servers.h"
 
 #include <cstdio>
+#include <memory>
 #include <termios.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
+#include "app/cli/terminal.h"
+#include "core/archive/login.h"
 #include "core/files/descriptor.h"
 #include "core/task/error.h"
+#include "core/task/naming.h"
 
 #include <fcntl.h>
 
@@ -36,13 +40,23 @@ std::string ask(const std::string &question) {
     return line;
 }
 
-} // namespace
-
-archive::Server serverNamed(const std::string &name) {
-    return serversNamed({name}).front();
+void logIn(archive::Server &server, const Context &context) {
+    server.login = std::make_shared<archive::Login>(server);
+    const auto print = [&](const std::string &url) {
+        fmt::print(stderr, "To log in to {}, open this address in a browser:\n{}\n",
+                   printable(server.name), url);
+    };
+    task::naming(server.name, [&] { server.login->logIn(print, task::Progress(context.stop)); });
 }
 
-std::vector<archive::Server> serversNamed(const std::vector<std::string> &names) {
+} // namespace
+
+archive::Server serverNamed(const std::string &name, const Context &context) {
+    return serversNamed({name}, context).front();
+}
+
+std::vector<archive::Server> serversNamed(const std::vector<std::string> &names,
+                                          const Context &context) {
     const auto list = archive::ServerList::ofUser();
     std::vector<archive::Server> servers;
     for (const std::string &name : names) {
@@ -52,6 +66,8 @@ std::vector<archive::Server> serversNamed(const std::vector<std::string> &names)
                 ask(fmt::format("Password of {} at {}: ", server.peer.user, server.name));
         else if (server.peer.authentication == exchange::Authentication::bearer)
             server.peer.secret = ask(fmt::format("Token for {}: ", server.name));
+        else if (server.peer.authentication == exchange::Authentication::oauth)
+            logIn(server, context);
         if (archive::isEncryptedKey(server.peer.key))
             server.peer.keyPassword = ask(fmt::format("Password of {}: ", server.peer.key));
         servers.push_back(std::move(server));

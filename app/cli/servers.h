@@ -5,16 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/commands.h"
 #include "core/archive/retrieval.h"
 #include "core/archive/server.h"
 
 namespace pellucid::cli {
 
 /// The servers of these names, with the secrets that they need: asked for on the terminal, without
-/// an echo, because arguments, files and the environment can be read by others. *Throws*
-/// Error{usage} if there is no such server, or no terminal to ask on.
-std::vector<archive::Server> serversNamed(const std::vector<std::string> &names);
-archive::Server serverNamed(const std::string &name);
+/// an echo, because arguments, files and the environment can be read by others. For a login in the
+/// browser, prints its address to standard error, and waits. *Throws* Error{usage} if there is no
+/// such server, or no terminal to ask on; as archive::Login::logIn; Cancelled.
+std::vector<archive::Server> serversNamed(const std::vector<std::string> &names,
+                                          const Context &context);
+archive::Server serverNamed(const std::string &name, const Context &context);
 
 /// The rate of a transfer, in MB/s.
 std::string rateText(std::uint64_t bytes, double seconds);

@@ -169,9 +169,9 @@ int main(int argc, char **argv) {
                          });
         if (!files.isEmpty())
             workstation.window().openPaths(files);
-        else if (!links.isEmpty())
-            workstation.window().openLink(links.front());
-        else if (ui::Preferences::load().resumesAtStart)
+        for (const QString &link : links)
+            workstation.window().openLink(link);
+        if (files.isEmpty() && links.isEmpty() && ui::Preferences::load().resumesAtStart)
             workstation.window().reopening().resume();
         return QApplication::exec();
     } catch (const task::Error &error) {

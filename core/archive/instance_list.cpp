@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/archive/login.h"
 #include "core/exchange/link.h"
 #include "core/task/error.h"
 
@@ -64,32 +65,9 @@ struct Listed {
     std::optional<double> height;
 };
 
-} // namespace
-
-std::vector<std::size_t> coarseToFine(std::size_t n) {
-    std::vector<std::size_t> order;
-    if (n == 0)
-        return order;
-    std::size_t stride = 1;
-    while (stride * 2 < n)
-        stride *= 2;
-    std::vector<bool> isTaken(n, false);
-    const auto take = [&](std::size_t index) {
-        if (!isTaken[index])
-            order.push_back(index);
-        isTaken[index] = true;
-    };
-    take(0);
-    take(n - 1);
-    for (; stride > 0; stride /= 2)
-        for (std::size_t index = 0; index < n; index += stride)
-            take(index);
-    return order;
-}
-
-std::vector<Instance> listInstances(const Server &server, const Wanted &wanted,
-                                    const task::Progress &progress) {
-    exchange::Link link({.peer = server.peer, .purpose = exchange::Purpose::find}, progress);
+std::vector<Instance> listAt(const exchange::Peer &peer, const Wanted &wanted,
+                             const task::Progress &progress) {
+    exchange::Link link({.peer = peer, .purpose = exchange::Purpose::find}, progress);
     std::vector<std::string> seriesUids = wanted.seriesUids;
     if (seriesUids.empty()) {
         std::map<int, std::set<std::string>> byNumber;
@@ -151,6 +129,35 @@ std::vector<Instance> listInstances(const Server &server, const Wanted &wanted,
     if (instances.empty())
         throw task::Error(task::ErrorCode::unusable, because::serverHasNoSuchStudy);
     return instances;
+}
+
+} // namespace
+
+std::vector<std::size_t> coarseToFine(std::size_t n) {
+    std::vector<std::size_t> order;
+    if (n == 0)
+        return order;
+    std::size_t stride = 1;
+    while (stride * 2 < n)
+        stride *= 2;
+    std::vector<bool> isTaken(n, false);
+    const auto take = [&](std::size_t index) {
+        if (!isTaken[index])
+            order.push_back(index);
+        isTaken[index] = true;
+    };
+    take(0);
+    take(n - 1);
+    for (; stride > 0; stride /= 2)
+        for (std::size_t index = 0; index < n; index += stride)
+            take(index);
+    return order;
+}
+
+std::vector<Instance> listInstances(const Server &server, const Wanted &wanted,
+                                    const task::Progress &progress) {
+    return withLogin(server, progress,
+                     [&](const exchange::Peer &peer) { return listAt(peer, wanted, progress); });
 }
 
 } // namespace pellucid::archive

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/archive/listener.h"
+#include "core/archive/login.h"
 #include "core/archive/retrieval_work.h"
 #include "core/exchange/link.h"
 #include "core/task/error.h"
@@ -119,7 +120,7 @@ public:
            std::vector<std::string> syntaxes, std::string destinationAe,
            std::unique_ptr<exchange::Link> first, RetrievalWork &work,
            const task::Progress &progress)
-        : m_work(work), m_progress(progress), m_link(std::move(first)),
+        : m_server(server), m_work(work), m_progress(progress), m_link(std::move(first)),
           m_objects(work), m_connection{server.peer, purpose, std::move(classes),
                                         std::move(syntaxes)},
           m_destinationAe(std::move(destinationAe)),
@@ -150,6 +151,7 @@ private:
                 if (error.code() != ErrorCode::unreachable)
                     throw;
                 m_link.reset();
+                m_work.findHere(*batch);
                 failures = m_work.receivedCount() > before ? 0 : failures + 1;
                 if (failures >= maxFailures) {
                     m_work.failed(*batch, error.reason());
@@ -165,8 +167,10 @@ private:
     }
     void take(const Batch &batch) {
         try {
-            if (!m_link)
+            if (!m_link) {
+                m_connection.peer = authenticated(m_server, m_progress, m_refusedToken);
                 m_link = std::make_unique<exchange::Link>(m_connection, m_progress);
+            }
             const exchange::RetrievalEnd end = m_link->retrieve({.level = Level::image,
                                                                  .studyUid = batch.studyUid,
                                                                  .seriesUid = batch.seriesUid,
@@ -176,8 +180,14 @@ private:
             m_work.findHere(batch); // another listener may have stored them
             m_work.ended(batch, end);
         } catch (const Error &error) {
-            if (error.code() != ErrorCode::unusable)
+            if (error.code() != ErrorCode::unusable || error.reason().is(because::loginHasExpired))
                 throw;
+            if (isTokenRefused(m_server, error) && mayRenew()) {
+                m_refusedToken = m_connection.peer.secret;
+                m_link.reset();
+                m_work.putBack(batch);
+                return;
+            }
             if (m_mayMove && error.reason().is(because::serverLacksTheService)) {
                 m_work.putBack(batch);
                 m_work.offersNoGet();
@@ -191,6 +201,11 @@ private:
                 m_work.failed(batch, error.reason());
         }
     }
+    // A renewed token that is refused before anything has come is refused for good.
+    bool mayRenew() {
+        const std::size_t received = m_work.receivedCount();
+        return std::exchange(m_receivedAtRenewal, received) != received;
+    }
     void pause(std::chrono::milliseconds duration) const {
         const auto end = Clock::now() + duration;
         while (Clock::now() < end) {
@@ -199,11 +214,14 @@ private:
         }
     }
 
+    const Server &m_server;
     RetrievalWork &m_work;
     const task::Progress &m_progress;
     std::unique_ptr<exchange::Link> m_link;
     Objects m_objects;
     exchange::Connection m_connection;
+    std::string m_refusedToken;
+    std::optional<std::size_t> m_receivedAtRenewal;
     std::string m_destinationAe;
     bool m_mayMove;
     std::optional<Error> m_failure;
@@ -275,10 +293,12 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     std::set<std::string> classes = work.classes();
     if (classes.contains(""))
         classes.clear();
+    if (!areCommon(classes))
+        early.reset(); // servers count connections
     if (server.retrieve != RetrieveMethod::move)
         runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {}, {},
-                   areCommon(classes) ? &*early : nullptr, work, progress);
-    early.reset(); // servers count connections
+                   early ? &*early : nullptr, work, progress);
+    early.reset();
     const bool hasMoved = server.retrieve == RetrieveMethod::move || work.needsMove();
     if (hasMoved) {
         work.useMove();

@@ -32,6 +32,11 @@ RetrievalWork::RetrievalWork(const std::vector<Instance> &instances, const Objec
     fillQueue(instances);
 }
 
+std::size_t RetrievalWork::missing() const {
+    const std::lock_guard lock(m_mutex);
+    return m_missing.size();
+}
+
 std::set<std::string> RetrievalWork::classes() const {
     std::set<std::string> found;
     for (const auto &[uid, instance] : m_missing)
@@ -157,6 +162,7 @@ void RetrievalWork::stop(std::exception_ptr failure) {
 }
 
 void RetrievalWork::rethrow() {
+    const std::lock_guard lock(m_mutex);
     if (m_failure)
         std::rethrow_exception(m_failure);
 }

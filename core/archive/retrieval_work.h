@@ -26,15 +26,15 @@ struct Batch {
 inline constexpr std::size_t leastOfABatch = 8;
 
 /// The state of a retrieval, shared by its connections: what lacks and why, and the queue of
-/// batches from coarse to fine. Thread-safe, but for `missing`, `classes`, `needsMove` and
-/// `useMove`, which are for the time when no connection runs.
+/// batches from coarse to fine. Thread-safe, but for `classes`, `needsMove` and `useMove`, which
+/// are for the time when no connection runs.
 class RetrievalWork {
 public:
     /// `folder` and `observer` outlive this object. *Requires*: at least one connection.
     RetrievalWork(const std::vector<Instance> &instances, const ObjectFolder &folder,
                   const RetrievalObserver &observer, int connections);
 
-    std::size_t missing() const { return m_missing.size(); }
+    std::size_t missing() const;
     std::set<std::string> classes() const;
 
     /// The next batch; nothing when all are taken.
@@ -78,7 +78,7 @@ private:
     const ObjectFolder &m_folder;
     const RetrievalObserver &m_observer;
     const std::size_t m_connections;
-    std::mutex m_mutex;
+    mutable std::mutex m_mutex;
     std::map<std::string, Instance> m_missing;
     std::map<std::string, task::Reason> m_reasons;
     std::deque<Batch> m_queue;

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "core/archive/login.h"
 #include "core/exchange/link.h"
 #include "core/task/error.h"
 
@@ -93,10 +94,14 @@ void searchAt(const Server &server, const SearchTerms &terms, Fold &fold,
     ServerOutcome outcome;
     outcome.server = server.name;
     try {
-        exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::find}, progress);
-        const exchange::QueryEnd end = link.find(
-            queryOf(terms, server.limit),
-            [&](exchange::Attributes match) { fold.add(server.name, std::move(match)); }, progress);
+        const auto find = [&](const exchange::Peer &peer) {
+            exchange::Link link(exchange::Connection{peer, exchange::Purpose::find}, progress);
+            return link.find(
+                queryOf(terms, server.limit),
+                [&](exchange::Attributes match) { fold.add(server.name, std::move(match)); },
+                progress);
+        };
+        const exchange::QueryEnd end = withLogin(server, progress, find);
         outcome.reachedLimit = end.reachedLimit;
         outcome.warnings = end.warnings;
     } catch (const Error &error) {

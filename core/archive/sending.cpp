@@ -2,12 +2,15 @@
 #include "core/archive/sending.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <map>
 #include <optional>
 #include <set>
 #include <sys/stat.h>
+#include <utility>
 
+#include "core/archive/login.h"
 #include "core/decoder/decoder.h"
 #include "core/dicom/file_list.h"
 #include "core/exchange/link.h"
@@ -74,21 +77,32 @@ public:
     // Files of few enough encodings for one association.
     void send(const std::vector<Outgoing> &files, const std::vector<Encoding> &encodings) {
         std::optional<exchange::Link> link;
+        std::string token, refusedToken;
+        bool mayRenew = true;
         int failures = 0;
         for (std::size_t n = 0; n < files.size();) {
             try {
-                if (!link)
+                if (!link) {
+                    const exchange::Peer peer = authenticated(m_server, m_progress, refusedToken);
+                    token = peer.secret;
                     link.emplace(
-                        exchange::Connection{
-                            m_server.peer, exchange::Purpose::store, {}, {}, encodings},
+                        exchange::Connection{peer, exchange::Purpose::store, {}, {}, encodings},
                         m_progress);
+                }
                 store(*link, files[n].path);
                 failures = 0;
+                mayRenew = true;
                 ++n;
             } catch (const Error &error) {
-                if (error.code() == ErrorCode::unreachable) {
+                if (isTokenRefused(m_server, error) && std::exchange(mayRenew, false)) {
                     link.reset();
-                    if (++failures < maxFailures)
+                    refusedToken = token;
+                    continue; // the same file again
+                }
+                const bool hasExpired = error.reason().is(because::loginHasExpired);
+                if (error.code() == ErrorCode::unreachable || hasExpired) {
+                    link.reset();
+                    if (!hasExpired && ++failures < maxFailures)
                         continue; // the same file again
                     if (m_report.state.sent == 0)
                         throw;
@@ -164,7 +178,7 @@ SendingReport send(const Server &server, const std::vector<fs::path> &paths,
         files.add(path);
         named.insert(dicom::resolved(path));
     }
-    report.leftOut = files.skipped;
+    report.notSent = files.skipped; // could not be read
     const std::vector<Outgoing> outgoing = describe(files.found, named, report, progress);
     if (outgoing.empty() && report.notSent.empty())
         throw Error(ErrorCode::unusable, because::holdsNoUsableImages,

@@ -22,7 +22,7 @@ struct SendingReport {
     double seconds = 0.0;
     std::size_t uncompressed = 0;        ///< of those sent, see Server::mayUncompress
     std::vector<dicom::Skipped> notSent; ///< each with its reason
-    /// Files of other kinds in folders and archives, such as texts and the DICOMDIR.
+    /// Files of other kinds in folders and archives, such as texts.
     std::vector<dicom::Skipped> leftOut;
 };
 

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <fstream>
 
+#include "core/exchange/login.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -25,13 +26,33 @@ int portIn(const std::string &text) {
     return port;
 }
 
-// PS3.5, table 6.2-1: at most 16 characters, no backslash, no control characters, not blank.
-void requireAe(const std::string &title) {
-    if (title.empty() || title.size() > 16 || title.find('\\') != std::string::npos ||
-        title.find_first_not_of(' ') == std::string::npos ||
-        std::any_of(title.begin(), title.end(),
-                    [](char c) { return (unsigned char)(c) < 0x20 || (unsigned char)(c) > 0x7e; }))
-        fail(because::isNoAeTitle(title));
+// Nobody else can read what is sent there.
+bool isPrivate(const exchange::Peer &peer) {
+    return peer.usesTls || peer.host == "127.0.0.1" || peer.host == "localhost";
+}
+
+void requireValidLogin(const Server &server) {
+    const LoginSettings &login = server.loginSettings;
+    if (server.peer.protocol != exchange::Protocol::web)
+        fail(because::loginIsForDicomWeb);
+    if (!isPrivate(server.peer))
+        fail(because::loginNeedsHttps);
+    const bool hasUrls = !login.authorizationUrl.empty() && !login.tokenUrl.empty(),
+               hasUrl = !login.authorizationUrl.empty() || !login.tokenUrl.empty();
+    if (login.issuer.empty() ? !hasUrls : hasUrl)
+        fail(because::loginNeedsAddresses);
+    for (const std::string *const url : {&login.issuer, &login.authorizationUrl, &login.tokenUrl})
+        if (!url->empty())
+            loginPeer(*url);
+    // RFC 6749, A.1 and A.4
+    constexpr std::size_t longest = 1000;
+    if (!exchange::isVisible(login.clientId, longest))
+        fail(because::isNoClientId(login.clientId));
+    std::string words = login.scope;
+    std::erase(words, ' ');
+    if (!login.scope.empty() &&
+        (!exchange::isVisible(words, longest) || words.find_first_of("\"\\") != std::string::npos))
+        fail(because::isNoScope(login.scope));
 }
 
 } // namespace
@@ -48,7 +69,7 @@ exchange::Peer dicomPeer(const std::string &address) {
         peer.port = portIn(peer.host.substr(colon + 1));
         peer.host.resize(colon);
     }
-    requireAe(peer.calledAe);
+    requireAeTitle(peer.calledAe);
     if (peer.host.empty() || peer.host.find_first_of(" /:") != std::string::npos)
         fail(because::isNoDicomAddress(address));
     return peer;
@@ -85,6 +106,25 @@ exchange::Peer webPeer(const std::string &url) {
     return peer;
 }
 
+exchange::Peer loginPeer(const std::string &url) {
+    // Paths of login servers keep a slash at their end and a query, which others do not have.
+    const auto host = url.find("://");
+    const auto path = host == std::string::npos ? host : url.find_first_of("/?", host + 3);
+    exchange::Peer peer;
+    try {
+        peer = webPeer(url.substr(0, path));
+    } catch (const task::Error &) {
+        fail(because::isNoLoginAddress(url));
+    }
+    peer.path = path == std::string::npos ? "/" : url.substr(path);
+    if (peer.path.front() == '?')
+        peer.path.insert(0, "/");
+    if (!isPrivate(peer) || !exchange::isVisible(url, exchange::longestUrl) ||
+        url.find_first_of("#\"<>\\^`{|}") != std::string::npos)
+        fail(because::isNoLoginAddress(url));
+    return peer;
+}
+
 std::string addressOf(const exchange::Peer &peer) {
     if (peer.protocol == exchange::Protocol::dicom)
         return peer.calledAe + "@" + peer.host + ":" + std::to_string(peer.port);
@@ -93,20 +133,31 @@ std::string addressOf(const exchange::Peer &peer) {
            (peer.port == usual ? "" : ":" + std::to_string(peer.port)) + peer.path;
 }
 
+// PS3.5, table 6.2-1: at most 16 characters, no backslash, no control characters, not blank.
+void requireAeTitle(const std::string &title) {
+    if (title.empty() || title.size() > 16 || title.find('\\') != std::string::npos ||
+        title.find_first_not_of(' ') == std::string::npos ||
+        std::any_of(title.begin(), title.end(),
+                    [](char c) { return (unsigned char)(c) < 0x20 || (unsigned char)(c) > 0x7e; }))
+        fail(because::isNoAeTitle(title));
+}
+
 void requireValid(const Server &server) {
     if (server.name.empty() || server.name.size() > 64 ||
         std::any_of(server.name.begin(), server.name.end(),
                     [](char c) { return (unsigned char)(c) < 0x20; }))
         fail(because::isNoServerName(server.name));
     if (server.peer.protocol == exchange::Protocol::dicom)
-        requireAe(server.peer.calledAe);
-    requireAe(server.peer.callingAe);
+        requireAeTitle(server.peer.calledAe);
+    requireAeTitle(server.peer.callingAe);
     if (server.connections < 1 || server.connections > maxConnections)
         fail(because::connectionsAreOutOfRange(maxConnections));
     if (server.limit > mostAnswers)
         fail(because::answersAreOutOfRange(mostAnswers));
     if (server.peer.certificate.empty() != server.peer.key.empty())
         fail(because::certificateNeedsItsKey);
+    if (server.peer.authentication == exchange::Authentication::oauth)
+        requireValidLogin(server);
 }
 
 bool isEncryptedKey(const std::filesystem::path &file) {

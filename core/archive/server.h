@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,18 @@ namespace pellucid::archive {
 /// own server (C-MOVE), or by what the server offers.
 enum class RetrieveMethod { automatic, get, move };
 
+class Login;
+
+/// How the user logs in in the browser (OAuth 2.0, RFC 6749).
+struct LoginSettings {
+    std::string issuer; ///< describes the addresses; empty: both are given
+    std::string authorizationUrl, tokenUrl;
+    std::string clientId; ///< of this program at the login server
+    std::string scope;    ///< empty: what the login server grants by default
+
+    bool operator==(const LoginSettings &) const = default;
+};
+
 /// A server that the user has entered. Its secrets are not part of the list on disk.
 struct Server {
     std::string name;
@@ -23,6 +36,9 @@ struct Server {
     std::uint32_t limit = 200; ///< of answers to a search
     /// Whether compressed files are sent uncompressed if the server does not accept their encoding.
     bool mayUncompress = false;
+    LoginSettings loginSettings{}; ///< for Authentication::oauth
+    /// The source of its tokens, shared by all connections; with the secrets, not on disk.
+    std::shared_ptr<Login> login{};
 
     bool operator==(const Server &) const = default;
 };
@@ -35,8 +51,13 @@ inline constexpr int defaultDicomPort = 104, defaultListenerPort = 11112;
 exchange::Peer dicomPeer(const std::string &address);
 /// http://HOST:PORT/PATH or https://... *Throws* Error{usage}.
 exchange::Peer webPeer(const std::string &url);
+/// The peer at the URL of a login server. Its path contains the query. Only https, except at this
+/// computer. *Throws* Error{usage}.
+exchange::Peer loginPeer(const std::string &url);
 /// The address as the user entered it.
 std::string addressOf(const exchange::Peer &peer);
+/// *Throws* Error{usage} if it is not an AE title.
+void requireAeTitle(const std::string &title);
 /// *Throws* Error{usage} with what is wrong.
 void requireValid(const Server &server);
 

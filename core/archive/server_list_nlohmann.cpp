@@ -27,9 +27,20 @@ constexpr std::size_t largestList = 4 << 20;
 constexpr files::JsonWords<RetrieveMethod, 3> methods{{{"automatic", RetrieveMethod::automatic},
                                                        {"get", RetrieveMethod::get},
                                                        {"move", RetrieveMethod::move}}};
-constexpr files::JsonWords<Authentication, 3> authentications{{{"none", Authentication::none},
+constexpr files::JsonWords<Authentication, 4> authentications{{{"none", Authentication::none},
                                                                {"basic", Authentication::basic},
-                                                               {"bearer", Authentication::bearer}}};
+                                                               {"bearer", Authentication::bearer},
+                                                               {"oauth", Authentication::oauth}}};
+
+struct LoginField {
+    const char *name;
+    std::string LoginSettings::*value;
+};
+constexpr LoginField loginFields[]{{"issuer", &LoginSettings::issuer},
+                                   {"authorization_url", &LoginSettings::authorizationUrl},
+                                   {"token_url", &LoginSettings::tokenUrl},
+                                   {"client_id", &LoginSettings::clientId},
+                                   {"scope", &LoginSettings::scope}};
 
 Json toJson(const Server &server) {
     const Peer &peer = server.peer;
@@ -50,6 +61,9 @@ Json toJson(const Server &server) {
     }
     if (peer.authentication != Authentication::none)
         json["authentication"] = files::wordFor(peer.authentication, authentications);
+    for (const LoginField &field : loginFields)
+        if (const std::string &value = server.loginSettings.*field.value; !value.empty())
+            json["login"][field.name] = value;
     if (!peer.user.empty())
         json["user"] = peer.user;
     if (!peer.characterSet.empty())
@@ -87,6 +101,8 @@ Server fromJson(const JsonValue &json) {
     peer.key = textOr(json["key"], {});
     if (json["authentication"])
         peer.authentication = json["authentication"].meaning(authentications);
+    for (const LoginField &field : loginFields)
+        server.loginSettings.*field.value = textOr(json["login"][field.name], {});
     peer.user = textOr(json["user"], {});
     peer.characterSet = textOr(json["character_set"], {});
     if (json["uncompress"])

@@ -63,7 +63,7 @@ public:
     void add(std::span<const std::uint8_t> rgba);
     /// Writes it in explicit little endian (PS3.3 A.8.3, A.8.5), with the marks of `writeCapture`.
     /// The file appears only when complete. *Throws* Error{output}.
-    void write(const std::filesystem::path &path, const CaptureLabels &labels) const;
+    void write(const std::filesystem::path &path, const CaptureLabels &labels);
 
 private:
     int m_height, m_width, m_frames = 0;

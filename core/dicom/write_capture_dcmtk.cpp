@@ -183,7 +183,7 @@ void CaptureLoop::add(std::span<const std::uint8_t> rgba) {
     ++m_frames;
 }
 
-void CaptureLoop::write(const std::filesystem::path &path, const CaptureLabels &labels) const {
+void CaptureLoop::write(const std::filesystem::path &path, const CaptureLabels &labels) {
     dcmtk::prepareDcmtk();
     DcmFileFormat file;
     DcmDataset &d = *file.getDataset();
@@ -201,13 +201,9 @@ void CaptureLoop::write(const std::filesystem::path &path, const CaptureLabels &
         put(d, DCM_RescaleSlope, "1");
         put(d, DCM_RescaleType, "US");
     }
-    if (m_samples.size() % 2 == 0) {
-        putPixels(d, m_samples, m_height, m_width, m_isGrey);
-    } else {
-        std::vector<std::uint8_t> padded = m_samples;
-        padded.push_back(0);
-        putPixels(d, padded, m_height, m_width, m_isGrey);
-    }
+    if (m_samples.size() % 2 != 0) // room was reserved
+        m_samples.push_back(0);
+    putPixels(d, m_samples, m_height, m_width, m_isGrey);
     writeDataset(file, EXS_LittleEndianExplicit, path);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <exception>
 #include <mutex>
 #include <system_error>
 
@@ -105,6 +106,16 @@ RetrievalEnd Link::retrieve(const Retrieval &retrieval, Receiver &receiver,
 void Link::store(int file, std::uint64_t bytes, const task::Progress &progress) {
     send({Kind::store, 0, bytes, {}}, file);
     converse(progress, nullptr, {}, {}, Kind::done);
+}
+
+Endpoints Link::discover(const task::Progress &progress) {
+    send({Kind::discover, 0, 0, {}});
+    return unpackEndpoints(converse(progress, nullptr, {}, {}, Kind::done).body);
+}
+
+Tokens Link::requestTokens(const TokenRequest &request, const task::Progress &progress) {
+    send({Kind::tokens, 0, 0, pack(request)});
+    return unpackTokens(converse(progress, nullptr, {}, {}, Kind::done).body);
 }
 
 void Link::send(const Message &message, int descriptor) {
@@ -234,6 +245,33 @@ void serveClient(files::Descriptor socket, const Acceptance &acceptance, Receive
     link.send({Kind::accept, 0, 0, pack(acceptance)}, socket.get());
     socket = files::Descriptor(); // so that the client notices when the helper ends
     link.converse(progress, &receiver, {}, observe, Kind::done);
+}
+
+void awaitRedirect(files::Descriptor socket, const Redirection &redirection,
+                   const std::function<void()> &ready,
+                   const std::function<void(const std::string &code)> &redeem,
+                   const task::Progress &progress) {
+    Link link(redirection.seconds + slackSeconds);
+    link.start();
+    link.send({Kind::redirect, 0, 0, pack(redirection)}, socket.get());
+    socket = files::Descriptor(); // so that the browser notices when the helper ends
+    logConfinement(link.converse(progress, nullptr, {}, {}, Kind::ready).code);
+    ready();
+    const std::string code = unpackCode(link.converse(progress, nullptr, {}, {}, Kind::code).body);
+    std::exception_ptr failure;
+    try {
+        redeem(code);
+    } catch (...) {
+        failure = std::current_exception();
+    }
+    try {
+        link.m_patienceSeconds = slackSeconds;
+        link.send({failure ? Kind::refused : Kind::kept, 0, 0, {}});
+        link.converse({}, nullptr, {}, {}, Kind::done);
+    } catch (const Error &) { // only the browser's page is missing
+    }
+    if (failure)
+        std::rethrow_exception(failure);
 }
 
 } // namespace pellucid::exchange

@@ -51,6 +51,12 @@ public:
                           const task::Progress &progress = {});
     /// Sends an object from an open file of this size.
     void store(int file, std::uint64_t bytes, const task::Progress &progress = {});
+    /// Reads the description of a login server at the path of the peer (OpenID Connect Discovery
+    /// 1.0, 4). *Requires*: Purpose::login.
+    Endpoints discover(const task::Progress &progress = {});
+    /// Asks the token endpoint at the path of the peer (RFC 6749, 4.1.3 and 6). *Throws*
+    /// Error{unusable, loginHasExpired} if a refresh token is refused. *Requires*: Purpose::login.
+    Tokens requestTokens(const TokenRequest &request, const task::Progress &progress = {});
 
     bool isUsable() const { return m_isUsable; }
     /// See helper::Confinement.
@@ -59,6 +65,9 @@ public:
 private:
     friend void serveClient(files::Descriptor, const Acceptance &, Receiver &,
                             const task::Progress &, const StepObserver &);
+    friend void awaitRedirect(files::Descriptor, const Redirection &, const std::function<void()> &,
+                              const std::function<void(const std::string &)> &,
+                              const task::Progress &);
     explicit Link(double patienceSeconds);
     void start();
     void send(const Message &message, int descriptor = -1);
@@ -82,5 +91,14 @@ private:
 /// association. *Throws* as the requests of a link.
 void serveClient(files::Descriptor socket, const Acceptance &acceptance, Receiver &receiver,
                  const task::Progress &progress = {}, const StepObserver &observe = {});
+
+/// Awaits the redirect that ends a login on a listening socket, in a `pellucid-net` of its own that
+/// reaches nothing else. `ready` is called when it listens, `redeem` with the authorization code;
+/// the browser shows failure if `redeem` throws. *Throws* as the requests of a link;
+/// Error{unusable} if the login is denied or nobody logs in; what `redeem` throws.
+void awaitRedirect(files::Descriptor socket, const Redirection &redirection,
+                   const std::function<void()> &ready,
+                   const std::function<void(const std::string &code)> &redeem,
+                   const task::Progress &progress = {});
 
 } // namespace pellucid::exchange

@@ -79,6 +79,25 @@ template <class A> void pass(A &archive, Arrival &arrival) {
         pass(archive, *text);
 }
 
+template <class A> void pass(A &archive, Redirection &redirection) {
+    for (std::string *const text :
+         {&redirection.state, &redirection.successText, &redirection.failureText})
+        pass(archive, *text);
+    pass(archive, redirection.seconds);
+}
+
+template <class A> void pass(A &archive, Endpoints &endpoints) {
+    for (std::string *const text :
+         {&endpoints.issuer, &endpoints.authorizationUrl, &endpoints.tokenUrl})
+        pass(archive, *text);
+}
+
+template <class A> void pass(A &archive, Tokens &tokens) {
+    pass(archive, tokens.access);
+    pass(archive, tokens.refresh);
+    pass(archive, tokens.lifetimeSeconds);
+}
+
 } // namespace pellucid::helper
 
 namespace pellucid::exchange {
@@ -171,6 +190,22 @@ std::string pack(const std::vector<std::string> &uids) {
     return helper::packed(uids);
 }
 
+std::string pack(const Redirection &redirection) {
+    return helper::packed(redirection);
+}
+
+std::string pack(const Endpoints &endpoints) {
+    return helper::packed(endpoints);
+}
+
+std::string pack(const TokenRequest &request) {
+    return helper::packed(request);
+}
+
+std::string pack(const Tokens &tokens) {
+    return helper::packed(tokens);
+}
+
 Connection unpackConnection(const std::string &body) {
     return unpacked<Connection>(body);
 }
@@ -228,6 +263,39 @@ std::vector<std::string> unpackUids(const std::string &body) {
 
 task::Reason unpackReason(const std::string &body) {
     return helper::unpackedReason(std::as_bytes(std::span(body)), because::helperSentNonsense);
+}
+
+Redirection unpackRedirection(const std::string &body) {
+    return unpacked<Redirection>(body);
+}
+
+Endpoints unpackEndpoints(const std::string &body) {
+    auto endpoints = unpacked<Endpoints>(body);
+    for (const std::string *const url : {&endpoints.authorizationUrl, &endpoints.tokenUrl})
+        if (!isVisible(*url, longestUrl))
+            fail();
+    if (!endpoints.issuer.empty() && !isVisible(endpoints.issuer, longestUrl))
+        fail();
+    return endpoints;
+}
+
+TokenRequest unpackTokenRequest(const std::string &body) {
+    return unpacked<TokenRequest>(body);
+}
+
+// A token becomes part of a header: no line break passes.
+Tokens unpackTokens(const std::string &body) {
+    auto tokens = unpacked<Tokens>(body);
+    if (!isVisible(tokens.access, longestToken) ||
+        (!tokens.refresh.empty() && !isVisible(tokens.refresh, longestToken)))
+        fail();
+    return tokens;
+}
+
+std::string unpackCode(const std::string &body) {
+    if (!isVisible(body, longestCode))
+        fail();
+    return body;
 }
 
 } // namespace pellucid::exchange

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "core/exchange/login.h"
 #include "core/exchange/peer.h"
 #include "core/exchange/query.h"
 #include "core/files/descriptor.h"
@@ -30,6 +31,9 @@ struct Message {
         kept,     ///< the answer to `received`
         refused,  ///< the answer to either; `code`: the status for the sender
         cancel,
+        redirect, ///< body: Redirection, with the listening socket; the first message of a login
+        discover, ///< of a login server: where its services are
+        tokens,   ///< body: TokenRequest
         // sent by pellucid-net
         ready = 100, ///< it is confined, see helper::Confinement, and connected; `code`
         step,        ///< of connecting: `code` is a Step that succeeded, body: what it found
@@ -37,8 +41,9 @@ struct Message {
         arrival,     ///< body: Arrival; waits for `file`
         received,    ///< `number`: bytes of the file
         progress,    ///< work goes on; `number`: bytes received so far of the current object, or 0
-        done,        ///< the end of a request. body: QueryEnd, RetrievalEnd or none
-        failed,      ///< body: Reason; `code`: a Failure
+        done,   ///< the end of a request. body: QueryEnd, RetrievalEnd, Endpoints, Tokens or none
+        failed, ///< body: Reason; `code`: a Failure
+        code,   ///< body: the authorization code of a login; waits for `kept` or `refused`
     };
     Kind kind = Kind::ready;
     std::int32_t code = 0;
@@ -88,9 +93,13 @@ std::string pack(const RetrievalEnd &end);
 std::string pack(const Arrival &arrival);
 std::string pack(const Attributes &attributes);
 std::string pack(const std::vector<std::string> &uids);
+std::string pack(const Redirection &redirection);
+std::string pack(const Endpoints &endpoints);
+std::string pack(const TokenRequest &request);
+std::string pack(const Tokens &tokens);
 
 /// All *throw* Error{unusable} if the bytes are not such a value: a compromised helper may send
-/// anything. Texts are made one line, and UIDs are checked.
+/// anything. Texts are made one line; UIDs, URLs, tokens and codes are checked.
 Connection unpackConnection(const std::string &body);
 Acceptance unpackAcceptance(const std::string &body);
 Query unpackQuery(const std::string &body);
@@ -101,5 +110,10 @@ Arrival unpackArrival(const std::string &body);
 Attributes unpackAttributes(const std::string &body);
 std::vector<std::string> unpackUids(const std::string &body);
 task::Reason unpackReason(const std::string &body);
+Redirection unpackRedirection(const std::string &body);
+Endpoints unpackEndpoints(const std::string &body);
+TokenRequest unpackTokenRequest(const std::string &body);
+Tokens unpackTokens(const std::string &body);
+std::string unpackCode(const std::string &body);
 
 } // namespace pellucid::exchange

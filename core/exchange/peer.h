@@ -8,7 +8,8 @@
 namespace pellucid::exchange {
 
 enum class Protocol { dicom, web };
-enum class Authentication { none, basic, bearer };
+/// `oauth`: a token that the program obtains by a login; a connection gets it as `bearer`.
+enum class Authentication { none, basic, bearer, oauth };
 
 /// What a connection to a server needs, secrets included. Paths name files in PEM format.
 struct Peer {
@@ -44,8 +45,9 @@ const std::vector<std::string> &transferSyntaxes();
 /// The kinds of objects that are asked for if nobody knows what there is, as UIDs.
 const std::vector<std::string> &commonClasses();
 
-/// What a connection is for, since a DICOM association is negotiated for it.
-enum class Purpose : std::int32_t { echo, find, get, move, store };
+/// What a connection is for, since a DICOM association is negotiated for it. `login`: with a login
+/// server, for tokens.
+enum class Purpose : std::int32_t { echo, find, get, move, store, login };
 
 struct Connection {
     Peer peer;

@@ -26,7 +26,8 @@ struct AllowedCommand {
 };
 
 /// Forbids all system calls except those that computing and talking through open sockets need,
-/// `more` and `commands`. Calls that only a compromised helper makes end the process; others fail
+/// `more` and `commands`. Calls that only a compromised helper makes end the process, unless `more`
+/// has them; others fail
 /// with EPERM, so a library that tries to read a table continues without it. *Shape*: whether the
 /// filter is in force.
 bool filterCalls(std::initializer_list<int> more = {},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/helper/confinement.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <linux/landlock.h>
@@ -68,8 +69,8 @@ int allowMemory(scmp_filter_ctx filter) {
     return failed;
 }
 
-// No helper ever makes these calls; an attempt means that it is compromised.
-int killForbiddenCalls(scmp_filter_ctx filter) {
+// Only a compromised helper makes these calls, unless it is allowed to.
+int killForbiddenCalls(scmp_filter_ctx filter, std::initializer_list<int> allowed) {
     int failed = 0;
     for (const int call : {SCMP_SYS(execve),
                            SCMP_SYS(execveat),
@@ -96,7 +97,8 @@ int killForbiddenCalls(scmp_filter_ctx filter) {
                            SCMP_SYS(unshare),
                            SCMP_SYS(setns),
                            SCMP_SYS(mount)})
-        failed |= ::seccomp_rule_add(filter, SCMP_ACT_KILL_PROCESS, call, 0);
+        if (std::find(allowed.begin(), allowed.end(), call) == allowed.end())
+            failed |= ::seccomp_rule_add(filter, SCMP_ACT_KILL_PROCESS, call, 0);
     return failed;
 }
 
@@ -127,7 +129,7 @@ bool filterCalls(std::initializer_list<int> more, std::initializer_list<AllowedC
         failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, command.call, 1,
                                      SCMP_A1(SCMP_CMP_EQ, scmp_datum_t(command.argument)));
     failed |= allowMemory(filter);
-    failed |= killForbiddenCalls(filter);
+    failed |= killForbiddenCalls(filter, more);
     failed |= ::seccomp_load(filter); // also forbids new privileges
     ::seccomp_release(filter);
     return failed == 0;

@@ -106,6 +106,8 @@ std::vector<Proposal> proposalsFor(const exchange::Connection &connection) {
             if (proposals.size() < maxContexts)
                 proposals.push_back({encoding.sopClassUid, {encoding.transferSyntax}});
         break;
+    case Purpose::login: // no service of DICOM
+        break;
     }
     return proposals;
 }

@@ -7,4 +7,8 @@ namespace pellucid::network {
 /// connections, other processes. *Shape*: the bits of helper::Confinement that are in force.
 int confine();
 
+/// As confine(), but this process may accept connections on a listening socket that is open, and
+/// can write no file at all.
+int confineToAccepting();
+
 } // namespace pellucid::network

@@ -11,6 +11,17 @@
 
 namespace pellucid::network {
 
+namespace {
+
+constexpr std::uint64_t accepterBytes = 256 << 20;
+
+int bitsOf(bool limitsHold, bool isFiltered, bool hasNoFiles) {
+    return (limitsHold ? helper::limitsHold : 0) | (isFiltered ? helper::callsAreFiltered : 0) |
+           (hasNoFiles ? helper::filesAreFiltered : 0);
+}
+
+} // namespace
+
 int confine() {
     const bool holds =
         helper::limitResources({.memoryBytes = system::freeMemoryBytes(),
@@ -28,8 +39,16 @@ int confine() {
          {SCMP_SYS(fcntl), F_SETFD},
          {SCMP_SYS(fcntl), F_GETFL},
          {SCMP_SYS(fcntl), F_SETFL}});
-    return (holds ? helper::limitsHold : 0) | (isFiltered ? helper::callsAreFiltered : 0) |
-           (hasNoFiles ? helper::filesAreFiltered : 0);
+    return bitsOf(holds, isFiltered, hasNoFiles);
+}
+
+int confineToAccepting() {
+    const bool holds = helper::limitResources({.memoryBytes = accepterBytes, .fileBytes = 0});
+    const bool hasNoFiles = helper::forbidFiles();
+    const bool isFiltered =
+        helper::filterCalls({SCMP_SYS(poll), SCMP_SYS(ppoll), SCMP_SYS(sendto), SCMP_SYS(recvfrom),
+                             SCMP_SYS(shutdown), SCMP_SYS(accept4)});
+    return bitsOf(holds, isFiltered, hasNoFiles);
 }
 
 } // namespace pellucid::network

@@ -33,6 +33,8 @@ public:
         std::string contentType{};
         /// The body of a POST, piece by piece; none: a GET.
         std::vector<std::span<const std::byte>> body{};
+        /// The most bytes of the answer's text.
+        std::size_t longestText = 256 << 20;
     };
     struct Answer {
         long status = 0;

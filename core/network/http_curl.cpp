@@ -43,8 +43,6 @@ using exchange::Step;
 using task::Error;
 using task::ErrorCode;
 
-constexpr std::size_t longestAnswer = 256 << 20; // of JSON
-
 std::string fileText(const std::string &path) {
     std::ifstream in(path, std::ios::binary);
     if (!in)
@@ -333,10 +331,10 @@ private:
         try {
             if (*transfer.take && transfer.answer.status >= 200 && transfer.answer.status < 300)
                 (*transfer.take)(transfer.answer, bytes);
-            else if (transfer.answer.text.size() + bytes.size() <= longestAnswer)
+            else if (transfer.answer.text.size() + bytes.size() <= transfer.request->longestText)
                 transfer.answer.text.append(data, size * count);
             else
-                throw Error(ErrorCode::unusable, because::serverSendsNoDicomJson);
+                throw Error(ErrorCode::unusable, because::serverAnswerIsTooLong);
             return size * count;
         } catch (...) {
             transfer.failure = std::current_exception();

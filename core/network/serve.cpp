@@ -5,6 +5,8 @@
 
 #include "core/network/association.h"
 #include "core/network/dimse.h"
+#include "core/network/login_client.h"
+#include "core/network/redirect.h"
 #include "core/network/web_client.h"
 #include "core/parse/serve.h"
 
@@ -46,9 +48,23 @@ public:
                 accept(first);
                 return;
             }
+            if (first.message.kind == Kind::redirect) {
+                guardedRequest([&] {
+                    awaitRedirect(first.descriptor.get(),
+                                  exchange::unpackRedirection(first.message.body), m_control);
+                });
+                return;
+            }
             if (first.message.kind != Kind::connect)
                 throw Disconnected();
             const auto connection = exchange::unpackConnection(first.message.body);
+            if (connection.purpose == Purpose::login) {
+                LoginClient client(connection.peer, m_control);
+                m_control.send({Kind::ready, client.confinement(), 0, {}});
+                while (answerNext(client)) {
+                }
+                return;
+            }
             if (connection.peer.protocol == exchange::Protocol::web) {
                 WebClient client(connection, m_control);
                 m_control.send({Kind::ready, client.confinement(), 0, {}});
@@ -98,6 +114,29 @@ private:
             case Kind::store:
                 client.store(packet->descriptor.get(), message.number, m_control);
                 m_control.done();
+                break;
+            case Kind::cancel: // came after the request had ended
+                break;
+            default:
+                throw Disconnected();
+            }
+        });
+        return true;
+    }
+
+    bool answerNext(LoginClient &client) {
+        const auto packet = exchange::receive(m_control.socket());
+        if (!packet)
+            return false;
+        const Message &message = packet->message;
+        guardedRequest([&] {
+            switch (message.kind) {
+            case Kind::discover:
+                m_control.done(exchange::pack(client.discover()));
+                break;
+            case Kind::tokens:
+                m_control.done(exchange::pack(
+                    client.requestTokens(exchange::unpackTokenRequest(message.body))));
                 break;
             case Kind::cancel: // came after the request had ended
                 break;

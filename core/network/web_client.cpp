@@ -258,6 +258,8 @@ void WebClient::store(int file, std::uint64_t bytes, Control &) {
          "multipart/related; type=\"application/dicom\"; boundary=" + boundary,
          {std::as_bytes(std::span(head)), mapping.bytes(), std::as_bytes(std::span(tail))}},
         {});
+    if (answer.status == 401 || answer.status == 403) // often with a page, which is no list
+        throw Error(ErrorCode::unusable, httpReason(answer.status));
     const bool hasList = answer.text.find('{') != std::string::npos;
     if (!hasList)
         throw Error(ErrorCode::unusable, answer.status >= 300 ? httpReason(answer.status)

@@ -11,6 +11,7 @@
 #include "core/dcmtk/dictionary.h"
 #include "core/decoder/channel.h"
 #include "core/decoder/child.h"
+#include "core/decoder/decoder.h"
 #include "core/parse/damage.h"
 #include "core/parse/parse.h"
 #include "core/parse/watch.h"

@@ -38,7 +38,7 @@ void putSamples(DcmDataset &dataset, const DecodedImage &image) {
         require(dataset.putAndInsertUint8Array(DCM_PixelData, bytes.data(),
                                                static_cast<unsigned long>(bytes.size())));
     } else {
-        // Values outside the stored bits are the sign.
+        // Bits above the stored ones are cleared; in signed images, they repeat the sign.
         const std::uint16_t mask = std::uint16_t((1U << h.bitsStored) - 1U);
         std::vector<Uint16> words(image.samples.begin(), image.samples.end());
         if (!h.isSigned())

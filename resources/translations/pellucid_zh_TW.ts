@@ -3154,10 +3154,6 @@
         <translation>伺服器無法處理此要求</translation>
     </message>
     <message>
-        <source>the other side sent data in another presentation context than their command</source>
-        <translation>對方所送資料的呈現環境與其命令不同</translation>
-    </message>
-    <message>
         <source>no DICOM server that could send is in the list; add one</source>
         <translation>清單中沒有可傳送的 DICOM 伺服器；請新增一個</translation>
     </message>
@@ -3176,6 +3172,66 @@
     <message>
         <source>only DICOM pictures can be sent; choose a DICOM format</source>
         <translation>只能傳送 DICOM 圖片；請選擇 DICOM 格式</translation>
+    </message>
+    <message>
+        <source>the server&apos;s answer is too long</source>
+        <translation>伺服器的回應過長</translation>
+    </message>
+    <message>
+        <source>a login in the browser is for DICOMweb servers only</source>
+        <translation>在瀏覽器中登入僅適用於 DICOMweb 伺服器</translation>
+    </message>
+    <message>
+        <source>a server with a login in the browser needs an https address, so that nobody reads the token on its way</source>
+        <translation>在瀏覽器中登入的伺服器須使用 https 網址，以免權杖在途中被讀取</translation>
+    </message>
+    <message>
+        <source>a login in the browser needs the address of the issuer, or those of authorization and of tokens</source>
+        <translation>在瀏覽器中登入需要發行者的網址，或授權與權杖的網址</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not the address of a login server; use https://HOST/PATH</source>
+        <translation>「%1」不是登入伺服器的網址；請使用 https://HOST/PATH</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a client ID; enter the ID that the login server has for this program</source>
+        <translation>「%1」不是用戶端識別碼；請輸入登入伺服器給予本程式的識別碼</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a scope; use words of ASCII characters, separated by spaces</source>
+        <translation>「%1」不是範圍；請使用以空格分隔的 ASCII 字詞</translation>
+    </message>
+    <message>
+        <source>the login server does not describe its addresses; enter those of authorization and of tokens</source>
+        <translation>登入伺服器未說明其網址；請輸入授權與權杖的網址</translation>
+    </message>
+    <message>
+        <source>the login server calls itself &apos;%1&apos;; enter this as the issuer if it is right</source>
+        <translation>登入伺服器自稱「%1」；若正確，請將其輸入為發行者</translation>
+    </message>
+    <message>
+        <source>nobody logged in within %1 s</source>
+        <translation>%1 秒內無人登入</translation>
+    </message>
+    <message>
+        <source>the login was denied</source>
+        <translation>登入被拒絕</translation>
+    </message>
+    <message>
+        <source>the login server refuses the login: %1</source>
+        <translation>登入伺服器拒絕登入：%1</translation>
+    </message>
+    <message>
+        <source>the login server&apos;s answer has no usable token</source>
+        <translation>登入伺服器的回應中沒有可用的權杖</translation>
+    </message>
+    <message>
+        <source>the login has expired; log in again</source>
+        <translation>登入已過期；請重新登入</translation>
+    </message>
+    <message>
+        <source>the other side sent data in a different presentation context from its command</source>
+        <translation>對方所送資料的呈現環境與其命令不同</translation>
     </message>
 </context>
 <context>
@@ -4341,6 +4397,10 @@ Open it beside?</source>
         <source>Sending to %1</source>
         <translation>正在傳送至 %1</translation>
     </message>
+    <message>
+        <source>Another export is running</source>
+        <translation>另一個匯出正在執行</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::FileMenu</name>
@@ -4721,6 +4781,57 @@ Open it beside?</source>
     <message>
         <source>no limit</source>
         <translation>不限</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::LoginDialog</name>
+    <message>
+        <source>&amp;Open the browser</source>
+        <translation>開啟瀏覽器(&amp;O)</translation>
+    </message>
+    <message>
+        <source>&amp;Copy the address</source>
+        <translation>複製網址(&amp;C)</translation>
+    </message>
+    <message>
+        <source>Log in to %1</source>
+        <translation>登入 %1</translation>
+    </message>
+    <message>
+        <source>The server %1 asks for a login in the browser.</source>
+        <translation>伺服器 %1 要求在瀏覽器中登入。</translation>
+    </message>
+    <message>
+        <source>Show the page of the login server in the browser</source>
+        <translation>在瀏覽器中顯示登入伺服器的頁面</translation>
+    </message>
+    <message>
+        <source>Copy the address of the page, for a different browser</source>
+        <translation>複製頁面的網址，以便使用其他瀏覽器</translation>
+    </message>
+    <message>
+        <source>Connecting...</source>
+        <translation>正在連線…</translation>
+    </message>
+    <message>
+        <source>You are logged in, and can close this window.</source>
+        <translation>您已登入，可以關閉此視窗。</translation>
+    </message>
+    <message>
+        <source>The login failed; you can close this window.</source>
+        <translation>登入失敗，可以關閉此視窗。</translation>
+    </message>
+    <message>
+        <source>Logging in to %1</source>
+        <translation>正在登入 %1</translation>
+    </message>
+    <message>
+        <source>Log in to %1 in the browser.</source>
+        <translation>請在瀏覽器中登入 %1。</translation>
+    </message>
+    <message>
+        <source>No browser could be opened. Copy the address, and open it in a browser on this computer.</source>
+        <translation>無法開啟瀏覽器。請複製網址，並在本機的瀏覽器中開啟。</translation>
     </message>
 </context>
 <context>
@@ -5686,10 +5797,6 @@ Open it beside?</source>
         <translation>憑證機構</translation>
     </message>
     <message>
-        <source>Certificates that senders&apos; certificates must be from (PEM); empty: senders need no certificate</source>
-        <translation>傳送者憑證的簽發單位（PEM）；空白：傳送者不需憑證</translation>
-    </message>
-    <message>
         <source>Receiving is off</source>
         <translation>接收已關閉</translation>
     </message>
@@ -5698,6 +5805,10 @@ Open it beside?</source>
         <translation>
             <numerusform>%1 於連接埠 %2 接收；已收到 %n 個物件</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Authorities that must have issued the senders&apos; certificates (PEM); empty: senders need no certificate</source>
+        <translation>必須簽發傳送者憑證的單位（PEM）；空白：傳送者不需憑證</translation>
     </message>
 </context>
 <context>
@@ -5858,6 +5969,10 @@ Open it beside?</source>
     <message>
         <source>Server</source>
         <translation>伺服器</translation>
+    </message>
+    <message>
+        <source>Logging in to %1</source>
+        <translation>正在登入 %1</translation>
     </message>
 </context>
 <context>
@@ -6134,6 +6249,58 @@ Open it beside?</source>
     <message>
         <source>Receiving</source>
         <translation>接收</translation>
+    </message>
+    <message>
+        <source>&amp;Uncompress what it does not accept</source>
+        <translation>將其不接受者解壓縮(&amp;U)</translation>
+    </message>
+    <message>
+        <source>Sends compressed images uncompressed if the server does not accept their encoding</source>
+        <translation>若伺服器不接受壓縮影像的編碼，則解壓縮後傳送</translation>
+    </message>
+    <message>
+        <source>In the browser (OAuth 2.0)</source>
+        <translation>在瀏覽器中（OAuth 2.0）</translation>
+    </message>
+    <message>
+        <source>For example https://login.example.org/realms/hospital; the login server describes the other addresses there</source>
+        <translation>例如 https://login.example.org/realms/hospital；登入伺服器在此說明其他網址</translation>
+    </message>
+    <message>
+        <source>Page on which users log in; only without an issuer</source>
+        <translation>使用者登入的頁面；僅在沒有發行者時需要</translation>
+    </message>
+    <message>
+        <source>Where the login server gives tokens; only without an issuer</source>
+        <translation>登入伺服器發放權杖之處；僅在沒有發行者時需要</translation>
+    </message>
+    <message>
+        <source>The ID that the login server has for this program</source>
+        <translation>登入伺服器給予本程式的識別碼</translation>
+    </message>
+    <message>
+        <source>What the login is to allow, such as openid offline_access; optional</source>
+        <translation>登入所允許的範圍，例如 openid offline_access；可省略</translation>
+    </message>
+    <message>
+        <source>Issuer</source>
+        <translation>發行者</translation>
+    </message>
+    <message>
+        <source>Authorization URL</source>
+        <translation>授權網址</translation>
+    </message>
+    <message>
+        <source>Token URL</source>
+        <translation>權杖網址</translation>
+    </message>
+    <message>
+        <source>Client ID</source>
+        <translation>用戶端識別碼</translation>
+    </message>
+    <message>
+        <source>Scope</source>
+        <translation>範圍</translation>
     </message>
 </context>
 <context>

@@ -132,7 +132,6 @@ TEST_F(Pacs, RefusedEncodingsAreUncompressedIfAllowed) {
         server.mayUncompress = false;
         const auto refused = archive::send(server, {sent});
         ASSERT_EQ(refused.notSent.size(), 4U) << name;
-        EXPECT_TRUE(refused.notSent[0].reason.is(because::serverDoesNotTakeTheEncoding)) << name;
         server.mayUncompress = true;
         const auto report = archive::send(server, {sent});
         EXPECT_TRUE(report.notSent.empty()) << name << report.notSent.front().reason.english();

@@ -82,6 +82,48 @@ private slots:
         dialog->close();
     }
 
+    void aLoginInTheBrowserIsEntered() {
+        find<QAction>("serversAction")->trigger();
+        auto *dialog = find<QDialog>("serversDialog");
+        const auto field = [&](const char *name) { return dialog->findChild<QLineEdit *>(name); };
+        const auto isShown = [&](const char *name) { return field(name)->isVisibleTo(dialog); };
+        const auto save = [&] {
+            QTest::mouseClick(dialog->findChild<QPushButton *>("saveServerButton"), Qt::LeftButton);
+        };
+        field("serverNameEdit")->setText("web");
+        dialog->findChild<QComboBox *>("protocolBox")->setCurrentIndex(1);
+        field("serverUrlEdit")->setText("https://pacs.example.org/dicom-web");
+        auto *const login = dialog->findChild<QComboBox *>("authenticationBox");
+        const QStringList names{"issuerEdit", "authorizationUrlEdit", "tokenUrlEdit",
+                                "clientIdEdit", "scopeEdit"};
+        for (int index = 0; index < login->count(); ++index) {
+            login->setCurrentIndex(index);
+            for (const QString &name : names)
+                QCOMPARE(isShown(qPrintable(name)), index == 3);
+        }
+        QVERIFY(!isShown("userEdit"));
+        QVERIFY(!isShown("secretEdit"));
+        auto *const message = dialog->findChild<QLabel *>("serverMessage");
+        save();
+        QVERIFY(message->text().contains("issuer"));
+        field("issuerEdit")->setText("https://login.example.org");
+        QVERIFY(!isShown("authorizationUrlEdit")); // the issuer describes it
+        QVERIFY(!isShown("tokenUrlEdit"));
+        save();
+        QVERIFY(message->text().contains("client ID"));
+        field("clientIdEdit")->setText("pellucid");
+        save();
+        QCOMPARE(bench().servers.names(), QStringList{"web"});
+        restart();
+        find<QAction>("serversAction")->trigger();
+        dialog = find<QDialog>("serversDialog");
+        QCOMPARE(field("issuerEdit")->text(), QString("https://login.example.org"));
+        QCOMPARE(field("clientIdEdit")->text(), QString("pellucid"));
+        QTest::mouseClick(dialog->findChild<QPushButton *>("removeServerButton"), Qt::LeftButton);
+        QVERIFY(bench().servers.servers().empty());
+        dialog->close();
+    }
+
     // One field searches the library and the servers; a double-click brings the study.
     void aStudyIsFoundAndRetrieved() {
         addServer("archive", m_dcmqrscp->port());

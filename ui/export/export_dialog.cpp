@@ -130,7 +130,8 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
 }
 
 ExportDialog::~ExportDialog() {
-    m_jobs.cancel();
+    if (m_isWorking) // others use the runner, too
+        m_jobs.cancel();
 }
 
 PictureExport ExportDialog::chosen() const {
@@ -252,12 +253,22 @@ void ExportDialog::write() {
         writeTo(m_path->text());
         return;
     }
-    m_servers.withSecrets(
-        {server}, this,
-        [self = QPointer<ExportDialog>(this)](const std::vector<archive::Server> &servers) {
-            if (self != nullptr && !servers.empty())
-                self->send(servers.front());
-        });
+    if (m_jobs.isRunning()) {
+        showMessage(tr("Another export is running"), "warning");
+        return;
+    }
+    // Once, and what is chosen now, although it may take a while to get the password.
+    m_write->setEnabled(false);
+    m_servers.withSecrets({server}, this,
+                          [self = QPointer<ExportDialog>(this),
+                           what = chosen()](const std::vector<archive::Server> &servers) {
+                              if (self == nullptr)
+                                  return;
+                              if (servers.empty() || self->m_jobs.isRunning())
+                                  self->showChosen();
+                              else
+                                  self->send(servers.front(), what);
+                          });
 }
 
 void ExportDialog::writeTo(const QString &path) {
@@ -285,13 +296,13 @@ void ExportDialog::writeTo(const QString &path) {
     }
 }
 
-void ExportDialog::send(const archive::Server &server) {
+void ExportDialog::send(const archive::Server &server, const PictureExport &what) {
     try {
         const auto folder = std::make_shared<const files::SessionFolder>();
         const std::filesystem::path file = folder->path() / "capture.dcm";
         start(tr("Sending to %1").arg(QString::fromStdString(server.name)),
               [this, server, folder, file,
-               writer = pictureWriter(chosen(), m_panes, m_document,
+               writer = pictureWriter(what, m_panes, m_document,
                                       QString::fromStdString(file.string()))](const Job &job) {
                   writer(job.progress());
                   const auto report = archive::send(server, {file}, {}, job.progress());
@@ -309,7 +320,9 @@ void ExportDialog::send(const archive::Server &server) {
 }
 
 void ExportDialog::start(const QString &title, const std::function<void(const Job &)> &work) {
+    m_isWorking = true;
     m_jobs.start(title, work, [this](const Outcome &outcome) {
+        m_isWorking = false;
         showChosen();
         if (outcome.kind == Outcome::Kind::failed)
             showMessage(translated(*outcome.reason), "warning");

@@ -51,7 +51,7 @@ private:
     void browse();
     void write();
     void writeTo(const QString &path);
-    void send(const archive::Server &server);
+    void send(const archive::Server &server, const PictureExport &what);
     /// The server that the picture is sent to; empty: it is written to a file.
     QString chosenServer() const;
     void offerServers();
@@ -73,6 +73,7 @@ private:
     QWidget *m_where; ///< the path with its button
     QSpinBox *m_frames;
     QLabel *m_message;
+    bool m_isWorking = false;
     QString m_confirmed; ///< a path that the file dialog has asked about
     QPushButton *m_write = nullptr;
 };

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
@@ -18,7 +19,7 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr int indexRole = Qt::UserRole;
+constexpr int indexRole = Qt::UserRole, uidRole = Qt::UserRole + 1;
 
 // The patient as a study names it, to be compared by eye.
 QString identityText(const StudyFacts &study) {
@@ -78,12 +79,20 @@ EarlierPanel::EarlierPanel(EarlierStudies &studies, QWidget *parent)
             activate(*item);
     };
     connect(m_tree, &QTreeWidget::itemClicked, this, open);
-    // Enter, which is no click.
-    connect(m_tree, &QTreeWidget::itemActivated, this, [this, open](QTreeWidgetItem *item) {
-        if (!m_tree->viewport()->underMouse())
-            open(item);
-    });
+    m_tree->installEventFilter(this);
     list();
+}
+
+// Enter, which some styles also make of a click.
+bool EarlierPanel::eventFilter(QObject *watched, QEvent *event) {
+    if (watched == m_tree && event->type() == QEvent::KeyPress) {
+        const int key = static_cast<QKeyEvent *>(event)->key();
+        if ((key == Qt::Key_Return || key == Qt::Key_Enter) && m_tree->currentItem() != nullptr) {
+            activate(*m_tree->currentItem());
+            return true;
+        }
+    }
+    return QWidget::eventFilter(watched, event);
 }
 
 void EarlierPanel::showEvent(QShowEvent *event) {
@@ -97,6 +106,9 @@ void EarlierPanel::hideEvent(QHideEvent *event) {
 }
 
 void EarlierPanel::list() {
+    const QString current = m_tree->currentItem() == nullptr
+                                ? QString()
+                                : m_tree->currentItem()->data(0, uidRole).toString();
     m_tree->clear();
     bool isCertain = true;
     for (std::size_t n = 0; n < m_studies.studies().size(); ++n) {
@@ -114,6 +126,9 @@ void EarlierPanel::list() {
                                    : patientText(one.study) + ", " + studyText(one.study),
                      placeText(one)});
         item->setData(0, indexRole, int(n));
+        item->setData(0, uidRole, one.study.uid);
+        if (!current.isEmpty() && one.study.uid == current)
+            m_tree->setCurrentItem(item);
         const QString tip =
             plainToolTip(tr("Click to open it beside") + "\n" + identityText(one.study));
         item->setToolTip(0, tip);

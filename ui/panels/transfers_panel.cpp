@@ -85,7 +85,7 @@ void TransfersPanel::listServers() {
 
 void TransfersPanel::showReceiver() {
     const ReceiverSettings &now = m_receiver.settings();
-    m_receiving->setVisible(now.isOn);
+    m_receiving->setVisible(m_receiver.isListening() || m_receiver.failure());
     if (m_receiver.failure())
         m_receiving->setText(QString::fromUtf8("\u26A0 ") +
                              tr("Nothing is received: %1").arg(translated(*m_receiver.failure())));

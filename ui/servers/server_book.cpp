@@ -5,12 +5,15 @@
 #include <deque>
 #include <memory>
 
+#include <QCoreApplication>
 #include <QInputDialog>
 #include <QPointer>
 
 #include <qt6keychain/keychain.h>
 
 #include "core/task/error.h"
+#include "ui/jobs/job_runner.h"
+#include "ui/servers/login_dialog.h"
 
 namespace pellucid::ui {
 
@@ -25,6 +28,20 @@ QString secretKey(const archive::Server &server) {
         .arg(server.peer.port);
 }
 
+// With the addresses of both servers: a token goes to the login server that gave it.
+QString loginKey(const archive::Server &server) {
+    const archive::LoginSettings &login = server.loginSettings;
+    const QString address = QString::fromStdString(archive::addressOf(server.peer));
+    return QString("%1/login/%2/%3/%4")
+        .arg(QString::fromStdString(server.name), address,
+             QString::fromStdString(login.issuer.empty() ? login.tokenUrl : login.issuer),
+             QString::fromStdString(login.clientId));
+}
+
+bool hasLogin(const archive::Server &server) {
+    return server.peer.authentication == exchange::Authentication::oauth;
+}
+
 QString keyPasswordKey(const archive::Server &server) {
     return QString::fromStdString(server.name) + "/key";
 }
@@ -33,9 +50,10 @@ QString keyPasswordKey(const archive::Server &server) {
 
 // The servers that still need secrets, one after the other.
 struct ServerBook::Pending {
+    enum class Kind { secret, keyPassword, login };
     struct Need {
         std::size_t server;
-        bool isOfKey;
+        Kind kind;
         QString key, question;
     };
     std::vector<archive::Server> servers;
@@ -47,7 +65,12 @@ struct ServerBook::Pending {
     void set(const QString &secret) {
         const Need need = needs.front();
         archive::Server &server = servers[need.server];
-        (need.isOfKey ? server.peer.keyPassword : server.peer.secret) = secret.toStdString();
+        (need.kind == Kind::keyPassword ? server.peer.keyPassword : server.peer.secret) =
+            secret.toStdString();
+        needs.pop_front();
+    }
+    void set(const std::shared_ptr<archive::Login> &login) {
+        servers[needs.front().server].login = login;
         needs.pop_front();
     }
     void leaveOut() {
@@ -84,18 +107,17 @@ QStringList ServerBook::names() const {
 
 void ServerBook::put(const archive::Server &server) {
     archive::ServerList::ofUser().put(server);
-    const auto keep = [&](const QString &key, const std::string &secret) {
+    for (const archive::Server &former : m_servers)
+        if (former.name == server.name && hasLogin(former) && loginKey(former) != loginKey(server))
+            forgetLogin(former);
+    const auto keepText = [&](const QString &key, const std::string &secret) {
         if (secret.empty())
             return;
-        const QString text = QString::fromStdString(secret);
-        m_known[key] = text;
-        auto *job = new QKeychain::WritePasswordJob(service, this); // deletes itself
-        job->setKey(key);
-        job->setTextData(text);
-        job->start();
+        m_known[key] = QString::fromStdString(secret);
+        keep(key, m_known[key]);
     };
-    keep(secretKey(server), server.peer.secret);
-    keep(keyPasswordKey(server), server.peer.keyPassword);
+    keepText(secretKey(server), server.peer.secret);
+    keepText(keyPasswordKey(server), server.peer.keyPassword);
     load();
     emit changed();
 }
@@ -103,37 +125,70 @@ void ServerBook::put(const archive::Server &server) {
 void ServerBook::remove(const QString &name) {
     archive::ServerList::ofUser().remove(name.toStdString());
     for (const archive::Server &server : m_servers)
-        if (QString::fromStdString(server.name) == name)
+        if (QString::fromStdString(server.name) == name) {
             for (const QString &key : {secretKey(server), keyPasswordKey(server)}) {
                 m_known.remove(key);
-                auto *job = new QKeychain::DeletePasswordJob(service, this);
-                job->setKey(key);
-                job->start();
+                forget(key);
             }
+            if (hasLogin(server))
+                forgetLogin(server);
+        }
     load();
     emit changed();
 }
 
+// Jobs of the keychain delete themselves.
+void ServerBook::keep(const QString &key, const QString &secret) {
+    auto *job = new QKeychain::WritePasswordJob(service, this);
+    job->setKey(key);
+    job->setTextData(secret);
+    job->start();
+}
+
+void ServerBook::forget(const QString &key) {
+    auto *job = new QKeychain::DeletePasswordJob(service, this);
+    job->setKey(key);
+    job->start();
+}
+
+void ServerBook::forgetLogin(const archive::Server &server) {
+    const QString key = loginKey(server);
+    if (const auto login = m_logins.take(key))
+        login->forget();
+    forget(key);
+}
+
 void ServerBook::withSecrets(const QStringList &names, QWidget *asking, const Use &use) {
+    std::vector<archive::Server> servers;
+    for (const archive::Server &server : m_servers)
+        if (names.contains(QString::fromStdString(server.name)))
+            servers.push_back(server);
+    withSecrets(servers, asking, use);
+}
+
+void ServerBook::withSecrets(const std::vector<archive::Server> &servers, QWidget *asking,
+                             const Use &use) {
+    using Kind = Pending::Kind;
     auto pending = std::make_shared<Pending>();
     pending->asking = asking;
     pending->use = use;
-    for (const archive::Server &server : m_servers) {
+    for (const archive::Server &server : servers) {
         const QString name = QString::fromStdString(server.name);
-        if (!names.contains(name))
-            continue;
         const std::size_t at = pending->servers.size();
         pending->servers.push_back(server);
         pending->isLeftOut.push_back(false);
         const exchange::Peer &peer = server.peer;
-        if (peer.authentication == exchange::Authentication::basic)
+        if (hasLogin(server))
+            pending->needs.push_back({at, Kind::login, loginKey(server), {}});
+        else if (peer.authentication == exchange::Authentication::basic && peer.secret.empty())
             pending->needs.push_back(
-                {at, false, secretKey(server),
+                {at, Kind::secret, secretKey(server),
                  tr("Password of %1 at %2").arg(QString::fromStdString(peer.user), name)});
-        else if (peer.authentication == exchange::Authentication::bearer)
-            pending->needs.push_back({at, false, secretKey(server), tr("Token for %1").arg(name)});
-        if (archive::isEncryptedKey(peer.key))
-            pending->needs.push_back({at, true, keyPasswordKey(server),
+        else if (peer.authentication == exchange::Authentication::bearer && peer.secret.empty())
+            pending->needs.push_back(
+                {at, Kind::secret, secretKey(server), tr("Token for %1").arg(name)});
+        if (peer.keyPassword.empty() && archive::isEncryptedKey(peer.key))
+            pending->needs.push_back({at, Kind::keyPassword, keyPasswordKey(server),
                                       tr("Password of the private key for %1").arg(name)});
     }
     fetchNext(pending);
@@ -144,20 +199,27 @@ void ServerBook::fetchNext(const std::shared_ptr<Pending> &pending) {
         const auto &need = pending->needs.front();
         if (pending->isLeftOut[need.server]) {
             pending->needs.pop_front();
+        } else if (need.kind == Pending::Kind::login && m_logins.contains(need.key)) {
+            renewLogin(pending);
+            return;
         } else if (const auto known = m_known.constFind(need.key); known != m_known.constEnd()) {
             pending->set(*known);
         } else {
             auto *job = new QKeychain::ReadPasswordJob(service, this);
             job->setKey(need.key);
-            connect(job, &QKeychain::Job::finished, this,
-                    [this, pending, job, key = need.key, question = need.question] {
-                        if (job->error() == QKeychain::NoError) {
-                            m_known[key] = job->textData();
-                            fetchNext(pending);
-                        } else {
-                            ask(pending, key, question);
-                        }
-                    });
+            connect(
+                job, &QKeychain::Job::finished, this,
+                [this, pending, job, kind = need.kind, key = need.key, question = need.question] {
+                    const bool isFound = job->error() == QKeychain::NoError;
+                    if (kind == Pending::Kind::login) {
+                        prepareLogin(pending, isFound ? job->textData() : QString());
+                    } else if (isFound) {
+                        m_known[key] = job->textData();
+                        fetchNext(pending);
+                    } else {
+                        ask(pending, key, question);
+                    }
+                });
             job->start();
             return;
         }
@@ -171,8 +233,93 @@ void ServerBook::fetchNext(const std::shared_ptr<Pending> &pending) {
 
 void ServerBook::forgetSecret(const QString &name) {
     for (const archive::Server &server : m_servers)
-        if (QString::fromStdString(server.name) == name)
+        if (QString::fromStdString(server.name) == name) {
             m_known.remove(secretKey(server));
+            if (hasLogin(server))
+                forgetLogin(server);
+        }
+}
+
+void ServerBook::prepareLogin(const std::shared_ptr<Pending> &pending,
+                              const QString &refreshToken) {
+    const Pending::Need &need = pending->needs.front();
+    // From any thread. Without a keychain, the login has the token for this run.
+    const auto keepIt = [self = QPointer<ServerBook>(this),
+                         key = need.key](const std::string &token) {
+        QMetaObject::invokeMethod(
+            qApp,
+            [self, key, text = QString::fromStdString(token)] {
+                if (self == nullptr)
+                    return;
+                if (text.isEmpty())
+                    self->forget(key);
+                else
+                    self->keep(key, text);
+            },
+            Qt::QueuedConnection);
+    };
+    if (!m_logins.contains(need.key)) // another search may have been faster
+        m_logins[need.key] = std::make_shared<archive::Login>(pending->servers[need.server],
+                                                              refreshToken.toStdString(), keepIt);
+    renewLogin(pending);
+}
+
+// The user is asked before a long job begins, not in the middle of it.
+void ServerBook::renewLogin(const std::shared_ptr<Pending> &pending) {
+    const std::shared_ptr<archive::Login> login = m_logins[pending->needs.front().key];
+    if (login->hasToken()) {
+        pending->set(login);
+        fetchNext(pending);
+        return;
+    }
+    if (!login->isLoggedIn()) {
+        askToLogIn(pending);
+        return;
+    }
+    auto *jobs = new JobRunner(this);
+    jobs->start(
+        tr("Logging in to %1")
+            .arg(QString::fromStdString(pending->servers[pending->needs.front().server].name)),
+        [login](const Job &job) { login->token(job.progress()); },
+        [this, jobs, pending, login](const Outcome &outcome) {
+            jobs->deleteLater();
+            if (outcome.kind == Outcome::Kind::cancelled) // the program ends
+                return;
+            if (outcome.kind == Outcome::Kind::failed &&
+                outcome.reason->is(task::because::loginHasExpired)) {
+                askToLogIn(pending);
+                return;
+            }
+            // Other failures are reported by whoever connects.
+            pending->set(login);
+            fetchNext(pending);
+        });
+}
+
+void ServerBook::askToLogIn(const std::shared_ptr<Pending> &pending) {
+    if (pending->asking == nullptr) {
+        pending->leaveOut();
+        fetchNext(pending);
+        return;
+    }
+    const Pending::Need &need = pending->needs.front();
+    const std::shared_ptr<archive::Login> login = m_logins[need.key];
+    // A search and a retrieval may need the same login.
+    QPointer<LoginDialog> &dialog = m_dialogs[need.key];
+    if (dialog == nullptr) {
+        const QString name = QString::fromStdString(pending->servers[need.server].name);
+        dialog = new LoginDialog(name, login, pending->asking);
+        dialog->setAttribute(Qt::WA_DeleteOnClose);
+        dialog->open();
+    }
+    connect(dialog, &QDialog::finished, this, [this, pending, login, key = need.key](int result) {
+        m_dialogs.remove(key);
+        if (result == QDialog::Accepted)
+            pending->set(login);
+        else
+            pending->leaveOut();
+        fetchNext(pending);
+    });
 }
 
 void ServerBook::ask(const std::shared_ptr<Pending> &pending, const QString &key,

@@ -2,21 +2,26 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include <QHash>
 #include <QObject>
+#include <QPointer>
 #include <QStringList>
 
-#include "core/archive/server.h"
+#include "core/archive/login.h"
 #include "core/task/reason.h"
 
 class QWidget;
 
 namespace pellucid::ui {
 
-/// The user's servers and their secrets: passwords, tokens, and passwords of private keys. Secrets
-/// are in the desktop's keychain; without one, they are asked for once in each run of the program.
+class LoginDialog;
+
+/// The user's servers and their secrets: passwords, tokens, logins, and passwords of private keys.
+/// Secrets are in the desktop's keychain; without one, they are asked for once in each run of the
+/// program. Of a login, only the token that renews it is kept there.
 class ServerBook : public QObject {
     Q_OBJECT
 public:
@@ -35,8 +40,10 @@ public:
     /// those that no keychain has. Servers whose secrets the user does not enter are left out, as
     /// are all that lack one if `asking` is null.
     void withSecrets(const QStringList &names, QWidget *asking, const Use &use);
+    /// The same for servers that need not be saved. Secrets that they have are not asked for.
+    void withSecrets(const std::vector<archive::Server> &servers, QWidget *asking, const Use &use);
 
-    /// After a server has not accepted it: it is asked for again.
+    /// After a server has not accepted it: it is asked for again, and so is a login.
     void forgetSecret(const QString &name);
 
 signals:
@@ -49,9 +56,18 @@ private:
     void load();
     void fetchNext(const std::shared_ptr<Pending> &pending);
     void ask(const std::shared_ptr<Pending> &pending, const QString &key, const QString &question);
+    void keep(const QString &key, const QString &secret);
+    void forget(const QString &key);
+    void forgetLogin(const archive::Server &server);
+    void prepareLogin(const std::shared_ptr<Pending> &pending, const QString &refreshToken);
+    void renewLogin(const std::shared_ptr<Pending> &pending);
+    void askToLogIn(const std::shared_ptr<Pending> &pending);
 
     std::vector<archive::Server> m_servers;
     QHash<QString, QString> m_known; ///< secrets, by their key in the keychain
+    /// By the keys of their refresh tokens.
+    QHash<QString, std::shared_ptr<archive::Login>> m_logins;
+    QHash<QString, QPointer<LoginDialog>> m_dialogs;
 };
 
 } // namespace pellucid::ui

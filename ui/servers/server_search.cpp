@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/servers/server_search.h"
 
+#include <algorithm>
+
 namespace pellucid::ui {
 
 ServerSearch::ServerSearch(ServerBook &book, QObject *parent) : QObject(parent), m_book(book) {
@@ -17,6 +19,8 @@ void ServerSearch::clear() {
 
 void ServerSearch::search(const QString &words, QWidget *asking) {
     clear();
+    m_words = words;
+    m_asking = asking;
     if (m_book.servers().empty())
         return;
     m_book.withSecrets(m_book.names(), asking,
@@ -58,6 +62,9 @@ void ServerSearch::start(const archive::SearchTerms &terms,
             archive::search(servers, terms, observer, job.progress());
         },
         [this](const Outcome &outcome) {
+            // The login server has refused to renew a login meanwhile: the user logs in again.
+            if (outcome.kind == Outcome::Kind::done && m_asking != nullptr && hasExpiredLogin())
+                search(QString(m_words), m_asking);
             if (outcome.kind != Outcome::Kind::failed)
                 return;
             // Words that no server can be asked for, such as a backslash.
@@ -66,6 +73,12 @@ void ServerSearch::start(const archive::SearchTerms &terms,
                     state = {ServerState::Kind::failed, false, outcome.reason};
             emit changed();
         });
+}
+
+bool ServerSearch::hasExpiredLogin() const {
+    return std::any_of(m_states.begin(), m_states.end(), [](const auto &state) {
+        return state.second.reason && state.second.reason->is(task::because::loginHasExpired);
+    });
 }
 
 } // namespace pellucid::ui

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include <QObject>
+#include <QPointer>
 #include <QStringList>
+#include <QWidget>
 
 #include "ui/jobs/job_runner.h"
 #include "ui/servers/remote_study.h"
@@ -42,8 +44,11 @@ signals:
 
 private:
     void start(const archive::SearchTerms &terms, const std::vector<archive::Server> &servers);
+    bool hasExpiredLogin() const;
 
     ServerBook &m_book;
+    QString m_words; ///< of the search
+    QPointer<QWidget> m_asking;
     std::vector<RemoteStudy> m_found;
     std::map<QString, ServerState> m_states;
     quint64 m_generation = 0;

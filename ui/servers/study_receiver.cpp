@@ -20,6 +20,7 @@ namespace because = task::because;
 // A sender may keep a connection for hours. What it has brought is listed meanwhile, but rarely:
 // listing reads the whole study.
 constexpr int listingMs = 20000;
+constexpr std::size_t mostTold = 50;
 
 } // namespace
 
@@ -79,7 +80,7 @@ StudyReceiver::StudyReceiver(ServerBook &book, QObject *parent)
 StudyReceiver::~StudyReceiver() = default;
 
 void StudyReceiver::setSettings(const ReceiverSettings &settings) {
-    if (settings == m_settings)
+    if (settings == m_settings && !m_failure) // else it is tried again
         return;
     m_settings = settings;
     m_settings.save();
@@ -117,6 +118,7 @@ void StudyReceiver::restart() {
 void StudyReceiver::start() {
     try {
         const archive::ListenerOptions wanted = options();
+        archive::requireAeTitle(wanted.ae);
         if (wanted.senders.empty())
             throw task::Error(task::ErrorCode::usage, because::noSenderIsKnown);
         if (wanted.usesTls && (wanted.certificate.empty() || wanted.key.empty()))
@@ -145,7 +147,10 @@ void StudyReceiver::start() {
                                        }},
             archive::ListenerObserver{
                 [this, tell](const std::string &sender, const std::optional<task::Reason> &reason) {
-                    if (reason && !reason->is(because::wasCancelled))
+                    // Whoever scans the network does not fill the list of problems.
+                    if (reason && !reason->is(because::wasCancelled) &&
+                        m_toldOf.insert(sender + reason->encoded()).second &&
+                        m_toldOf.size() <= mostTold)
                         tell(*reason, sender);
                     QMetaObject::invokeMethod(
                         this,

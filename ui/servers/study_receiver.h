@@ -4,6 +4,8 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 
 #include <QObject>
 #include <QTimer>
@@ -67,10 +69,11 @@ private:
 
     ServerBook &m_book;
     ReceiverSettings m_settings;
-    std::unique_ptr<Running> m_listener;
     std::optional<task::Reason> m_failure;
     std::atomic<qint64> m_count = 0;
-    QTimer m_listing; ///< runs from an arrival until it is listed
+    std::set<std::string> m_toldOf;      ///< senders and reasons; for the threads of connections
+    QTimer m_listing;                    ///< runs from an arrival until it is listed
+    std::unique_ptr<Running> m_listener; ///< last: its threads use the others
 };
 
 } // namespace pellucid::ui

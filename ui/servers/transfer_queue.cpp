@@ -98,9 +98,14 @@ void TransferQueue::add(const RemoteStudy &study, QWidget *asking, Urgency urgen
         transfer.folder = archive::libraryObjectFolder();
         const qint64 id = TransferLog(TransferLog::fileOfUser()).add(transfer);
         m_elsewhere.erase(id);
+        // What a user has asked for is not put off.
+        const bool isAwaited =
+            std::any_of(m_transfers.begin(), m_transfers.end(), [&](const Transfer &one) {
+                return one.id == id && one.state <= TransferState::running;
+            });
         if (urgency == Urgency::now)
             m_later.erase(id);
-        else
+        else if (!isAwaited)
             m_later.insert(id);
         read();
         // It waits again, and goes on where it was.
@@ -136,7 +141,8 @@ void TransferQueue::clearFinished() {
 }
 
 void TransferQueue::startNext(QWidget *asking) {
-    m_asking = asking;
+    if (asking != nullptr)
+        m_asking = asking;
     if (m_jobs.isRunning() || m_isWaitingForSecrets)
         return;
     // Another program's running transfer is refused when it is claimed, and left to it.
@@ -154,7 +160,9 @@ void TransferQueue::startNext(QWidget *asking) {
     if (next == m_transfers.end())
         return;
     m_isWaitingForSecrets = true;
-    m_book.withSecrets({QString::fromStdString(next->server)}, asking,
+    // Nobody is asked for a password because of a study that may be wanted later.
+    QWidget *const asked = m_later.contains(next->id) ? nullptr : m_asking.data();
+    m_book.withSecrets({QString::fromStdString(next->server)}, asked,
                        [this, transfer = *next](const std::vector<archive::Server> &servers) {
                            m_isWaitingForSecrets = false;
                            if (!servers.empty()) {
@@ -220,6 +228,13 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
                 emit completed(
                     QString::fromStdString((transfer.folder / transfer.wanted.studyUid).string()),
                     !m_later.contains(transfer.id));
+            // The user is asked to log in; what has arrived is not asked for again.
+            if (outcome.kind == Outcome::Kind::failed && m_asking != nullptr &&
+                !m_later.contains(transfer.id) &&
+                outcome.reason->is(task::because::loginHasExpired)) {
+                retry(transfer.id, m_asking);
+                return;
+            }
             if (outcome.kind == Outcome::Kind::failed)
                 emit failed(*outcome.reason, QString::fromStdString(transfer.server));
             if (outcome.kind == Outcome::Kind::failed && ended != m_transfers.end() &&

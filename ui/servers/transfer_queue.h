@@ -7,6 +7,7 @@
 
 #include <QHash>
 #include <QObject>
+#include <QPointer>
 
 #include "core/archive/run_transfer.h"
 #include "core/dicom/arriving_series.h"
@@ -67,7 +68,7 @@ private:
     /// Those that nobody waits for.
     std::set<qint64> m_later;
     bool m_isWaitingForSecrets = false;
-    QWidget *m_asking = nullptr;
+    QPointer<QWidget> m_asking; ///< windows come and go
     JobRunner m_jobs;
 };
 

@@ -49,8 +49,8 @@ ReceiverForm::ReceiverForm(StudyReceiver &receiver, QWidget *parent)
     m_key->setText(now.key);
     m_authorities =
         addFileRow(*m_form, tr("Authorities"), "receiverAuthoritiesEdit",
-                   tr("Certificates that senders' certificates must be from (PEM); empty: senders "
-                      "need no certificate"));
+                   tr("Authorities that must have issued the senders' certificates (PEM); empty: "
+                      "senders need no certificate"));
     m_authorities->setText(now.authorities);
     m_state->setObjectName("receiverState");
     m_state->setWordWrap(true);

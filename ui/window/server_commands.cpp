@@ -63,7 +63,11 @@ void ServerCommands::connectTransfers() {
                 const QString uid = QFileInfo(folder).fileName();
                 const bool isIdle =
                     m_bench.study.document.currentSource() < 0 && !m_bench.study.jobs.isRunning();
-                const bool isForBeside = m_besideAwaited && m_besideAwaited->uid == uid;
+                const bool isForBeside = m_besideAwaited && m_besideAwaited->study.uid == uid;
+                if (isForBeside) {
+                    m_besideAwaited->isHere = true;
+                    openAwaitedBeside();
+                }
                 if (isIdle && isAwaited && !isForBeside && uid != m_seen)
                     emit studyArrived(folder);
                 else
@@ -79,21 +83,19 @@ void ServerCommands::connectEarlier() {
         if (source >= 0)
             study = document.sources()[std::size_t(source)].study;
         m_bench.earlier.setOpenStudy(study);
-        if (!study)
+        // What is awaited belongs beside the study that was open.
+        if (m_besideAwaited && (!study || study->key() != m_besideAwaited->openStudy))
             m_besideAwaited.reset();
     };
     connect(&m_bench.study.document, &Document::currentSourceChanged, this, follow);
     connect(&m_bench.study.document, &Document::sourcesChanged, this, follow);
     connect(&m_bench.earlier, &EarlierStudies::retrievalSuggested, this,
             [this](const RemoteStudy &study) {
-                m_bench.transfers.add(study, &m_window, TransferQueue::Urgency::later);
+                m_bench.transfers.add(study, nullptr, TransferQueue::Urgency::later);
             });
     connect(&m_docks.earlier(), &EarlierPanel::besideRequested, this, &ServerCommands::openBeside);
     // It is listed some time after it has arrived.
-    connect(&m_bench.library, &StudyLibrary::changed, this, [this] {
-        if (m_besideAwaited && openHere(*m_besideAwaited))
-            m_besideAwaited.reset();
-    });
+    connect(&m_bench.library, &StudyLibrary::changed, this, &ServerCommands::openAwaitedBeside);
     follow();
 }
 
@@ -106,12 +108,20 @@ void ServerCommands::retrieve(const RemoteStudy &study) {
 
 void ServerCommands::openBeside(const EarlierStudy &study) {
     m_besideAwaited.reset();
-    if (openHere(study.study) || study.servers.isEmpty())
+    if (m_bench.study.document.currentSource() < 0 || openHere(study.study) ||
+        study.servers.isEmpty())
         return;
-    m_besideAwaited = study.study;
+    const Document &document = m_bench.study.document;
+    m_besideAwaited = {
+        study.study, document.sources()[std::size_t(document.currentSource())].study.key(), false};
     m_docks.transfers().show();
     m_docks.transfers().raise();
     m_bench.transfers.add(study.remote(), &m_window);
+}
+
+void ServerCommands::openAwaitedBeside() {
+    if (m_besideAwaited && m_besideAwaited->isHere && openHere(m_besideAwaited->study))
+        m_besideAwaited.reset();
 }
 
 bool ServerCommands::openHere(const StudyFacts &wanted) {
@@ -167,6 +177,7 @@ void ServerCommands::open(const OpenRequest &request) {
         find(request);
         return;
     }
+    delete m_window.findChild<QMessageBox *>("linkQuestion"); // only the last link counts
     auto *question = new QMessageBox(
         QMessageBox::NoIcon, tr("Open a link"),
         tr("Another program asks to open a study from the server %1. Allow links to this server?")

@@ -45,6 +45,8 @@ private:
     void retrieve(const RemoteStudy &study);
     void find(const OpenRequest &request);
     void openBeside(const EarlierStudy &study);
+    /// Opens the awaited study beside if all of it is here, and listed.
+    void openAwaitedBeside();
     /// Opens a study of the library beside; false if it is not there.
     bool openHere(const StudyFacts &study);
     void send(const QStringList &files, const QString &server);
@@ -57,7 +59,12 @@ private:
     /// The study that was opened last while it arrived: it is not opened again at its end.
     QString m_seen;
     /// A study of a server that is wanted beside the open one.
-    std::optional<StudyFacts> m_besideAwaited;
+    struct Beside {
+        StudyFacts study;
+        QString openStudy;   ///< the key of the open one
+        bool isHere = false; ///< all of it has arrived
+    };
+    std::optional<Beside> m_besideAwaited;
     JobRunner m_finding; ///< looks for what a link names
 };
 

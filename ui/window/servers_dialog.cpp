@@ -17,6 +17,7 @@
 #include <QTabWidget>
 #include <QVBoxLayout>
 
+#include "core/archive/login.h"
 #include "core/exchange/link.h"
 #include "ui/language/reasons.h"
 #include "ui/servers/server_book.h"
@@ -165,11 +166,22 @@ QWidget *ServersDialog::makeForm() {
     m_tls->setObjectName("tlsBox");
     m_authentication = new QComboBox;
     m_authentication->setObjectName("authenticationBox");
-    m_authentication->addItems({tr("None"), tr("User and password"), tr("Token")});
+    m_authentication->addItems(
+        {tr("None"), tr("User and password"), tr("Token"), tr("In the browser (OAuth 2.0)")});
     m_user = lineEdit("userEdit", tr("User name at the server"));
     m_secret = lineEdit("secretEdit",
                         tr("Kept in the desktop's keychain, or for this run of the program"));
     m_secret->setEchoMode(QLineEdit::Password);
+    m_issuer = lineEdit("issuerEdit",
+                        tr("For example https://login.example.org/realms/hospital; the login "
+                           "server describes the other addresses there"));
+    m_authorizationUrl =
+        lineEdit("authorizationUrlEdit", tr("Page on which users log in; only without an issuer"));
+    m_tokenUrl =
+        lineEdit("tokenUrlEdit", tr("Where the login server gives tokens; only without an issuer"));
+    m_clientId = lineEdit("clientIdEdit", tr("The ID that the login server has for this program"));
+    m_scope = lineEdit("scopeEdit",
+                       tr("What the login is to allow, such as openid offline_access; optional"));
     m_keyPassword = lineEdit("keyPasswordEdit", m_secret->toolTip());
     m_keyPassword->setEchoMode(QLineEdit::Password);
     m_form->addRow(tr("Name"), m_name);
@@ -196,6 +208,12 @@ QWidget *ServersDialog::makeForm() {
     m_form->addRow(tr("Login"), m_authentication);
     m_form->addRow(tr("User"), m_user);
     m_form->addRow(tr("Password or token"), m_secret);
+    m_form->addRow(tr("Issuer"), m_issuer);
+    m_form->addRow(tr("Authorization URL"), m_authorizationUrl);
+    m_form->addRow(tr("Token URL"), m_tokenUrl);
+    m_form->addRow(tr("Client ID"), m_clientId);
+    m_form->addRow(tr("Scope"), m_scope);
+    connect(m_issuer, &QLineEdit::textChanged, this, &ServersDialog::enableFields);
     connect(m_protocol, &QComboBox::currentIndexChanged, this, &ServersDialog::enableFields);
     connect(m_authentication, &QComboBox::currentIndexChanged, this, &ServersDialog::enableFields);
     connect(m_tls, &QCheckBox::toggled, this, &ServersDialog::enableFields);
@@ -219,8 +237,13 @@ void ServersDialog::enableFields() {
     for (QWidget *field :
          std::initializer_list<QWidget *>{m_authorities, m_certificate, m_key, m_keyPassword})
         place(field, isSecure);
-    place(m_user, m_authentication->currentIndex() == 1);
-    place(m_secret, m_authentication->currentIndex() != 0);
+    const auto login = Authentication(m_authentication->currentIndex());
+    place(m_user, login == Authentication::basic);
+    place(m_secret, login == Authentication::basic || login == Authentication::bearer);
+    for (QWidget *field : std::initializer_list<QWidget *>{m_issuer, m_clientId, m_scope})
+        place(field, login == Authentication::oauth);
+    for (QWidget *field : std::initializer_list<QWidget *>{m_authorizationUrl, m_tokenUrl})
+        place(field, login == Authentication::oauth && m_issuer->text().trimmed().isEmpty());
 }
 
 void ServersDialog::list(const QString &selected) {
@@ -251,6 +274,12 @@ void ServersDialog::showServer(const Server &server, bool isNew) {
     m_keyPassword->clear();
     m_authentication->setCurrentIndex(int(peer.authentication));
     m_user->setText(shown(peer.user));
+    const archive::LoginSettings &login = server.loginSettings;
+    m_issuer->setText(shown(login.issuer));
+    m_authorizationUrl->setText(shown(login.authorizationUrl));
+    m_tokenUrl->setText(shown(login.tokenUrl));
+    m_clientId->setText(shown(login.clientId));
+    m_scope->setText(shown(login.scope));
     m_secret->clear();
     m_secret->setPlaceholderText(isNew ? QString() : tr("unchanged"));
     m_remove->setEnabled(!isNew);
@@ -281,8 +310,19 @@ Server ServersDialog::entered() const {
     peer.authentication = Authentication(m_authentication->currentIndex());
     if (peer.authentication == Authentication::basic)
         peer.user = textOf(m_user);
-    if (peer.authentication != Authentication::none)
+    if (peer.authentication == Authentication::basic ||
+        peer.authentication == Authentication::bearer)
         peer.secret = m_secret->text().toStdString();
+    if (peer.authentication == Authentication::oauth) {
+        archive::LoginSettings &login = server.loginSettings;
+        login.issuer = textOf(m_issuer);
+        if (login.issuer.empty()) {
+            login.authorizationUrl = textOf(m_authorizationUrl);
+            login.tokenUrl = textOf(m_tokenUrl);
+        }
+        login.clientId = textOf(m_clientId);
+        login.scope = textOf(m_scope);
+    }
     server.retrieve = RetrieveMethod(m_retrieve->currentIndex());
     server.connections = m_connections->value();
     server.limit = std::uint32_t(m_limit->value());
@@ -337,9 +377,11 @@ void ServersDialog::test() {
                         report(lines->join("\n"), "muted");
                     });
                 };
-                exchange::Link link(exchange::Connection{complete.peer, exchange::Purpose::echo},
-                                    job.progress(), observe);
-                link.echo(job.progress(), observe);
+                archive::withLogin(complete, job.progress(), [&](const exchange::Peer &peer) {
+                    exchange::Link link(exchange::Connection{peer, exchange::Purpose::echo},
+                                        job.progress(), observe);
+                    link.echo(job.progress(), observe);
+                });
             },
             [this, lines](const Outcome &outcome) {
                 m_test->setEnabled(true);
@@ -349,6 +391,15 @@ void ServersDialog::test() {
                 }
             });
     };
+    if (server.peer.authentication == Authentication::oauth) {
+        m_book.withSecrets(
+            std::vector<Server>{server}, this,
+            [self = QPointer<ServersDialog>(this), run](const std::vector<Server> &complete) {
+                if (self != nullptr && !complete.empty())
+                    run(complete.front());
+            });
+        return;
+    }
     // A saved server's secret need not be typed again.
     const bool lacksSecret = server.peer.authentication != Authentication::none &&
                              server.peer.secret.empty() &&

@@ -42,6 +42,7 @@ private:
     QListWidget *m_list;
     QFormLayout *m_form = nullptr;
     QLineEdit *m_name, *m_ae, *m_host, *m_url, *m_callingAe, *m_user, *m_secret, *m_characterSet;
+    QLineEdit *m_issuer, *m_authorizationUrl, *m_tokenUrl, *m_clientId, *m_scope;
     QLineEdit *m_authorities, *m_certificate, *m_key, *m_keyPassword;
     QComboBox *m_protocol, *m_retrieve, *m_authentication;
     QSpinBox *m_port, *m_connections, *m_limit;

@@ -38,6 +38,28 @@ TEST(ExchangeMessage, ValuesSurviveTheJourney) {
     EXPECT_EQ(unpackRetrievalEnd(pack(end)), end);
     const Arrival arrival{"1.2", "1.2.3", "1.2.840.10008.1.2", "SENDER"};
     EXPECT_EQ(unpackArrival(pack(arrival)).callingAe, "SENDER");
+    const Tokens tokens{"access", "refresh", 300};
+    EXPECT_EQ(unpackTokens(pack(tokens)), tokens);
+    const Endpoints endpoints{"https://h", "https://h/a", "https://h/t"};
+    EXPECT_EQ(unpackEndpoints(pack(endpoints)), endpoints);
+    const TokenRequest request{{"code", "a&b"}, {"grant_type", "authorization_code"}};
+    EXPECT_EQ(unpackTokenRequest(pack(request)), request);
+    EXPECT_EQ(formEncoded(request), "code=a%26b&grant_type=authorization_code");
+    EXPECT_EQ(unpackRedirection(pack(Redirection{"state", "yes", "no", 5.0})).failureText, "no");
+}
+
+// A token becomes part of a header, a code part of a form.
+TEST(ExchangeMessage, TokensAndCodesAreVisibleAndNotTooLong) {
+    for (const std::string &bad :
+         {std::string(), std::string("a b"), std::string("a\r\nX: y"), std::string("a\0b", 3),
+          std::string("\xc3\xa4"), std::string(longestToken + 1, 'a')}) {
+        EXPECT_THROW(unpackTokens(pack(Tokens{bad, "r", 0})), task::Error) << bad;
+        EXPECT_THROW(unpackCode(bad), task::Error) << bad;
+        EXPECT_THROW(unpackEndpoints(pack(Endpoints{"", bad, "t"})), task::Error) << bad;
+        if (!bad.empty())
+            EXPECT_THROW(unpackTokens(pack(Tokens{"a", bad, 0})), task::Error) << bad;
+    }
+    EXPECT_EQ(unpackCode("4/P7q7W91a-oMsCeLvIaQm6bTrgtp7"), "4/P7q7W91a-oMsCeLvIaQm6bTrgtp7");
 }
 
 // What arrives may become a file name, and is shown: neither a path nor a line break passes.
@@ -57,9 +79,13 @@ TEST(ExchangeMessage, IdentifiersArePlain) {
 // A compromised helper may send anything: it is refused or taken, but nothing else happens.
 TEST(ExchangeMessage, AnyBytesAreRefusedOrTaken) {
     std::mt19937 random(test::freshSeed());
-    const std::vector<std::string> valid{pack(fullConnection()), pack(Query{}),
-                                         pack(RetrievalEnd{}),
-                                         pack(Attributes{{1, "a"}, {2, "b"}})};
+    const std::vector<std::string> valid{
+        pack(fullConnection()),
+        pack(Query{}),
+        pack(RetrievalEnd{}),
+        pack(Attributes{{1, "a"}, {2, "b"}}),
+        pack(Tokens{"access", "refresh", 300}),
+        pack(Endpoints{"https://h", "https://h/a", "https://h/t"})};
     for (int n = 0; n < 4000; ++n) {
         std::string bytes = valid[std::size_t(n) % valid.size()];
         for (int change = 0; change < 3 && !bytes.empty(); ++change)
@@ -79,6 +105,9 @@ TEST(ExchangeMessage, AnyBytesAreRefusedOrTaken) {
         attempt(unpackAttributes);
         attempt(unpackUids);
         attempt(unpackReason);
+        attempt(unpackTokens);
+        attempt(unpackEndpoints);
+        attempt(unpackCode);
     }
 }
 

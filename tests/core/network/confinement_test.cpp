@@ -21,7 +21,7 @@ namespace {
 
 // Runs `attempt` in a process that has confined itself. *Shape*: its exit status, or minus the
 // signal that ended it.
-int confined(const std::function<bool()> &attempt) {
+int confined(const std::function<bool()> &attempt, int (*confine)() = network::confine) {
     const pid_t child = ::fork();
     if (child == 0) {
         const int bits = confine();
@@ -64,6 +64,34 @@ TEST(NetworkConfinement, NothingElseIsReached) {
     EXPECT_EQ(confined([&] { return ::send(ends[0], "x", 1, 0) == 1; }), 1);
     ::close(ends[0]);
     ::close(ends[1]);
+}
+
+// The process that awaits a browser accepts connections on the socket that it has, and no more.
+TEST(NetworkConfinement, OnlyOnePortIsAccepted) {
+    const auto accepting = [](const std::function<bool()> &attempt) {
+        return confined(attempt, confineToAccepting);
+    };
+    const int socket = ::socket(AF_INET, SOCK_STREAM, 0),
+              client = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof at;
+    auto *const address = reinterpret_cast<sockaddr *>(&at);
+    ASSERT_EQ(::bind(socket, address, size), 0);
+    ASSERT_EQ(::listen(socket, 4), 0);
+    ASSERT_EQ(::getsockname(socket, address, &size), 0);
+    ASSERT_EQ(::connect(client, address, size), 0);
+    EXPECT_EQ(accepting([&] { return ::accept4(socket, nullptr, nullptr, SOCK_CLOEXEC) >= 0; }), 1);
+    EXPECT_EQ(accepting([] { return ::socket(AF_INET, SOCK_STREAM, 0) >= 0; }), -SIGSYS);
+    EXPECT_EQ(accepting([&] { return ::connect(client, address, size) == 0; }), -SIGSYS);
+    EXPECT_EQ(accepting([&] { return ::listen(client, 1) == 0; }), -SIGSYS);
+    EXPECT_EQ(accepting([] { return ::open("/etc/passwd", O_RDONLY) >= 0; }), 0);
+    EXPECT_EQ(accepting([] { return ::fork() >= 0; }), -SIGSYS);
+    EXPECT_EQ(confined([&] { return ::accept4(socket, nullptr, nullptr, SOCK_CLOEXEC) >= 0; }),
+              -SIGSYS);
+    ::close(socket);
+    ::close(client);
 }
 
 } // namespace pellucid::network

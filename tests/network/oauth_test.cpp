@@ -1,0 +1,824 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Logging in to DICOMweb servers: a login server, a DICOMweb server and a browser, written without
+// any library.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <poll.h>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "core/archive/login.h"
+#include "core/archive/pkce.h"
+#include "core/archive/retrieval.h"
+#include "core/archive/search.h"
+#include "core/archive/sending.h"
+#include "core/task/error.h"
+#include "tests/network/pacs.h"
+#include "tests/network/servers.h"
+#include "tests/support/dicom_writer.h"
+
+namespace pellucid {
+
+using namespace test;
+namespace because = task::because;
+
+namespace {
+
+using Fields = std::map<std::string, std::string>;
+
+struct HttpRequest {
+    std::string method, target; ///< target: path and query
+    Fields headers;             ///< names in small letters
+    std::string body;
+
+    std::string path() const { return target.substr(0, target.find('?')); }
+    std::string header(const std::string &name) const {
+        const auto at = headers.find(name);
+        return at == headers.end() ? std::string() : at->second;
+    }
+};
+
+struct HttpAnswer {
+    int status = 200;
+    std::string type = "application/json", body, location;
+};
+
+std::string urlDecoded(const std::string &text) {
+    std::string decoded;
+    for (std::size_t n = 0; n < text.size(); ++n)
+        if (text[n] == '%') {
+            decoded += char(std::stoi(text.substr(n + 1, 2), nullptr, 16));
+            n += 2;
+        } else {
+            decoded += text[n];
+        }
+    return decoded;
+}
+
+// The fields of a query or a form.
+Fields fieldsOf(const std::string &text) {
+    Fields fields;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('&', at), text.size());
+        const std::string pair = text.substr(at, end - at);
+        const std::size_t equals = std::min(pair.find('='), pair.size());
+        fields[urlDecoded(pair.substr(0, equals))] =
+            equals < pair.size() ? urlDecoded(pair.substr(equals + 1)) : "";
+        at = end + 1;
+    }
+    return fields;
+}
+
+void sendAll(int socket, const std::string &bytes) {
+    for (std::size_t sent = 0; sent < bytes.size();) {
+        const ssize_t now = ::send(socket, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+        if (now <= 0)
+            return;
+        sent += std::size_t(now);
+    }
+}
+
+// Answers requests on 127.0.0.1, each connection in a thread of its own.
+class HttpServer {
+public:
+    using Handler = std::function<HttpAnswer(const HttpRequest &)>;
+    explicit HttpServer(Handler handler)
+        : m_handler(std::move(handler)), m_socket(listenOn(m_port)),
+          m_acceptor([this](const std::stop_token &stop) { acceptAll(stop); }) {}
+    ~HttpServer() {
+        m_acceptor.request_stop();
+        m_acceptor.join();
+        for (const int client : m_clients)
+            ::shutdown(client, SHUT_RDWR);
+        m_threads.clear();
+        for (const int client : m_clients)
+            ::close(client);
+        ::close(m_socket);
+    }
+    HttpServer(const HttpServer &) = delete;
+    HttpServer &operator=(const HttpServer &) = delete;
+    std::string url() const { return "http://127.0.0.1:" + std::to_string(m_port); }
+    std::size_t requestCount() {
+        const std::lock_guard lock(m_mutex);
+        return m_count;
+    }
+
+private:
+    void acceptAll(const std::stop_token &stop) {
+        while (!stop.stop_requested()) {
+            pollfd waiting{m_socket, POLLIN, 0};
+            if (::poll(&waiting, 1, 20) <= 0)
+                continue;
+            const int client = ::accept4(m_socket, nullptr, nullptr, SOCK_CLOEXEC);
+            if (client < 0)
+                continue;
+            m_clients.push_back(client); // closed at the end, so that no number is used twice
+            m_threads.emplace_back([this, client] { serve(client); });
+        }
+    }
+    void serve(int client) {
+        std::string bytes;
+        const auto more = [&] {
+            std::array<char, 65536> buffer{};
+            const ssize_t got = ::recv(client, buffer.data(), buffer.size(), 0);
+            bytes.append(buffer.data(), got > 0 ? std::size_t(got) : 0);
+            return got > 0;
+        };
+        for (;;) {
+            std::size_t end = 0;
+            while ((end = bytes.find("\r\n\r\n")) == std::string::npos)
+                if (!more())
+                    return;
+            HttpRequest request = headOf(bytes.substr(0, end));
+            bytes.erase(0, end + 4);
+            const std::string length = request.header("content-length");
+            const std::size_t count = length.empty() ? 0 : std::stoul(length);
+            while (bytes.size() < count)
+                if (!more())
+                    return;
+            request.body = bytes.substr(0, count);
+            bytes.erase(0, count);
+            HttpAnswer answer;
+            {
+                const std::lock_guard lock(m_mutex);
+                ++m_count;
+                answer = m_handler(request);
+            }
+            sendAll(client, "HTTP/1.1 " + std::to_string(answer.status) +
+                                " Answer\r\nContent-Type: " + answer.type +
+                                "\r\nContent-Length: " + std::to_string(answer.body.size()) +
+                                (answer.location.empty() ? "" : "\r\nLocation: ") +
+                                answer.location + "\r\n\r\n" + answer.body);
+        }
+    }
+    static HttpRequest headOf(const std::string &head) {
+        HttpRequest request;
+        const std::size_t first = head.find(' '), second = head.find(' ', first + 1);
+        request.method = head.substr(0, first);
+        request.target = head.substr(first + 1, second - first - 1);
+        for (std::size_t at = head.find("\r\n"); at != std::string::npos;
+             at = head.find("\r\n", at + 2)) {
+            const std::string line = head.substr(at + 2, head.find("\r\n", at + 2) - at - 2);
+            const std::size_t colon = line.find(": ");
+            if (colon == std::string::npos)
+                continue;
+            std::string name = line.substr(0, colon);
+            std::transform(name.begin(), name.end(), name.begin(),
+                           [](unsigned char c) { return char(std::tolower(c)); });
+            request.headers[name] = line.substr(colon + 2);
+        }
+        return request;
+    }
+
+    Handler m_handler;
+    int m_port = 0, m_socket;
+    std::mutex m_mutex; // one request at a time
+    std::size_t m_count = 0;
+    std::vector<int> m_clients; // of the acceptor, until it has ended
+    std::vector<std::jthread> m_threads;
+    std::jthread m_acceptor;
+};
+
+// The tokens that both servers know. Thread-safe.
+class Tokens {
+public:
+    std::string issue() {
+        const std::lock_guard lock(m_mutex);
+        m_valid = "access-token-" + std::to_string(++m_issued);
+        return m_valid;
+    }
+    void expire() {
+        const std::lock_guard lock(m_mutex);
+        m_valid.clear();
+    }
+    bool accepts(const std::string &authorization) {
+        const std::lock_guard lock(m_mutex);
+        return !m_valid.empty() && authorization == "Bearer " + m_valid;
+    }
+    int issued() {
+        const std::lock_guard lock(m_mutex);
+        return m_issued;
+    }
+
+private:
+    std::mutex m_mutex;
+    std::string m_valid;
+    int m_issued = 0;
+};
+
+// A login server (RFC 6749, 7636; OpenID Connect Discovery 1.0). The test is its user.
+class LoginServer {
+public:
+    explicit LoginServer(Tokens &tokens)
+        : m_tokens(tokens), m_http([this](const HttpRequest &request) { return answer(request); }) {
+    }
+    std::string url() const { return m_http.url(); }
+
+    // What it knows of a login whose page the browser has opened. Set before the answers.
+    void expect(const std::string &page) {
+        const std::lock_guard lock(m_mutex);
+        m_page = fieldsOf(page.substr(page.find('?') + 1));
+    }
+    void refuseToRenew() {
+        const std::lock_guard lock(m_mutex);
+        m_refresh.clear();
+    }
+    // Answers requests for tokens with this.
+    void lie(const HttpAnswer &answer) {
+        const std::lock_guard lock(m_mutex);
+        m_lie = answer;
+    }
+    void setLifetime(int seconds) {
+        const std::lock_guard lock(m_mutex);
+        m_lifetime = seconds;
+    }
+    void setIssuer(const std::string &issuer) {
+        const std::lock_guard lock(m_mutex);
+        m_issuer = issuer;
+    }
+    std::vector<Fields> tokenRequests() {
+        const std::lock_guard lock(m_mutex);
+        return m_requests;
+    }
+    std::string refreshToken() {
+        const std::lock_guard lock(m_mutex);
+        return m_refresh;
+    }
+
+private:
+    HttpAnswer answer(const HttpRequest &request) {
+        const std::lock_guard lock(m_mutex);
+        if (request.path() == "/.well-known/openid-configuration")
+            return {200, "application/json",
+                    R"({"issuer": ")" + (m_issuer.empty() ? url() : m_issuer) +
+                        R"(", "authorization_endpoint": ")" + url() +
+                        R"(/authorize?policy=a", "token_endpoint": ")" + url() + R"(/token/"})",
+                    ""};
+        if (request.path() != "/token/" || request.method != "POST" ||
+            request.header("content-type") != "application/x-www-form-urlencoded")
+            return {404, "text/plain", "", ""};
+        const Fields form = fieldsOf(request.body);
+        m_requests.push_back(form);
+        if (m_lie)
+            return *m_lie;
+        const auto is = [&](const char *name, const std::string &value) {
+            const auto at = form.find(name);
+            return at != form.end() && !value.empty() && at->second == value;
+        };
+        const bool isLogin =
+            is("grant_type", "authorization_code") && is("code", "the-code") &&
+            is("redirect_uri", m_page["redirect_uri"]) && form.contains("code_verifier") &&
+            archive::codeChallenge(form.at("code_verifier")) == m_page["code_challenge"];
+        const bool isRenewal = is("grant_type", "refresh_token") && is("refresh_token", m_refresh);
+        if (!is("client_id", "pellucid") || !(isLogin || isRenewal))
+            return {400, "application/json", R"({"error": "invalid_grant"})", ""};
+        m_refresh = "refresh-token-" + std::to_string(m_requests.size());
+        return {200, "application/json",
+                R"({"access_token": ")" + m_tokens.issue() +
+                    R"(", "token_type": "Bearer", "expires_in": )" + std::to_string(m_lifetime) +
+                    R"(, "refresh_token": ")" + m_refresh + "\"}",
+                ""};
+    }
+
+    Tokens &m_tokens;
+    std::mutex m_mutex;
+    Fields m_page;
+    std::string m_refresh, m_issuer;
+    int m_lifetime = 300;
+    std::optional<HttpAnswer> m_lie;
+    std::vector<Fields> m_requests;
+    HttpServer m_http;
+};
+
+const std::string study = "1.2.826.0.1.3680043.8.498.77", series = study + ".1";
+constexpr int objects = 40;
+
+std::string instance(int n) {
+    return series + "." + std::to_string(100 + n); // all have the same length
+}
+
+DicomWriter object(const std::string &uid) {
+    DicomWriter writer;
+    writer.put({0x0008, 0x0016}, "UI", "1.2.840.10008.5.1.4.1.1.7");
+    writer.put({0x0008, 0x0018}, "UI", uid);
+    writer.put({0x0008, 0x0060}, "CS", "OT");
+    writer.put({0x0010, 0x0010}, "PN", "Test^Login");
+    writer.put({0x0020, 0x000d}, "UI", study);
+    writer.put({0x0020, 0x000e}, "UI", series);
+    return writer;
+}
+
+// A DICOMweb server with one study, for whoever has a valid token.
+class WebServer {
+public:
+    explicit WebServer(Tokens &tokens)
+        : m_tokens(tokens), m_http([this](const HttpRequest &request) { return answer(request); }) {
+    }
+    std::string url() const { return m_http.url(); }
+    // The token expires each time that so many objects have come or gone.
+    void expireEvery(int count) {
+        const std::lock_guard lock(m_mutex);
+        m_every = count;
+    }
+    // Sends everyone elsewhere.
+    void moveTo(const std::string &url) {
+        const std::lock_guard lock(m_mutex);
+        m_elsewhere = url;
+    }
+    std::multiset<std::string> sent() {
+        const std::lock_guard lock(m_mutex);
+        return m_sent;
+    }
+    std::set<std::string> stored() {
+        const std::lock_guard lock(m_mutex);
+        return m_stored;
+    }
+    int refusals() {
+        const std::lock_guard lock(m_mutex);
+        return m_refusals;
+    }
+
+private:
+    static std::string element(const char *tag, const char *vr, const std::string &value) {
+        return "\"" + std::string(tag) + "\": {\"vr\": \"" + vr + "\", \"Value\": [" + value + "]}";
+    }
+    static std::string uidElement(const char *tag, const std::string &uid) {
+        return element(tag, "UI", "\"" + uid + "\"");
+    }
+    HttpAnswer answer(const HttpRequest &request) {
+        const std::lock_guard lock(m_mutex);
+        if (!m_elsewhere.empty())
+            return {302, "text/plain", "", m_elsewhere + request.target};
+        if (!m_tokens.accepts(request.header("authorization"))) {
+            ++m_refusals;
+            return {401, "text/plain", "", ""};
+        }
+        const std::string path = request.path(), one = "/studies/" + study + "/series/" + series;
+        if (path == "/studies" && request.method == "POST")
+            return store(request.body);
+        if (path.starts_with(one + "/instances/"))
+            return retrieve(path.substr(path.rfind('/') + 1));
+        if (fieldsOf(request.target.substr(request.target.find('?') + 1))["offset"] != "0")
+            return {204, "application/dicom+json", "", ""};
+        const std::string type = "application/dicom+json";
+        if (path == "/studies")
+            return {200, type, "[{" + uidElement("0020000D", study) + "}]", ""};
+        if (path == "/studies/" + study + "/series")
+            return {200, type, "[{" + uidElement("0020000E", series) + "}]", ""};
+        if (path != one + "/instances")
+            return {404, "text/plain", "", ""};
+        std::string list;
+        for (int n = 0; n < objects; ++n)
+            list += (n == 0 ? "{" : ", {") + uidElement("00080018", instance(n)) + ", " +
+                    uidElement("00080016", "1.2.840.10008.5.1.4.1.1.7") + ", " +
+                    element("00200013", "IS", std::to_string(n + 1)) + "}";
+        return {200, type, "[" + list + "]", ""};
+    }
+    HttpAnswer retrieve(const std::string &uid) {
+        m_sent.insert(uid);
+        count();
+        return {200, "multipart/related; type=\"application/dicom\"; boundary=part",
+                "--part\r\nContent-Type: application/dicom\r\n\r\n" +
+                    object(uid).file(DicomWriter::Form()) + "\r\n--part--\r\n",
+                ""};
+    }
+    HttpAnswer store(const std::string &body) {
+        for (int n = 0; n < objects; ++n)
+            if (body.find(instance(n)) != std::string::npos) {
+                m_stored.insert(instance(n));
+                count();
+                return {
+                    200, "application/dicom+json",
+                    "{" +
+                        element("00081199", "SQ", "{" + uidElement("00081155", instance(n)) + "}") +
+                        "}",
+                    ""};
+            }
+        return {409, "text/plain", "", ""};
+    }
+    void count() {
+        if (m_every > 0 && ++m_served % m_every == 0)
+            m_tokens.expire();
+    }
+
+    Tokens &m_tokens;
+    std::mutex m_mutex;
+    std::string m_elsewhere;
+    int m_every = 0, m_served = 0, m_refusals = 0;
+    std::multiset<std::string> m_sent;
+    std::set<std::string> m_stored;
+    HttpServer m_http;
+};
+
+// The answer of the page at this address.
+std::string visit(const std::string &url) {
+    const std::size_t host = url.find("://") + 3, path = url.find('/', host);
+    const int socket = connectTo(std::stoi(url.substr(url.find(':', host) + 1)));
+    if (socket < 0)
+        return "no connection";
+    sendAll(socket, "GET " + url.substr(path) + " HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+    std::string answer;
+    std::array<char, 4096> buffer{};
+    for (ssize_t got = 0; (got = ::recv(socket, buffer.data(), buffer.size(), 0)) > 0;)
+        answer.append(buffer.data(), std::size_t(got));
+    ::close(socket);
+    return answer;
+}
+
+// What the program may show, without what it must not.
+void expectNoSecret(const std::string &text) {
+    for (const char *const secret : {"access-token", "refresh-token", "the-code"})
+        EXPECT_EQ(text.find(secret), std::string::npos) << text;
+}
+
+std::string reasonOf(const std::function<void()> &work) {
+    try {
+        work();
+    } catch (const task::Error &error) {
+        expectNoSecret(error.what());
+        return error.reason().english();
+    }
+    return "nothing failed";
+}
+
+std::string english(const task::Reason &reason) {
+    return reason.english();
+}
+
+class OAuth : public Pacs {
+protected:
+    void SetUp() override {
+        m_server = {"Web", archive::webPeer(m_web.url())};
+        m_server.peer.authentication = exchange::Authentication::oauth;
+        m_server.peer.connectSeconds = 5.0;
+        m_server.peer.silenceSeconds = 10.0;
+        m_server.loginSettings.issuer = m_login.url();
+        m_server.loginSettings.clientId = "pellucid";
+        m_server.loginSettings.scope = "openid offline_access";
+        m_server.login = std::make_shared<archive::Login>(
+            m_server, "", [this](const std::string &token) { m_kept.push_back(token); });
+    }
+
+    // A user who logs in as soon as the browser has opened.
+    archive::Login::OpenPage user() {
+        return [this](const std::string &page) {
+            m_page = page;
+            m_login.expect(page);
+            const Fields fields = fieldsOf(page.substr(page.find('?') + 1));
+            m_shown = std::async(std::launch::async, [fields] {
+                return visit(fields.at("redirect_uri") +
+                             "?code=the-code&state=" + fields.at("state"));
+            });
+        };
+    }
+    void logIn() { m_server.login->logIn(user()); }
+
+    Tokens m_tokens;
+    LoginServer m_login{m_tokens};
+    WebServer m_web{m_tokens};
+    archive::Server m_server;
+    std::vector<std::string> m_kept; ///< refresh tokens for the keychain
+    std::string m_page;
+    std::future<std::string> m_shown; ///< by the browser at the end
+};
+
+} // namespace
+
+TEST_F(OAuth, TheWholeLoginGivesAToken) {
+    archive::requireValid(m_server);
+    logIn();
+    // The page of the login server, with its own query kept.
+    EXPECT_TRUE(m_page.starts_with(m_login.url() + "/authorize?policy=a&")) << m_page;
+    Fields page = fieldsOf(m_page.substr(m_page.find('?') + 1));
+    EXPECT_EQ(page["response_type"], "code");
+    EXPECT_EQ(page["client_id"], "pellucid");
+    EXPECT_EQ(page["scope"], "openid offline_access");
+    EXPECT_EQ(page["code_challenge_method"], "S256");
+    EXPECT_EQ(page["code_challenge"].size(), 43U);
+    EXPECT_GE(page["state"].size(), 43U);
+    EXPECT_TRUE(page["redirect_uri"].starts_with("http://127.0.0.1:")) << page["redirect_uri"];
+    // The server has compared the challenge; the verifier was not in the page.
+    const auto requests = m_login.tokenRequests();
+    ASSERT_EQ(requests.size(), 1U);
+    const std::string verifier = requests[0].at("code_verifier");
+    EXPECT_GE(verifier.size(), 43U);
+    EXPECT_LE(verifier.size(), 128U);
+    EXPECT_EQ(m_page.find(verifier), std::string::npos);
+    const std::string shown = m_shown.get();
+    EXPECT_TRUE(shown.starts_with("HTTP/1.1 200")) << shown;
+    EXPECT_NE(shown.find("can close this window"), std::string::npos) << shown;
+    EXPECT_NE(shown.find("logged in"), std::string::npos) << shown;
+    EXPECT_EQ(m_kept, std::vector<std::string>{m_login.refreshToken()});
+    // The port is closed again, and the token is used.
+    EXPECT_EQ(visit(page["redirect_uri"]), "no connection");
+    const auto found = archive::search({m_server}, {});
+    ASSERT_FALSE(found.outcomes.at(0).failure.has_value()) << found.outcomes[0].failure->english();
+    EXPECT_EQ(found.entries.size(), 1U);
+    EXPECT_EQ(m_web.refusals(), 0);
+    // A second login has a new state and a new verifier.
+    logIn();
+    m_shown.get();
+    Fields second = fieldsOf(m_page.substr(m_page.find('?') + 1));
+    EXPECT_NE(second["state"], page["state"]);
+    EXPECT_NE(second["code_challenge"], page["code_challenge"]);
+}
+
+// The addresses may also be given without an issuer.
+TEST_F(OAuth, NoDescriptionIsNeeded) {
+    m_server.loginSettings.issuer.clear();
+    m_server.loginSettings.authorizationUrl = m_login.url() + "/authorize";
+    m_server.loginSettings.tokenUrl = m_login.url() + "/token/";
+    archive::requireValid(m_server);
+    m_server.login = std::make_shared<archive::Login>(m_server);
+    logIn();
+    EXPECT_TRUE(m_page.starts_with(m_login.url() + "/authorize?client_id=")) << m_page;
+    EXPECT_EQ(archive::search({m_server}, {}).entries.size(), 1U);
+}
+
+TEST_F(OAuth, ADescriptionOfAnotherServerIsRefused) {
+    m_login.setIssuer("https://login.example.org");
+    EXPECT_EQ(reasonOf([this] { logIn(); }),
+              english(because::issuerIsAnother("https://login.example.org")));
+    EXPECT_TRUE(m_page.empty());
+}
+
+// Any page or program on this computer can send a redirect, but does not know the state.
+TEST_F(OAuth, AWrongStateIsRefusedAndTheRightOneStillAwaited) {
+    std::vector<std::string> wrong;
+    std::string right;
+    const auto browser = [&](const std::string &page) {
+        m_login.expect(page);
+        m_shown = std::async(std::launch::async, [&, page] {
+            Fields fields = fieldsOf(page.substr(page.find('?') + 1));
+            const std::string at = fields["redirect_uri"], state = fields["state"];
+            // Browsers open connections in advance.
+            const int idle =
+                connectTo(std::stoi(at.substr(std::string("http://127.0.0.1:").size())));
+            for (const char *const query : {"?code=stolen&state=guessed", "?code=stolen",
+                                            "favicon.ico", "?error=access_denied&state=guessed"})
+                wrong.push_back(visit(at + query));
+            wrong.push_back(visit(at + "?code=stolen&state=" + state + "x"));
+            right = visit(at + "?code=the-code&state=" + state);
+            ::close(idle);
+            return std::string();
+        });
+    };
+    m_server.login->logIn(browser);
+    m_shown.get();
+    ASSERT_EQ(wrong.size(), 5U);
+    for (const std::string &shown : wrong) {
+        EXPECT_TRUE(shown.starts_with("HTTP/1.1 400")) << shown;
+        EXPECT_NE(shown.find("The login failed"), std::string::npos) << shown;
+    }
+    EXPECT_NE(right.find("logged in"), std::string::npos) << right;
+    const auto requests = m_login.tokenRequests();
+    ASSERT_EQ(requests.size(), 1U); // no stolen code was redeemed
+    EXPECT_EQ(requests[0].at("code"), "the-code");
+}
+
+TEST_F(OAuth, ADeniedLoginIsReported) {
+    const auto browser = [&](const std::string &page) {
+        Fields fields = fieldsOf(page.substr(page.find('?') + 1));
+        m_shown = std::async(std::launch::async, [fields] {
+            return visit(fields.at("redirect_uri") +
+                         "?error=access_denied&state=" + fields.at("state"));
+        });
+    };
+    EXPECT_EQ(reasonOf([&] { m_server.login->logIn(browser); }), english(because::loginIsDenied));
+    EXPECT_NE(m_shown.get().find("The login failed"), std::string::npos);
+    EXPECT_FALSE(m_server.login->isLoggedIn());
+    EXPECT_TRUE(m_login.tokenRequests().empty());
+}
+
+TEST_F(OAuth, ATokenThatIsAboutToExpireIsRenewedBeforeItIsUsed) {
+    m_login.setLifetime(0); // unknown: used until it is refused
+    logIn();
+    EXPECT_TRUE(m_server.login->hasToken());
+    m_login.setLifetime(1);
+    logIn();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    while (m_server.login->hasToken() && std::chrono::steady_clock::now() < end)
+        std::this_thread::yield();
+    EXPECT_FALSE(m_server.login->hasToken());
+    EXPECT_EQ(archive::search({m_server}, {}).entries.size(), 1U);
+    EXPECT_EQ(m_web.refusals(), 0);
+    EXPECT_EQ(m_login.tokenRequests().back().at("grant_type"), "refresh_token");
+    EXPECT_EQ(m_kept.back(), m_login.refreshToken());
+}
+
+TEST_F(OAuth, ATokenThatExpiresIsRenewedInTheMiddleAndNothingIsLost) {
+    logIn();
+    m_web.expireEvery(7);
+    const archive::RetrievalReport report = get(m_server, study);
+    EXPECT_TRUE(report.isComplete()) << report.lacking.front().reason.english();
+    EXPECT_EQ(report.state.received, std::size_t(objects));
+    EXPECT_EQ(report.unwanted, 0U);
+    EXPECT_EQ(m_web.sent().size(), std::size_t(objects)); // none was asked for twice
+    EXPECT_EQ(filesIn(m_folder / "got").size(), std::size_t(objects));
+    EXPECT_GT(m_web.refusals(), 0);
+    // Connections share a token: one that is renewed is not renewed by the others, too.
+    EXPECT_LE(m_tokens.issued(), 1 + objects / 7);
+    EXPECT_GE(m_tokens.issued(), 2);
+    // A search and a sending meet an expired token as well.
+    m_tokens.expire();
+    EXPECT_EQ(archive::search({m_server}, {}).entries.size(), 1U);
+    m_web.expireEvery(3);
+    const auto sending = archive::send(m_server, filesIn(m_folder / "got"));
+    EXPECT_TRUE(sending.notSent.empty()) << sending.notSent.front().reason.english();
+    EXPECT_EQ(sending.state.sent, std::size_t(objects));
+    EXPECT_EQ(m_web.stored().size(), std::size_t(objects));
+}
+
+// A program that starts has only the refresh token of the keychain.
+TEST_F(OAuth, AKeptRefreshTokenIsEnough) {
+    logIn();
+    m_tokens.expire();
+    m_server.login = std::make_shared<archive::Login>(m_server, m_kept.back());
+    EXPECT_TRUE(m_server.login->isLoggedIn());
+    EXPECT_FALSE(m_server.login->hasToken());
+    EXPECT_EQ(archive::search({m_server}, {}).entries.size(), 1U);
+    EXPECT_EQ(m_web.refusals(), 0);
+}
+
+TEST_F(OAuth, ARefusedRefreshTokenMeansANewLoginAndWhatHasArrivedStays) {
+    logIn();
+    m_shown.get();
+    m_server.connections = 2;
+    m_web.expireEvery(10);
+    m_login.refuseToRenew();
+    EXPECT_EQ(reasonOf([this] { get(m_server, study); }), english(because::loginHasExpired));
+    EXPECT_FALSE(m_server.login->isLoggedIn());
+    EXPECT_EQ(m_kept.back(), ""); // the keychain forgets it
+    const std::size_t arrived = filesIn(m_folder / "got").size();
+    EXPECT_GE(arrived, 10U);
+    EXPECT_LT(arrived, std::size_t(objects));
+    const auto found = archive::search({m_server}, {});
+    ASSERT_TRUE(found.outcomes.at(0).failure.has_value());
+    EXPECT_TRUE(found.outcomes[0].failure->is(because::loginHasExpired));
+    EXPECT_EQ(found.outcomes[0].code, task::ErrorCode::unusable);
+    EXPECT_EQ(reasonOf([this] { archive::send(m_server, filesIn(m_folder / "got")); }),
+              english(because::loginHasExpired));
+    // After a new login, only the rest comes.
+    m_web.expireEvery(0);
+    logIn();
+    const archive::RetrievalReport rest = get(m_server, study);
+    EXPECT_TRUE(rest.isComplete());
+    EXPECT_EQ(rest.state.present, arrived);
+}
+
+// A server that accepts no token at all is not asked forever.
+TEST_F(OAuth, ATokenThatIsRefusedTwiceIsRefused) {
+    logIn();
+    m_tokens.expire();
+    m_login.lie({200, "application/json",
+                 R"({"access_token": "access-token-that-is-useless", "token_type": "Bearer",
+                     "refresh_token": "refresh-token-1"})",
+                 ""});
+    const auto found = archive::search({m_server}, {});
+    ASSERT_TRUE(found.outcomes.at(0).failure.has_value());
+    EXPECT_TRUE(found.outcomes[0].failure->is(because::serverDoesNotAcceptTheLogin));
+    EXPECT_EQ(m_web.refusals(), 2);
+}
+
+TEST_F(OAuth, TokensGoToTheirOwnHostOnly) {
+    HttpServer stranger([](const HttpRequest &) { return HttpAnswer{}; });
+    logIn();
+    m_shown.get();
+    m_web.moveTo(stranger.url());
+    const auto found = archive::search({m_server}, {});
+    ASSERT_TRUE(found.outcomes.at(0).failure.has_value());
+    EXPECT_TRUE(found.outcomes[0].failure->is(because::serverPointsElsewhere))
+        << found.outcomes[0].failure->english();
+    // Nor does the code or a refresh token.
+    m_login.lie({307, "text/plain", "", stranger.url() + "/token/"});
+    EXPECT_EQ(reasonOf([this] { logIn(); }), english(because::serverPointsElsewhere));
+    EXPECT_NE(m_shown.get().find("The login failed"), std::string::npos);
+    EXPECT_EQ(reasonOf([this] { m_server.login->token({}, m_server.login->token()); }),
+              english(because::serverPointsElsewhere));
+    EXPECT_EQ(stranger.requestCount(), 0U);
+}
+
+TEST_F(OAuth, AnswersThatAreNoTokensAreRefused) {
+    const auto token = [](const std::string &access, const std::string &rest) {
+        return HttpAnswer{200, "application/json",
+                          R"({"access_token": ")" + access + "\"" + rest + "}", ""};
+    };
+    const std::string bearer = R"(, "token_type": "Bearer")";
+    const std::string noToken = english(because::loginAnswerHasNoToken);
+    const std::vector<std::pair<HttpAnswer, std::string>> lies{
+        {{200, "text/html", "<html>access-token-1</html>", ""}, noToken},
+        {token("access-token-1", ""), noToken},
+        {token("access-token-1\\r\\nX: y", bearer), noToken},
+        {token("access-token-1" + std::string(20'000, 'a'), bearer), noToken},
+        {token("access-token-1", bearer + R"(, "refresh_token": "refresh-token 1")"), noToken},
+        {token("access-token-1" + std::string(1'000'000, 'a'), bearer),
+         english(because::serverAnswerIsTooLong)},
+        {{400, "application/json", R"({"error": "invalid_client"})", ""},
+         english(because::loginIsRefused("invalid_client"))},
+        {{400, "application/json", R"({"error": "access-token-1"})", ""},
+         english(because::loginIsRefused("unknown error"))},
+        {{404, "text/html", "access-token-1", ""}, english(because::serverAnswersHttp(404))},
+    };
+    for (const auto &[lie, reason] : lies) {
+        m_login.lie(lie);
+        EXPECT_EQ(reasonOf([this] { logIn(); }), reason);
+        EXPECT_NE(m_shown.get().find("The login failed"), std::string::npos);
+        EXPECT_FALSE(m_server.login->isLoggedIn());
+    }
+    EXPECT_TRUE(m_kept.empty());
+    // A login server that is out of order is not a refusal.
+    m_login.lie({503, "text/plain", "", ""});
+    try {
+        logIn();
+        ADD_FAILURE() << "a login without a token";
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.code(), task::ErrorCode::unreachable);
+        EXPECT_TRUE(error.reason().is(because::serverIsBusy));
+    }
+}
+
+TEST_F(OAuth, ALoginCanBeCancelledAndHasALimitOfTime) {
+    std::string redirectUrl;
+    std::stop_source stop;
+    const auto cancel = [&](const std::string &page) {
+        redirectUrl = fieldsOf(page.substr(page.find('?') + 1))["redirect_uri"];
+        stop.request_stop(); // the user closes the dialog
+    };
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_THROW(m_server.login->logIn(cancel, task::Progress(stop.get_token())), task::Cancelled);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+    EXPECT_EQ(visit(redirectUrl), "no connection");
+    // A user who does nothing.
+    EXPECT_EQ(reasonOf([&] { m_server.login->logIn([](const std::string &) {}, {}, {}, 1.0); }),
+              english(because::loginTookTooLong(1)));
+    EXPECT_FALSE(m_server.login->isLoggedIn());
+}
+
+// The command line prints the address, and waits.
+TEST_F(OAuth, TheCommandLineLogsIn) {
+    const char *const cli = std::getenv("PELLUCID_CLI");
+    if (cli == nullptr)
+        GTEST_SKIP() << "PELLUCID_CLI is not set";
+    const std::string command = "XDG_DATA_HOME='" + m_folder.path().string() + "' '" + cli + "' ";
+    struct Result {
+        int exitCode = -1;
+        std::string output;
+    };
+    const auto runWithBrowser = [&](const std::string &arguments) {
+        FILE *const pipe = ::popen((command + arguments + " 2>&1 </dev/null").c_str(), "r");
+        Result result;
+        std::array<char, 4096> line{};
+        while (std::fgets(line.data(), int(line.size()), pipe) != nullptr) {
+            std::string text = line.data();
+            result.output += text;
+            if (!text.starts_with("http"))
+                continue;
+            text.pop_back();
+            user()(text);
+        }
+        const int status = ::pclose(pipe);
+        result.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return result;
+    };
+    const std::string add = "server add web --web " + m_web.url() + " --login oauth --client-id ";
+    EXPECT_EQ(runWithBrowser(add + "pellucid").exitCode, 2);
+    EXPECT_EQ(runWithBrowser(add + "pellucid --issuer http://login.example.org").exitCode, 2);
+    EXPECT_EQ(runWithBrowser(add + "'' --issuer " + m_login.url()).exitCode, 2);
+    const Result added = runWithBrowser(add + "pellucid --issuer " + m_login.url());
+    EXPECT_EQ(added.exitCode, 0) << added.output;
+    const Result found = runWithBrowser("find web");
+    EXPECT_EQ(found.exitCode, 0) << found.output;
+    EXPECT_NE(found.output.find(study), std::string::npos) << found.output;
+    EXPECT_EQ(runWithBrowser("echo web").exitCode, 0);
+    expectNoSecret(found.output);
+    for (const fs::path &file : filesIn(m_folder.path()))
+        expectNoSecret(readText(file));
+    // One reason and exit code 3.
+    m_login.lie({400, "application/json", R"({"error": "invalid_client"})", ""});
+    const Result refused = runWithBrowser("find web");
+    EXPECT_EQ(refused.exitCode, 3);
+    EXPECT_NE(refused.output.find("pellucid-cli: web: " +
+                                  english(because::loginIsRefused("invalid_client"))),
+              std::string::npos)
+        << refused.output;
+}
+
+} // namespace pellucid
