@@ -17,7 +17,8 @@ using namespace test;
 TEST_F(Cli, UsageErrorsNameTheOption) {
     const std::string out = " -o " + (folder / "o.png").string();
     expectOneLine(cli(""), 2, "subcommand");
-    expectOneLine(cli("render"), 2, "PATH");
+    expectOneLine(cli("render"), 2, "--output");
+    expectOneLine(cli("render -o x.png"), 2, "PATH");
     for (const char *bad : {"Bone=1", "bone", "bone=x", "bone=3", "bone=1:red", "bone=1:#12345"})
         expectOneLine(cli("render /tmp" + out + " --class " + bad), 2, "");
     for (const char *bad : {"1", "1,x", "1,3", "1,1,", "1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1"})

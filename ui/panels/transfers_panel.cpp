@@ -89,7 +89,7 @@ void TransfersPanel::showReceiver() {
     if (m_receiver.failure())
         m_receiving->setText(QString::fromUtf8("\u26A0 ") +
                              tr("Nothing is received: %1").arg(translated(*m_receiver.failure())));
-    else
+    else if (m_receiver.isListening())
         m_receiving->setText(tr("%1 receives on port %2; %n objects have arrived", "",
                                 int(m_receiver.receivedCount()))
                                  .arg(now.ae)
