@@ -33,6 +33,10 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t encodingsAtOnce = 120;
 constexpr int maxFailures = 3;
 
+// The meta header of a DICOMDIR (PS3.4, I.4).
+constexpr std::uint32_t mediaSopClass = 0x00020002;
+constexpr const char *directoryClass = "1.2.840.10008.1.3.10";
+
 struct Outgoing {
     fs::path path;
     Encoding encoding;
@@ -48,13 +52,20 @@ std::vector<Outgoing> describe(const std::vector<fs::path> &files, const std::se
         try {
             const auto list = decoder::Decoder::shared().attributes(path, progress);
             Encoding encoding;
+            bool isDirectory = false;
             for (const decoder::Attribute &attribute : list.attributes) {
                 if (attribute.depth != 0)
                     continue;
                 if (attribute.tag == 0x00020010)
                     encoding.transferSyntax = attribute.value.substr(0, attribute.value.find(' '));
+                isDirectory = isDirectory || (attribute.tag == mediaSopClass &&
+                                              attribute.value.starts_with(directoryClass));
                 if (attribute.tag == exchange::tag::sopClassUid)
                     encoding.sopClassUid = attribute.value.substr(0, attribute.value.find(' '));
+            }
+            if (isDirectory) { // of a folder whose files are sent
+                report.leftOut.push_back({path, because::hasNoValidUids});
+                continue;
             }
             if (!exchange::isUid(encoding.sopClassUid) || !exchange::isUid(encoding.transferSyntax))
                 throw Error(ErrorCode::unusable, because::hasNoValidUids, path);

@@ -111,6 +111,24 @@ TEST_F(Pacs, CompressedObjectsStayCompressed) {
     }
 }
 
+// A folder as on a disc: its texts and its DICOMDIR are no objects, and are not missed.
+TEST_F(Pacs, WhatIsNoObjectIsLeftOut) {
+    test::Dcmqrscp dcmqrscp;
+    const archive::Server server = serverAt(dcmqrscp.port(), "COMMON");
+    const fs::path disc = series("D", 3);
+    for (const fs::path &file : filesIn(disc)) // discs have short names
+        fs::rename(file, disc / file.stem());
+    ASSERT_EQ(std::system(("cd '" + disc.string() + "' && dcmmkdir IM0001 IM0002 IM0003").c_str()),
+              0);
+    std::ofstream(disc / "README.TXT") << "Open with a viewer.";
+    const auto report = archive::send(server, {disc});
+    EXPECT_EQ(report.state.sent, 3U);
+    EXPECT_TRUE(report.notSent.empty());
+    EXPECT_EQ(report.leftOut.size(), 2U);
+    // A file that the user names is missed.
+    EXPECT_EQ(archive::send(server, {disc / "README.TXT"}).notSent.size(), 1U);
+}
+
 // A server that accepts only plain pixels gets them if the user allows it; the values stay.
 TEST_F(Pacs, RefusedEncodingsAreUncompressedIfAllowed) {
     test::Dcmqrscp dcmqrscp; // without an option, it accepts plain pixels

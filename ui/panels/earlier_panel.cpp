@@ -30,7 +30,10 @@ QString identityText(const StudyFacts &study) {
 QString placeText(const EarlierStudy &one) {
     if (one.isHere())
         return EarlierPanel::tr("here");
-    const QString server = one.servers.join(", ");
+    // The others are in the tooltip: the date needs the room.
+    const QString server = one.servers.size() > 1
+                               ? QString("%1 +%2").arg(one.servers[0]).arg(one.servers.size() - 1)
+                               : one.servers.value(0);
     return one.instances > 0 ? EarlierPanel::tr("%1, %n images", "", one.instances).arg(server)
                              : server;
 }
@@ -129,15 +132,15 @@ void EarlierPanel::list() {
         item->setData(0, uidRole, one.study.uid);
         if (!current.isEmpty() && one.study.uid == current)
             m_tree->setCurrentItem(item);
-        const QString tip =
-            plainToolTip(tr("Click to open it beside") + "\n" + identityText(one.study));
+        const QString tip = plainToolTip(tr("Click to open it beside") + "\n" +
+                                         identityText(one.study) + "\n" + one.servers.join(", "));
         item->setToolTip(0, tip);
         item->setToolTip(1, tip);
     }
     QStringList texts;
     if (m_studies.isSearching())
         texts << tr("Searching...");
-    else if (m_studies.studies().empty())
+    else if (m_studies.studies().empty() && m_studies.hasOpenStudy())
         texts << tr("No other study of this patient is known.");
     for (const auto &[server, reason] : m_studies.failures())
         texts << QString::fromUtf8("\u26A0 %1: %2").arg(server, translated(reason));

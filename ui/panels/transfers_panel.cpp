@@ -128,7 +128,8 @@ void TransfersPanel::list() {
             state = tr("cancelled");
             break;
         }
-        item->setText(0, QString::fromStdString(transfer.title) + ", " +
+        const QString title = QString::fromStdString(transfer.title);
+        item->setText(0, (title.isEmpty() ? title : title + ", ") +
                              QString::fromStdString(transfer.server));
         item->setText(1, state);
         item->setData(0, idRole, qint64(transfer.id));

@@ -44,6 +44,7 @@ public:
     const std::vector<EarlierStudy> &studies() const { return m_studies; }
     /// Servers that could not be asked, with the reasons.
     const std::map<QString, task::Reason> &failures() const { return m_failures; }
+    bool hasOpenStudy() const { return m_open.has_value(); }
     bool isSearching() const { return m_jobs.isRunning(); }
 
 signals:

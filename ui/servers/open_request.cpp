@@ -36,7 +36,8 @@ OpenRequest openRequestOf(const QString &link) {
     }
     if (!isUnderstood || request.server.isEmpty() ||
         !exchange::isUid(request.studyUid.toStdString()))
-        throw task::Error(task::ErrorCode::usage, task::because::isNoLink);
+        throw task::Error(task::ErrorCode::usage, task::because::isNoLink,
+                          link.left(80).toStdString());
     return request;
 }
 
