@@ -31,6 +31,24 @@ bool haveSameBytes(const fs::path &a, const fs::path &b) {
                       std::istreambuf_iterator<char>(other), {});
 }
 
+bool isWhole(const decoder::AttributeList &list) {
+    return list.isComplete || list.attributes.size() >= decoder::maxAttributes;
+}
+
+// Whether a file that is there can be read to its end: a power cut may have left less of it.
+bool isIntact(const fs::path &path) {
+    std::error_code unknown;
+    if (!fs::is_regular_file(path, unknown))
+        return false;
+    try {
+        return isWhole(decoder::Decoder::shared().attributes(path));
+    } catch (const Error &error) {
+        if (error.code() != ErrorCode::unusable)
+            throw;
+        return false;
+    }
+}
+
 } // namespace
 
 ObjectFolder::ObjectFolder(fs::path folder, Keeps keeps)
@@ -43,8 +61,7 @@ fs::path ObjectFolder::pathOf(const std::string &studyUid, const std::string &se
 
 bool ObjectFolder::has(const std::string &studyUid, const std::string &seriesUid,
                        const std::string &sopInstanceUid) const {
-    std::error_code unknown;
-    return fs::is_regular_file(pathOf(studyUid, seriesUid, sopInstanceUid), unknown);
+    return isIntact(pathOf(studyUid, seriesUid, sopInstanceUid));
 }
 
 std::unique_ptr<files::AtomicFile> ObjectFolder::open(const exchange::Arrival &arrival) const {
@@ -63,7 +80,7 @@ StoredObject ObjectFolder::keep(files::AtomicFile &file, const exchange::Arrival
     } catch (const Error &error) {
         throw Error(error.code(), error.reason());
     }
-    if (!list.isComplete && list.attributes.size() < decoder::maxAttributes)
+    if (!isWhole(list))
         throw Error(ErrorCode::unusable, because::isTruncated);
     StoredObject object{{},
                         valueOf(list, tag::studyUid),
@@ -81,7 +98,7 @@ StoredObject ObjectFolder::keep(files::AtomicFile &file, const exchange::Arrival
         throw Error(ErrorCode::unusable, because::isNotWhatWasAnnounced);
     object.path = pathOf(object.studyUid, object.seriesUid, object.sopInstanceUid);
     std::error_code failed;
-    if (fs::exists(object.path, failed)) {
+    if (isIntact(object.path)) { // what is damaged is replaced
         if (!haveSameBytes(unnamed, object.path))
             throw Error(ErrorCode::unusable, because::anotherObjectHasItsUid);
         return object;

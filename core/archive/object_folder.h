@@ -40,6 +40,7 @@ public:
     const std::filesystem::path &folder() const { return m_folder; }
     std::filesystem::path pathOf(const std::string &studyUid, const std::string &seriesUid,
                                  const std::string &sopInstanceUid) const;
+    /// Whether the object is there, and can be read to its end.
     bool has(const std::string &studyUid, const std::string &seriesUid,
              const std::string &sopInstanceUid) const;
 
@@ -48,7 +49,7 @@ public:
         std::string studyUid, seriesUid;
     };
     /// Gives a complete file its name. If the same object is there already, with the same bytes, it
-    /// stays. *Throws* Error{unusable} if it is not the object that was
+    /// stays; a damaged one is replaced. *Throws* Error{unusable} if it is not the object that was
     /// announced, belongs to another place, or would replace another file; Error{output}.
     StoredObject keep(files::AtomicFile &file, const exchange::Arrival &arrival,
                       std::uint64_t bytes, const std::optional<Place> &place = {}) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/archive/object_folder.h"
 
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -70,6 +72,23 @@ TEST(ObjectFolder, WhatIsThereIsNotReplaced) {
     EXPECT_EQ(keep(objects, first).path, kept.path); // the same once more
     EXPECT_TRUE(refusal(objects, second).is(because::anotherObjectHasItsUid));
     EXPECT_EQ(test::readText(kept.path), first);
+}
+
+// A power cut may leave a name without its bytes.
+TEST(ObjectFolder, WhatIsDamagedIsNotThereAndIsReplaced) {
+    const std::string object = objectWith(1);
+    for (const std::string &left :
+         {std::string(), object.substr(0, object.size() / 2), object.substr(0, object.size() - 10),
+          std::string("no DICOM file at all")}) {
+        const test::TemporaryFolder folder;
+        const ObjectFolder objects(folder.path(), ObjectFolder::Keeps::inMemoryOfTheSystem);
+        const StoredObject kept = keep(objects, object);
+        std::ofstream(kept.path, std::ios::trunc | std::ios::binary) << left;
+        EXPECT_FALSE(objects.has(root + "2", root + "3", root + "1.1")) << left.size();
+        keep(objects, object);
+        EXPECT_TRUE(objects.has(root + "2", root + "3", root + "1.1"));
+        EXPECT_EQ(test::readText(kept.path), object);
+    }
 }
 
 } // namespace pellucid::archive
