@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/network/transport.h"
 
+#include <algorithm>
 #include <arpa/inet.h>
+#include <array>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <openssl/err.h>
 #include <openssl/ssl.h>
 #include <openssl/x509_vfy.h>
+#include <string_view>
 #include <sys/socket.h>
 
 #include <dcmtk/config/osconfig.h>
@@ -73,14 +76,14 @@ std::string textOfLastError() {
     return text.c_str();
 }
 
-// Whether a handshake failed because the other side answers with something else, or hangs up.
+// Whether a handshake failed because the other side answers with something else, or hangs up. What
+// it says in TLS is repeated instead.
 bool speaksNoTls(const std::string &text) {
-    for (const char *const sign :
-         {"wrong version number", "packet length too long", "http request", "unexpected eof",
-          "TLS error", "I/O error", "Normal", "unknown error"})
-        if (text.find(sign) != std::string::npos && text.find("protocol") == std::string::npos)
-            return true;
-    return text.empty();
+    const std::array signs{"wrong version number", "packet length too long", "http request",
+                           "unexpected eof", "I/O error"};
+    return text.empty() || std::any_of(signs.begin(), signs.end(), [&](const char *sign) {
+               return text.find(sign) != std::string::npos;
+           });
 }
 
 class SecureConnection : public DcmTLSConnection {
@@ -121,6 +124,8 @@ private:
             std::string text = textOfLastError();
             if (text.empty())
                 text = shaken.text();
+            if (constexpr std::string_view prefix = "TLS error: "; text.starts_with(prefix))
+                text.erase(0, prefix.size());
             m_state->refusal = speaksNoTls(text) ? task::Reason(because::tlsIsNotAnswered)
                                                  : because::tlsFails(text);
         }

@@ -206,6 +206,17 @@ TEST_F(PacsTls, ProtocolsThatAreTooOldAreRefused) {
     EXPECT_GT(applicationBytesIn(proxy.fromProgram()), 0U);
 }
 
+// It does speak TLS, and says what is wrong.
+TEST_F(PacsTls, AServerWithoutACommonCipherIsNamed) {
+    const int port = test::freePort();
+    const test::Server server({"openssl", "s_server", "-tls1_2", "-cipher",
+                               "AES128-SHA:@SECLEVEL=0", "-accept",
+                               "127.0.0.1:" + std::to_string(port), "-cert", at("good.pem"), "-key",
+                               at("good.key"), "-www"},
+                              port);
+    EXPECT_THAT(echo(client(port)), testing::HasSubstr("handshake failure"));
+}
+
 // A server, or somebody before it, that answers with TLS 1.1 although it was offered TLS 1.2 and
 // 1.3.
 TEST_F(PacsTls, ADowngradeIsRefused) {
