@@ -110,7 +110,7 @@ void find(const Options &o, const Context &context) {
         for (const archive::FoundEntry &entry : result.entries)
             std::puts(printable(lineOf(entry, o.terms.level)).c_str());
     }
-    // One answer is enough to print; the exit code still says that some servers failed.
+    // Prints what some servers answered; the exit code reports that others failed.
     const bool haveAllFailed =
         std::all_of(result.outcomes.begin(), result.outcomes.end(),
                     [](const archive::ServerOutcome &one) { return one.failure.has_value(); });

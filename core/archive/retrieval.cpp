@@ -74,8 +74,8 @@ private:
     std::uint64_t m_reported = 0;
 };
 
-// Connections for the common kinds of objects, which are made while the server still lists what it
-// has: the slices at both ends come first, and are shown first.
+// Connects while the server is still listing its objects, because the slices at both ends are shown
+// first. These connections propose the common kinds of objects.
 class EarlyLinks {
 public:
     EarlyLinks(const Server &server, const task::Progress &progress) {
@@ -155,7 +155,7 @@ private:
                 failures = m_work.receivedCount() > before ? 0 : failures + 1;
                 if (failures >= maxFailures) {
                     m_work.failed(*batch, error.reason());
-                    // Another connection may still take it.
+                    // Another connection may succeed.
                     m_work.putBack(std::move(*batch));
                     m_failure = error;
                     return;
@@ -259,7 +259,7 @@ ListenerOptions listenerFor(const Server &server, const std::string &ae, int por
     ListenerOptions options;
     options.port = port;
     options.ae = ae;
-    // What is asked for with TLS does not come without.
+    // A request over TLS accepts its objects over TLS only.
     options.usesTls = server.peer.usesTls;
     if (options.usesTls && server.peer.certificate.empty())
         throw Error(ErrorCode::unusable, because::receivingNeedsACertificate);

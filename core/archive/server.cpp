@@ -26,7 +26,7 @@ int portIn(const std::string &text) {
     return port;
 }
 
-// Nobody else can read what is sent there.
+// Whether no other computer can read what is sent to it.
 bool isPrivate(const exchange::Peer &peer) {
     return peer.usesTls || peer.host == "127.0.0.1" || peer.host == "localhost";
 }

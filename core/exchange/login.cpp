@@ -3,35 +3,14 @@
 
 #include <algorithm>
 #include <arpa/inet.h>
-#include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include "core/exchange/query.h"
 #include "core/task/error.h"
 
 namespace pellucid::exchange {
-
-namespace {
-
-std::string urlEncoded(const std::string &text) {
-    constexpr const char *digits = "0123456789ABCDEF";
-    std::string url;
-    for (const char c : text) {
-        const auto byte = (unsigned char)(c);
-        if (std::isalnum(byte) != 0 || std::strchr("-._~", c) != nullptr) {
-            url += c;
-        } else {
-            url += '%';
-            url += digits[byte >> 4];
-            url += digits[byte & 0xf];
-        }
-    }
-    return url;
-}
-
-} // namespace
 
 LoopbackPort openLoopbackPort() {
     LoopbackPort opened{
@@ -59,7 +38,7 @@ bool isVisible(const std::string &text, std::size_t longest) {
 std::string formEncoded(const std::map<std::string, std::string> &fields) {
     std::string form;
     for (const auto &[name, value] : fields)
-        form += (form.empty() ? "" : "&") + urlEncoded(name) + "=" + urlEncoded(value);
+        form += (form.empty() ? "" : "&") + percentEncoded(name) + "=" + percentEncoded(value);
     return form;
 }
 

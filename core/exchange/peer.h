@@ -45,8 +45,8 @@ const std::vector<std::string> &transferSyntaxes();
 /// The kinds of objects that are asked for if nobody knows what there is, as UIDs.
 const std::vector<std::string> &commonClasses();
 
-/// What a connection is for, since a DICOM association is negotiated for it. `login`: with a login
-/// server, for tokens.
+/// The purpose of a connection, for which a DICOM association is negotiated. `login`: to obtain
+/// tokens from a login server.
 enum class Purpose : std::int32_t { echo, find, get, move, store, login };
 
 struct Connection {

@@ -80,4 +80,7 @@ inline constexpr std::uint16_t success = 0x0000, outOfResources = 0xa700, notWan
 /// A unique identifier: digits and dots, at most 64.
 bool isUid(const std::string &text);
 
+/// Percent-encodes all characters but ASCII letters, digits and these (RFC 3986).
+std::string percentEncoded(const std::string &text, const char *plain = "-._~");
+
 } // namespace pellucid::exchange

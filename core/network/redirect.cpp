@@ -27,7 +27,7 @@ using Kind = Message::Kind;
 
 constexpr std::size_t longestHead = 64 << 10, mostBrowsers = 16;
 
-// Nothing if the text is not encoded correctly.
+// Returns nothing if the encoding is invalid.
 std::optional<std::string> urlDecoded(const std::string &text) {
     std::string decoded;
     for (std::size_t n = 0; n < text.size(); ++n) {
@@ -45,7 +45,7 @@ std::optional<std::string> urlDecoded(const std::string &text) {
     return decoded;
 }
 
-// Nothing if a parameter comes twice (RFC 6749, 3.1).
+// Returns nothing if a parameter is repeated (RFC 6749, 3.1).
 std::optional<std::map<std::string, std::string>> parametersOf(const std::string &query) {
     std::map<std::string, std::string> parameters;
     for (std::size_t at = 0; at < query.size();) {

@@ -33,17 +33,8 @@ std::string tagText(std::uint32_t tag) {
     return fmt::format("{:08X}", tag);
 }
 
-// A value of a URL's query. Unlike libcurl, leaves ^, * and ? as browsers do: Orthanc 1.10 does not
-// decode %5E.
-std::string escaped(const std::string &text) {
-    std::string url;
-    for (const char c : text) {
-        const bool isPlain =
-            std::isalnum((unsigned char)(c)) != 0 || std::strchr("-_.~^*?:,", c) != nullptr;
-        url += isPlain ? std::string(1, c) : fmt::format("%{:02X}", (unsigned char)(c));
-    }
-    return url;
-}
+// Plain in a value of a URL's query, unlike in libcurl: Orthanc 1.10 does not decode %5E.
+constexpr const char *plainInQueries = "-_.~^*?:,";
 
 // The reason of an answer with a status beyond 299.
 task::Reason httpReason(long status) {
@@ -157,7 +148,7 @@ exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &contro
             terms += "&includefield=" + tagText(tag);
             continue;
         }
-        terms += "&" + tagText(tag) + "=" + escaped(value);
+        terms += "&" + tagText(tag) + "=" + exchange::percentEncoded(value, plainInQueries);
     }
     const std::uint32_t uidTag = query.level == Level::study    ? exchange::tag::studyUid
                                  : query.level == Level::series ? exchange::tag::seriesUid

@@ -51,6 +51,7 @@ EarlierPanel::EarlierPanel(EarlierStudies &studies, QWidget *parent)
     m_tree->setIndentation(0);
     m_tree->setRootIsDecorated(false);
     m_tree->setColumnCount(2);
+    m_tree->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     m_tree->header()->setStretchLastSection(false);
     m_tree->header()->setSectionResizeMode(0, QHeaderView::Stretch);
     m_tree->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
@@ -142,8 +143,15 @@ void EarlierPanel::list() {
         texts << tr("Searching...");
     else if (m_studies.studies().empty() && m_studies.hasOpenStudy())
         texts << tr("No other study of this patient is known.");
-    for (const auto &[server, reason] : m_studies.failures())
-        texts << QString::fromUtf8("\u26A0 %1: %2").arg(server, translated(reason));
+    // As above the studies: the names here, the reasons in the tooltip.
+    QStringList silent, reasons;
+    for (const auto &[server, reason] : m_studies.failures()) {
+        silent << server;
+        reasons << server + ": " + translated(reason);
+    }
+    if (!silent.isEmpty())
+        texts << QString::fromUtf8("\u26A0 ") + silent.join(", ");
+    m_state->setToolTip(plainToolTip(reasons.join("\n")));
     m_state->setText(texts.join("\n"));
     m_state->setVisible(!texts.isEmpty());
     m_tree->setVisible(m_tree->topLevelItemCount() > 0);

@@ -182,7 +182,7 @@ void StudyReceiver::countArrival() {
 
 archive::MoveDestination StudyReceiver::destinationFor(const archive::Server &server) const {
     archive::MoveDestination destination;
-    // What is asked for with TLS does not come without.
+    // A request over TLS accepts its objects over TLS only.
     if (isListening() && m_settings.usesTls == server.peer.usesTls) {
         destination.ae = m_listener->options.ae;
         destination.port = m_settings.port;
