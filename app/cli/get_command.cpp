@@ -184,7 +184,7 @@ void addGetCommand(CLI::App &app, const Context &context) {
     cancel->callback([t] {
         TransferLog log(TransferLog::fileOfUser());
         if (known(log, t->id).state <= TransferState::running)
-            log.setState(t->id, TransferState::cancelled);
+            log.cancel(t->id);
     });
 }
 

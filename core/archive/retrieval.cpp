@@ -301,6 +301,8 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     early.reset();
     const bool hasMoved = server.retrieve == RetrieveMethod::move || work.needsMove();
     if (hasMoved) {
+        if (destination.isTakenByOtherTls)
+            throw Error(ErrorCode::unusable, because::receiverDiffersInTls(destination.port));
         work.useMove();
         const std::string ae = destination.ae.empty() ? server.peer.callingAe : destination.ae;
         std::optional<Listener> listener;

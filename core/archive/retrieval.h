@@ -46,6 +46,8 @@ struct MoveDestination {
     int port = defaultListenerPort;
     /// A listener of this program has the port, and stores what comes in the same folder.
     bool hasListener = false;
+    /// A listener of this program has the port, but with TLS where the server has none, or without.
+    bool isTakenByOtherTls = false;
 };
 
 /// Retrieves what lacks in a folder of a study: compressed objects stay compressed, series come

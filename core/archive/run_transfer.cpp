@@ -13,7 +13,7 @@ namespace {
 namespace because = task::because;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds recordedEvery(500);
+constexpr std::chrono::milliseconds recordedEvery(250);
 
 } // namespace
 

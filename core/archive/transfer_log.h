@@ -28,10 +28,11 @@ struct Transfer {
     std::filesystem::path folder;
     TransferState state = TransferState::waiting;
     std::size_t total = 0, received = 0;
-    std::uint64_t bytes = 0;
-    double seconds = 0.0;
-    std::string reason;  ///< encoded task::Reason; empty if none
-    std::string created; ///< UTC, as of ISO 8601
+    std::uint64_t bytes = 0; ///< over all its runs
+    double seconds = 0.0;    ///< of the runs that brought any
+    std::string reason;      ///< encoded task::Reason; empty if none
+    bool isForLater = false; ///< nobody waits for it
+    std::string created;     ///< UTC, as of ISO 8601
 };
 
 /// The queue of retrievals and the objects that this program's server received: SQLite, written
@@ -46,8 +47,10 @@ public:
     TransferLog(const TransferLog &) = delete;
     TransferLog &operator=(const TransferLog &) = delete;
 
-    /// Adds a retrieval that waits, or finds the one that is the same and does it again.
+    /// Adds a retrieval that waits, or finds the one that is the same and does it again. What
+    /// somebody waits for is not put off.
     std::int64_t add(const Transfer &transfer);
+    /// One whose program has ended waits.
     std::vector<Transfer> transfers() const;
     std::optional<Transfer> transfer(std::int64_t id) const;
     /// Takes a waiting transfer, or one whose program has ended. False if another program has it.
@@ -58,7 +61,9 @@ public:
     void update(std::int64_t id, const RetrievalState &state, double seconds);
     void finish(std::int64_t id, TransferState state, const RetrievalState &reached, double seconds,
                 const std::string &reason);
-    void setState(std::int64_t id, TransferState state);
+    void cancel(std::int64_t id);
+    /// It waits again, and now somebody waits for it.
+    void retry(std::int64_t id);
     /// Removes what is neither waiting nor running.
     void clearFinished();
 
@@ -69,12 +74,19 @@ public:
     void removeArrivals(const std::vector<StoredObject> &objects);
 
 private:
+    void addColumnOfOlderFiles();
     struct Close {
         void operator()(sqlite3 *database) const;
     };
     std::unique_ptr<sqlite3, Close> m_database;
     std::filesystem::path m_file;
-    std::map<std::int64_t, std::int64_t> m_runs; ///< of claimed transfers
+    /// A claimed transfer.
+    struct Run {
+        std::int64_t number = 0;
+        std::uint64_t bytesBefore = 0;
+        double secondsBefore = 0.0;
+    };
+    std::map<std::int64_t, Run> m_runs;
 };
 
 } // namespace pellucid::archive

@@ -90,7 +90,7 @@ std::vector<std::string> split(const std::string &text) {
 }
 
 constexpr const char *columns = "id, server, study, series, title, folder, state, total, received, "
-                                "bytes, seconds, reason, created";
+                                "bytes, seconds, reason, created, later, process";
 
 Transfer transferOf(const Statement &row) {
     Transfer transfer;
@@ -106,6 +106,9 @@ Transfer transferOf(const Statement &row) {
     transfer.seconds = row.real(10);
     transfer.reason = row.text(11);
     transfer.created = row.text(12);
+    transfer.isForLater = row.number(13) != 0;
+    if (transfer.state == TransferState::running && !isRunning(row.text(14)))
+        transfer.state = TransferState::waiting;
     return transfer;
 }
 
@@ -159,25 +162,48 @@ TransferLog::TransferLog(const fs::path &file) : m_file(file) {
           "series TEXT, title TEXT, folder TEXT, state INTEGER, total INTEGER DEFAULT 0, received "
           "INTEGER DEFAULT 0, bytes INTEGER DEFAULT 0, seconds REAL DEFAULT 0, reason TEXT DEFAULT "
           "'', created TEXT DEFAULT (strftime('%Y-%m-%dT%H:%M:%SZ', 'now')), process TEXT "
-          "DEFAULT '', run INTEGER DEFAULT 0, UNIQUE (server, study, series, folder))",
+          "DEFAULT '', run INTEGER DEFAULT 0, later INTEGER DEFAULT 0, UNIQUE (server, study, "
+          "series, "
+          "folder))",
           "CREATE TABLE IF NOT EXISTS arrivals (path TEXT PRIMARY KEY, study TEXT, series TEXT, "
           "instance TEXT, class TEXT, bytes INTEGER, sender TEXT)"})
         Statement(database, m_file, sql).run();
+    addColumnOfOlderFiles();
+}
+
+// An earlier version of the program may have made the file. Two programs may start at the same
+// time.
+void TransferLog::addColumnOfOlderFiles() {
+    const auto hasIt = [this] {
+        return Statement(m_database.get(), m_file,
+                         "SELECT 1 FROM pragma_table_info('transfers') WHERE name = 'later'")
+            .next();
+    };
+    if (hasIt())
+        return;
+    Statement(m_database.get(), m_file, "BEGIN IMMEDIATE").run();
+    if (!hasIt())
+        Statement(m_database.get(), m_file,
+                  "ALTER TABLE transfers ADD COLUMN later INTEGER DEFAULT 0")
+            .run();
+    Statement(m_database.get(), m_file, "COMMIT").run();
 }
 
 TransferLog::~TransferLog() = default;
 
 std::int64_t TransferLog::add(const Transfer &transfer) {
     Statement insert(m_database.get(), m_file,
-                     "INSERT INTO transfers (server, study, series, title, folder, state) VALUES "
-                     "(?, ?, ?, ?, ?, 0) ON CONFLICT (server, study, series, folder) DO UPDATE SET "
-                     "state = CASE WHEN state = 1 THEN 1 ELSE 0 END, title = excluded.title "
-                     "RETURNING id");
+                     "INSERT INTO transfers (server, study, series, title, folder, later, state) "
+                     "VALUES (?, ?, ?, ?, ?, ?, 0) ON CONFLICT (server, study, series, folder) DO "
+                     "UPDATE SET later = CASE WHEN state <= 1 THEN MIN(later, excluded.later) ELSE "
+                     "excluded.later END, state = CASE WHEN state = 1 THEN 1 ELSE 0 END, title = "
+                     "excluded.title RETURNING id");
     insert.bind(transfer.server)
         .bind(transfer.wanted.studyUid)
         .bind(joined(transfer.wanted.seriesUids))
         .bind(transfer.title)
-        .bind(transfer.folder.string());
+        .bind(transfer.folder.string())
+        .bind(std::int64_t(transfer.isForLater));
     std::int64_t id = 0;
     while (insert.next())
         id = insert.number(0);
@@ -204,27 +230,28 @@ std::optional<Transfer> TransferLog::transfer(std::int64_t id) const {
 
 bool TransferLog::claim(std::int64_t id) {
     Statement(m_database.get(), m_file, "BEGIN IMMEDIATE").run();
-    std::int64_t state = -1, run = 0;
+    std::int64_t state = -1;
+    Run run;
     std::string process;
     {
         Statement select(m_database.get(), m_file,
-                         "SELECT state, process, run FROM transfers WHERE id = ?");
+                         "SELECT state, process, run, bytes, seconds FROM transfers WHERE id = ?");
         select.bind(id);
         if (select.next()) {
             state = select.number(0);
             process = select.text(1);
-            run = select.number(2);
+            run = {select.number(2) + 1, std::uint64_t(select.number(3)), select.real(4)};
         }
     }
     const std::string own = identityOf(::getpid());
     const bool isFree = state >= 0 && (TransferState(state) != TransferState::running ||
                                        process == own || !isRunning(process));
     if (isFree) {
-        m_runs[id] = run + 1;
+        m_runs[id] = run;
         Statement update(m_database.get(), m_file,
                          "UPDATE transfers SET state = 1, process = ?, run = ?, reason = '' WHERE "
                          "id = ?");
-        update.bind(own).bind(run + 1).bind(id);
+        update.bind(own).bind(run.number).bind(id);
         update.run();
     }
     Statement(m_database.get(), m_file, "COMMIT").run();
@@ -236,19 +263,20 @@ bool TransferLog::hasClaim(std::int64_t id) const {
     select.bind(id);
     const auto run = m_runs.find(id);
     return select.next() && TransferState(select.number(0)) == TransferState::running &&
-           run != m_runs.end() && select.number(1) == run->second;
+           run != m_runs.end() && select.number(1) == run->second.number;
 }
 
 void TransferLog::update(std::int64_t id, const RetrievalState &state, double seconds) {
+    const Run &run = m_runs[id];
     Statement update(m_database.get(), m_file,
                      "UPDATE transfers SET total = ?, received = ?, bytes = ?, seconds = ? "
                      "WHERE id = ? AND run = ?");
     update.bind(std::int64_t(state.wanted))
         .bind(std::int64_t(state.present + state.received))
-        .bind(std::int64_t(state.bytes))
-        .bind(seconds)
+        .bind(std::int64_t(run.bytesBefore + state.bytes))
+        .bind(run.secondsBefore + (state.bytes > 0 ? seconds : 0.0))
         .bind(id)
-        .bind(m_runs[id]);
+        .bind(run.number);
     update.run();
 }
 
@@ -259,13 +287,20 @@ void TransferLog::finish(std::int64_t id, TransferState state, const RetrievalSt
     Statement finish(m_database.get(), m_file,
                      "UPDATE transfers SET state = ?, reason = ?, process = '' WHERE id = ? "
                      "AND run = ?");
-    finish.bind(std::int64_t(state)).bind(reason).bind(id).bind(m_runs[id]);
+    finish.bind(std::int64_t(state)).bind(reason).bind(id).bind(m_runs[id].number);
     finish.run();
 }
 
-void TransferLog::setState(std::int64_t id, TransferState state) {
-    Statement update(m_database.get(), m_file, "UPDATE transfers SET state = ? WHERE id = ?");
-    update.bind(std::int64_t(state)).bind(id);
+void TransferLog::cancel(std::int64_t id) {
+    Statement update(m_database.get(), m_file, "UPDATE transfers SET state = 4 WHERE id = ?");
+    update.bind(id);
+    update.run();
+}
+
+void TransferLog::retry(std::int64_t id) {
+    Statement update(m_database.get(), m_file,
+                     "UPDATE transfers SET state = 0, later = 0 WHERE id = ?");
+    update.bind(id);
     update.run();
 }
 

@@ -60,13 +60,19 @@ bool sortsAlongALine(std::vector<Slice> &slices) {
     return true;
 }
 
-// The samples of `count` slices at even depths, interpolated between those that are there; nothing
-// if a value does not fit T.
+// Even depths, in mm from the first slice that is there.
+struct Depths {
+    std::size_t count = 0;
+    double firstMm = 0.0, stepMm = 0.0;
+};
+
+// The samples of slices at these depths, interpolated between those that are there; nothing if a
+// value does not fit T.
 template <class T>
 std::optional<std::vector<T>>
-interpolated(const std::vector<Slice> &slices, std::size_t count, std::size_t plane,
+interpolated(const std::vector<Slice> &slices, const Depths &depths, std::size_t plane,
              const ValueScale &scale, const DecodedFiles &decoded, const task::Progress &progress) {
-    system::requireMemory(sizeof(T) * double(plane) * double(slices.size() + count));
+    system::requireMemory(sizeof(T) * double(plane) * double(slices.size() + depths.count));
     std::vector<T> here(slices.size() * plane);
     std::atomic<bool> fits = true;
     tbb::parallel_for(std::size_t(0), slices.size(), [&](std::size_t n) {
@@ -79,12 +85,12 @@ interpolated(const std::vector<Slice> &slices, std::size_t count, std::size_t pl
     if (!fits)
         return std::nullopt;
     fillMissing(here);
-    std::vector<T> all(count * plane);
-    const double stepMm = slices.back().depthMm / double(count - 1);
-    tbb::parallel_for(std::size_t(0), count, [&](std::size_t k) {
+    std::vector<T> all(depths.count * plane);
+    const double stepMm = depths.stepMm;
+    tbb::parallel_for(std::size_t(0), depths.count, [&](std::size_t k) {
         progress.check();
         constexpr double nearest = 1e-3; // of a step: written positions are rounded
-        const double depthMm = stepMm * double(k);
+        const double depthMm = depths.firstMm + stepMm * double(k);
         const auto above = std::find_if(slices.begin(), slices.end(), [&](const Slice &s) {
             return s.depthMm >= depthMm - nearest * stepMm;
         });
@@ -213,12 +219,23 @@ void ArrivingSeries::showPartial(std::size_t stride, const task::Progress &progr
         for (Slice &slice : slices)
             slice.depthMm = length - slice.depthMm;
     }
-    const glm::dvec3 step =
-        (slices.back().positionMm - slices.front().positionMm) / double(count - 1);
+    const double slicesMm = slices.back().depthMm / double(count - 1);
+    const glm::dvec3 along =
+        (slices.back().positionMm - slices.front().positionMm) / slices.back().depthMm;
+    // The first slices are to be seen at once, and most of the time would be that of making room
+    // for all of them. Viewers treat volumes of few slices differently.
+    constexpr std::size_t leastPlanes = 48;
+    const std::size_t planes =
+        stride > coarsestToProject
+            ? std::min(count, std::max(leastPlanes, (count - 1) / coarsestToProject + 1))
+            : count;
+    const double stepMm = slicesMm * double(count) / double(planes);
+    const Depths depths{planes, 0.5 * (stepMm - slicesMm), stepMm};
     volume::GridSize size = found.size();
-    size.k = int(count);
-    const volume::Lattice lattice = volume::Lattice::make(size, {slices.front().positionMm},
-                                                          {found.step(0), found.step(1), step});
+    size.k = int(planes);
+    const volume::Lattice lattice =
+        volume::Lattice::make(size, {slices.front().positionMm + along * depths.firstMm},
+                              {found.step(0), found.step(1), along * stepMm});
     volume::VolumeNotes notes = entry.notes;
     notes.warnings = {because::slicesOfSeries(slices.size(), m_paths.size())};
     const std::size_t plane = size.offsetOf(0, 0, 1);
@@ -228,9 +245,9 @@ void ArrivingSeries::showPartial(std::size_t stride, const task::Progress &progr
               slices.size(), m_paths.size(), stride},
              progress);
     };
-    if (auto whole = interpolated<std::int16_t>(slices, count, plane, scale, m_decoded, progress))
+    if (auto whole = interpolated<std::int16_t>(slices, depths, plane, scale, m_decoded, progress))
         deliver(std::move(*whole));
-    else if (auto real = interpolated<float>(slices, count, plane, scale, m_decoded, progress))
+    else if (auto real = interpolated<float>(slices, depths, plane, scale, m_decoded, progress))
         deliver(std::move(*real));
 }
 

@@ -17,8 +17,9 @@
 
 namespace pellucid::dicom {
 
-/// A volume of which slices lack. It has as many slices as it will have files, at even distances
-/// between its ends, interpolated between those that are there.
+/// A volume of which slices lack. It fills the same box as the whole, and has as many slices at
+/// even distances, interpolated between those that are there; until every eighth is there, fewer if
+/// the whole has many.
 struct PartialVolume {
     volume::Volume volume; ///< its only warning says how much of it is there
     std::size_t slices = 0, count = 0;

@@ -102,18 +102,17 @@ bool Lattice::contains(VoxelIndex n) const {
     return n.i >= 0 && n.j >= 0 && n.k >= 0 && n.i < m_size.i && n.j < m_size.j && n.k < m_size.k;
 }
 
-bool Lattice::isNear(const Lattice &other) const {
-    if (m_size != other.m_size)
-        return false;
-    const double limit = 0.1 * shortestStepMm();
-    // The distance is largest at a corner.
-    for (int corner = 0; corner < 8; ++corner) {
-        const VoxelIndex n{(corner & 1) != 0 ? m_size.i - 1 : 0,
-                           (corner & 2) != 0 ? m_size.j - 1 : 0,
-                           (corner & 4) != 0 ? m_size.k - 1 : 0};
-        if (glm::distance(patient(n).mm, other.patient(n).mm) > limit)
+bool Lattice::fillsSameBox(const Lattice &other) const {
+    const double limit = 0.1 * std::min(shortestStepMm(), other.shortestStepMm());
+    const auto cornerOf = [](const Lattice &lattice, int number) {
+        VoxelPoint corner;
+        for (int axis = 0; axis < 3; ++axis)
+            corner.v[axis] = ((number >> axis) & 1) != 0 ? lattice.size()[axis] - 0.5 : -0.5;
+        return lattice.patient(corner).mm;
+    };
+    for (int number = 0; number < 8; ++number)
+        if (glm::distance(cornerOf(*this, number), cornerOf(other, number)) > limit)
             return false;
-    }
     return true;
 }
 

@@ -99,9 +99,9 @@ public:
     Lattice cropped(const VoxelBox &box) const;
 
     bool operator==(const Lattice &) const = default;
-    /// Whether it has the same size, and no sample is further than a tenth of the shortest step
-    /// from the same sample of the other one.
-    bool isNear(const Lattice &other) const;
+    /// Whether their voxels fill the same box: no corner is further than a tenth of the shortest
+    /// step from the same corner of the other one.
+    bool fillsSameBox(const Lattice &other) const;
 
 private:
     GridSize m_size{1, 1, 1};

@@ -260,14 +260,23 @@ private slots:
             QVERIFY(find<QPushButton>("exportWriteButton")->isEnabled());
             QTest::mouseClick(find<QPushButton>("exportWriteButton"), Qt::LeftButton);
         };
-        send("archive", 0);
+        // Choosing a server chooses a format that servers store.
+        find<QAction>("exportPictureAction")->trigger();
+        auto *const formats = find<QComboBox>("exportFormatBox");
+        QCOMPARE(formats->currentIndex(), 0);
+        auto *const to = find<QComboBox>("exportToBox");
+        to->setCurrentIndex(to->findText("archive"));
+        QCOMPARE(formats->currentIndex(), 4);
+        formats->setCurrentIndex(0);
         QVERIFY(!find<QPushButton>("exportWriteButton")->isEnabled());
         QVERIFY(find<QLabel>("exportMessage")->text().contains("DICOM"));
         for (const int format : {4, 7}) {
             send("archive", format);
             press();
-            QTRY_VERIFY_WITH_TIMEOUT(mainWindow().findChild<QDialog *>("exportDialog") == nullptr,
-                                     patienceMs);
+            // It says so, and does not send the same twice.
+            QTRY_VERIFY_WITH_TIMEOUT(
+                find<QLabel>("exportMessage")->text().contains("has received it"), patienceMs);
+            QVERIFY(!find<QPushButton>("exportWriteButton")->isEnabled());
         }
         archive::SearchTerms terms;
         terms.studyUid = document().sources().front().study.uid.toStdString();

@@ -109,7 +109,9 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
     m_initialWindow = initialWindow;
     m_fieldWindow = fieldWindow;
     const bool same = m_volume && m_preview;
-    const bool isInPlace = same && m_volume->lattice().isNear(volume.lattice());
+    // Slices that were not there may lie elsewhere than expected.
+    const bool isInPlace = same && m_volume->lattice().fillsSameBox(volume.lattice());
+    const bool isInTheMiddle = same && m_crosshair == middleSample(m_volume->lattice());
     m_volume = volume;
     m_preview = preview;
     m_exposure.reset(); // that of a preview, which lacks slices, is another one
@@ -139,7 +141,7 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
         m_pose = {};
         setSegments(nullptr);
     }
-    if (same && !isInPlace) // slices that were not there lie elsewhere than expected
+    if (same && (!isInPlace || isInTheMiddle)) // through samples, as if it had come at once
         m_crosshair = middleSample(volume.lattice());
     // A preview's quantiles are those of the slices that came first; a window that the user has set
     // meanwhile stays.

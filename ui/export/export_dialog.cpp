@@ -109,11 +109,12 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     auto *buttons = new QDialogButtonBox;
     m_write = buttons->addButton(tr("Write"), QDialogButtonBox::AcceptRole);
     m_write->setObjectName("exportWriteButton");
-    buttons->addButton(QDialogButtonBox::Cancel);
+    m_close = buttons->addButton(QDialogButtonBox::Cancel);
     form->addRow(new JobStrip(jobs, "export"));
     form->addRow(buttons);
     connect(&servers, &ServerBook::changed, this, &ExportDialog::offerServers);
     offerServers();
+    connect(m_to, &QComboBox::currentIndexChanged, this, &ExportDialog::chooseCapture);
     for (QComboBox *choice : {m_pane, m_format, m_scale, m_to})
         connect(choice, &QComboBox::currentIndexChanged, this, &ExportDialog::showChosen);
     for (QCheckBox *choice : {m_annotated, m_deidentified})
@@ -162,6 +163,14 @@ void ExportDialog::offerPatient() {
     }
     m_patient->addItem(QString());
     m_patient->setCurrentIndex(0);
+}
+
+// Servers store nothing else.
+void ExportDialog::chooseCapture() {
+    const PictureExport what = chosen();
+    if (!chosenServer().isEmpty() && !what.isCapture())
+        m_format->setCurrentIndex(
+            int(what.isTurn() ? PictureFormat::captureLoop : PictureFormat::capture));
 }
 
 void ExportDialog::showChosen() {
@@ -310,8 +319,8 @@ void ExportDialog::send(const archive::Server &server, const PictureExport &what
                       throw task::Error(task::ErrorCode::incomplete, report.notSent.front().reason,
                                         server.name);
                   job.deliver([this, name = QString::fromStdString(server.name)] {
+                      m_sentTo = name;
                       emit sent(name);
-                      close();
                   });
               });
     } catch (const task::Error &error) {
@@ -321,9 +330,17 @@ void ExportDialog::send(const archive::Server &server, const PictureExport &what
 
 void ExportDialog::start(const QString &title, const std::function<void(const Job &)> &work) {
     m_isWorking = true;
+    m_sentTo.clear();
     m_jobs.start(title, work, [this](const Outcome &outcome) {
         m_isWorking = false;
         showChosen();
+        if (outcome.kind == Outcome::Kind::done && !m_sentTo.isEmpty()) {
+            // Not twice, unless something else is chosen.
+            m_write->setEnabled(false);
+            m_close->setText(tr("Close"));
+            m_close->setFocus();
+            showMessage(tr("%1 has received it").arg(m_sentTo), "muted");
+        }
         if (outcome.kind == Outcome::Kind::failed)
             showMessage(translated(*outcome.reason), "warning");
     });

@@ -47,6 +47,7 @@ private:
     /// Asks before a file is replaced.
     bool mayReplace(const QString &path);
     void offerPatient();
+    void chooseCapture();
     void showChosen();
     void browse();
     void write();
@@ -75,7 +76,8 @@ private:
     QLabel *m_message;
     bool m_isWorking = false;
     QString m_confirmed; ///< a path that the file dialog has asked about
-    QPushButton *m_write = nullptr;
+    QString m_sentTo;    ///< the server that has just received it
+    QPushButton *m_write = nullptr, *m_close = nullptr;
 };
 
 } // namespace pellucid::ui

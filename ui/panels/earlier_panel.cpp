@@ -151,6 +151,8 @@ void EarlierPanel::list() {
     }
     if (!silent.isEmpty())
         texts << QString::fromUtf8("\u26A0 ") + silent.join(", ");
+    if (!m_studies.limited().isEmpty())
+        texts << tr("%1: more than listed").arg(m_studies.limited().join(", "));
     m_state->setToolTip(plainToolTip(reasons.join("\n")));
     m_state->setText(texts.join("\n"));
     m_state->setVisible(!texts.isEmpty());

@@ -77,6 +77,7 @@ void EarlierStudies::search() {
     m_here.clear();
     m_remote.clear();
     m_failures.clear();
+    m_limited.clear();
     if (m_open && m_open->hasPatient() && (m_isShown || m_inAdvance > 0)) {
         m_hasAsked = true;
         listLibrary();
@@ -122,6 +123,9 @@ void EarlierStudies::searchServers(const std::vector<archive::Server> &servers) 
                         if (outcome.failure)
                             m_failures.insert_or_assign(QString::fromStdString(outcome.server),
                                                         *outcome.failure);
+                        const QString name = QString::fromStdString(outcome.server);
+                        if (outcome.reachedLimit && !m_limited.contains(name))
+                            m_limited << name;
                         merge();
                     });
                 };

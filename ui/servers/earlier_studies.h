@@ -44,6 +44,8 @@ public:
     const std::vector<EarlierStudy> &studies() const { return m_studies; }
     /// Servers that could not be asked, with the reasons.
     const std::map<QString, task::Reason> &failures() const { return m_failures; }
+    /// Servers that have more than they may answer.
+    const QStringList &limited() const { return m_limited; }
     bool hasOpenStudy() const { return m_open.has_value(); }
     bool isSearching() const { return m_jobs.isRunning(); }
 
@@ -69,6 +71,7 @@ private:
     std::vector<RemoteStudy> m_remote;
     std::vector<EarlierStudy> m_studies;
     std::map<QString, task::Reason> m_failures;
+    QStringList m_limited;
     JobRunner m_jobs;
 };
 

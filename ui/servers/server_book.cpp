@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deque>
 #include <memory>
+#include <utility>
 
 #include <QCoreApplication>
 #include <QInputDialog>
@@ -108,8 +109,8 @@ QStringList ServerBook::names() const {
 void ServerBook::put(const archive::Server &server) {
     archive::ServerList::ofUser().put(server);
     for (const archive::Server &former : m_servers)
-        if (former.name == server.name && hasLogin(former) && loginKey(former) != loginKey(server))
-            forgetLogin(former);
+        if (former.name == server.name && hasLogin(former))
+            replaceLogin(former, server);
     const auto keepText = [&](const QString &key, const std::string &secret) {
         if (secret.empty())
             return;
@@ -119,6 +120,9 @@ void ServerBook::put(const archive::Server &server) {
     keepText(secretKey(server), server.peer.secret);
     keepText(keyPasswordKey(server), server.peer.keyPassword);
     load();
+    // The user has logged in while testing it.
+    if (const QString key = loginKey(server); hasLogin(server) && m_unsavedTokens.contains(key))
+        keep(key, m_unsavedTokens.take(key));
     emit changed();
 }
 
@@ -151,11 +155,30 @@ void ServerBook::forget(const QString &key) {
     job->start();
 }
 
+void ServerBook::replaceLogin(const archive::Server &former, const archive::Server &server) {
+    const QString key = loginKey(former);
+    // A token allows what it was given for.
+    const bool isOther = !hasLogin(server) || loginKey(server) != key ||
+                         server.loginSettings.scope != former.loginSettings.scope;
+    if (isOther)
+        forgetLogin(former);
+    else if (!(server.loginSettings == former.loginSettings) ||
+             server.peer.authorities != former.peer.authorities)
+        m_logins.remove(key); // the next one has the new settings, and the token in the keychain
+}
+
 void ServerBook::forgetLogin(const archive::Server &server) {
     const QString key = loginKey(server);
     if (const auto login = m_logins.take(key))
         login->forget();
+    m_unsavedTokens.remove(key);
     forget(key);
+}
+
+bool ServerBook::isSavedLogin(const QString &key) const {
+    return std::any_of(m_servers.begin(), m_servers.end(), [&](const archive::Server &server) {
+        return hasLogin(server) && loginKey(server) == key;
+    });
 }
 
 void ServerBook::withSecrets(const QStringList &names, QWidget *asking, const Use &use) {
@@ -251,7 +274,9 @@ void ServerBook::prepareLogin(const std::shared_ptr<Pending> &pending,
             [self, key, text = QString::fromStdString(token)] {
                 if (self == nullptr)
                     return;
-                if (text.isEmpty())
+                if (!self->isSavedLogin(key))
+                    self->m_unsavedTokens[key] = text;
+                else if (text.isEmpty())
                     self->forget(key);
                 else
                     self->keep(key, text);
@@ -296,6 +321,17 @@ void ServerBook::renewLogin(const std::shared_ptr<Pending> &pending) {
         });
 }
 
+void ServerBook::whenEnded(QDialog *dialog, const std::function<void(bool)> &then) {
+    const auto once = std::make_shared<bool>(false);
+    const auto end = [once, then](bool isAccepted) {
+        if (!std::exchange(*once, true))
+            then(isAccepted);
+    };
+    connect(dialog, &QDialog::finished, this,
+            [end](int result) { end(result == QDialog::Accepted); });
+    connect(dialog, &QObject::destroyed, this, [end] { end(false); });
+}
+
 void ServerBook::askToLogIn(const std::shared_ptr<Pending> &pending) {
     if (pending->asking == nullptr) {
         pending->leaveOut();
@@ -312,9 +348,9 @@ void ServerBook::askToLogIn(const std::shared_ptr<Pending> &pending) {
         dialog->setAttribute(Qt::WA_DeleteOnClose);
         dialog->open();
     }
-    connect(dialog, &QDialog::finished, this, [this, pending, login, key = need.key](int result) {
+    whenEnded(dialog, [this, pending, login, key = need.key](bool isAccepted) {
         m_dialogs.remove(key);
-        if (result == QDialog::Accepted)
+        if (isAccepted)
             pending->set(login);
         else
             pending->leaveOut();
@@ -338,7 +374,7 @@ void ServerBook::ask(const std::shared_ptr<Pending> &pending, const QString &key
     connect(dialog, &QInputDialog::textValueSelected, this, [this, key](const QString &text) {
         m_known[key] = text; // for this run
     });
-    connect(dialog, &QDialog::finished, this, [this, pending, key] {
+    whenEnded(dialog, [this, pending, key](bool) {
         if (!m_known.contains(key))
             pending->leaveOut();
         fetchNext(pending);

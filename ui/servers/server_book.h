@@ -59,15 +59,21 @@ private:
     void keep(const QString &key, const QString &secret);
     void forget(const QString &key);
     void forgetLogin(const archive::Server &server);
+    void replaceLogin(const archive::Server &former, const archive::Server &server);
+    bool isSavedLogin(const QString &key) const;
     void prepareLogin(const std::shared_ptr<Pending> &pending, const QString &refreshToken);
     void renewLogin(const std::shared_ptr<Pending> &pending);
     void askToLogIn(const std::shared_ptr<Pending> &pending);
+    /// Calls `then` when the dialog is accepted, rejected, or destroyed with its window.
+    void whenEnded(QDialog *dialog, const std::function<void(bool isAccepted)> &then);
 
     std::vector<archive::Server> m_servers;
     QHash<QString, QString> m_known; ///< secrets, by their key in the keychain
     /// By the keys of their refresh tokens.
     QHash<QString, std::shared_ptr<archive::Login>> m_logins;
     QHash<QString, QPointer<LoginDialog>> m_dialogs;
+    /// Refresh tokens of servers that are tested before they are saved, by the same keys.
+    QHash<QString, QString> m_unsavedTokens;
 };
 
 } // namespace pellucid::ui

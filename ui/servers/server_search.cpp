@@ -23,10 +23,19 @@ void ServerSearch::search(const QString &words, QWidget *asking) {
     m_asking = asking;
     if (m_book.servers().empty())
         return;
+    // At once: the renewal of a login takes a moment.
+    for (const QString &name : m_book.names())
+        m_states[name] = {};
+    emit changed();
     m_book.withSecrets(m_book.names(), asking,
                        [this, terms = searchTermsOf(words),
                         generation = m_generation](const std::vector<archive::Server> &servers) {
-                           if (generation == m_generation && !servers.empty())
+                           if (generation != m_generation)
+                               return;
+                           m_states.clear(); // some may be left out
+                           if (servers.empty())
+                               emit changed();
+                           else
                                start(terms, servers);
                        });
 }

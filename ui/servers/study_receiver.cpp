@@ -183,11 +183,14 @@ void StudyReceiver::countArrival() {
 archive::MoveDestination StudyReceiver::destinationFor(const archive::Server &server) const {
     archive::MoveDestination destination;
     // A request over TLS accepts its objects over TLS only.
-    if (isListening() && m_settings.usesTls == server.peer.usesTls) {
+    const bool isAlike = m_settings.usesTls == server.peer.usesTls;
+    if (isListening() && isAlike) {
         destination.ae = m_listener->options.ae;
         destination.port = m_settings.port;
         destination.hasListener = true;
     }
+    destination.isTakenByOtherTls =
+        isListening() && !isAlike && m_settings.port == destination.port;
     return destination;
 }
 

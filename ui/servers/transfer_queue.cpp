@@ -2,8 +2,12 @@
 #include "ui/servers/transfer_queue.h"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <set>
+#include <utility>
+
+#include <QFileInfo>
 
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
@@ -15,6 +19,8 @@ namespace {
 using archive::Transfer;
 using archive::TransferLog;
 using archive::TransferState;
+
+constexpr auto lookEvery = std::chrono::seconds(3);
 
 // Without one, nothing has ever been retrieved; looking does not make it.
 bool hasLog() {
@@ -63,6 +69,9 @@ TransferQueue::TransferQueue(ServerBook &book, StudyLibrary &library, StudyRecei
     : QObject(parent), m_book(book), m_library(library), m_receiver(receiver) {
     connect(&receiver, &StudyReceiver::arrived, this, &TransferQueue::listArrivals);
     attempt([this] { read(); });
+    m_look.setInterval(lookEvery);
+    connect(&m_look, &QTimer::timeout, this, &TransferQueue::lookAtLog);
+    m_look.start();
 }
 
 TransferQueue::~TransferQueue() = default;
@@ -96,20 +105,12 @@ void TransferQueue::add(const RemoteStudy &study, QWidget *asking, Urgency urgen
         transfer.wanted.studyUid = study.study.uid.toStdString();
         transfer.title = studyText(study.study).toStdString();
         transfer.folder = archive::libraryObjectFolder();
+        transfer.isForLater = urgency == Urgency::later;
         const qint64 id = TransferLog(TransferLog::fileOfUser()).add(transfer);
         m_elsewhere.erase(id);
-        // What a user has asked for is not put off.
-        const bool isAwaited =
-            std::any_of(m_transfers.begin(), m_transfers.end(), [&](const Transfer &one) {
-                return one.id == id && one.state <= TransferState::running;
-            });
-        if (urgency == Urgency::now)
-            m_later.erase(id);
-        else if (!isAwaited)
-            m_later.insert(id);
         read();
-        // It waits again, and goes on where it was.
-        if (urgency == Urgency::now && m_running != id && m_later.contains(m_running))
+        // The running one waits again, and goes on where it was.
+        if (urgency == Urgency::now && m_running != id && isForLater(m_running))
             m_jobs.cancel();
     });
     startNext(asking);
@@ -117,7 +118,7 @@ void TransferQueue::add(const RemoteStudy &study, QWidget *asking, Urgency urgen
 
 void TransferQueue::retry(qint64 id, QWidget *asking) {
     attempt([&] {
-        TransferLog(TransferLog::fileOfUser()).setState(id, TransferState::waiting);
+        TransferLog(TransferLog::fileOfUser()).retry(id);
         m_elsewhere.erase(id);
         read();
     });
@@ -126,7 +127,7 @@ void TransferQueue::retry(qint64 id, QWidget *asking) {
 
 void TransferQueue::cancel(qint64 id) {
     attempt([&] {
-        TransferLog(TransferLog::fileOfUser()).setState(id, TransferState::cancelled);
+        TransferLog(TransferLog::fileOfUser()).cancel(id);
         if (id == m_running)
             m_jobs.cancel();
         read();
@@ -138,6 +139,12 @@ void TransferQueue::clearFinished() {
         TransferLog(TransferLog::fileOfUser()).clearFinished();
         read();
     });
+}
+
+// It may have become urgent since it began.
+bool TransferQueue::isForLater(qint64 id) const {
+    return std::any_of(m_transfers.begin(), m_transfers.end(),
+                       [&](const Transfer &one) { return one.id == id && one.isForLater; });
 }
 
 void TransferQueue::startNext(QWidget *asking) {
@@ -153,7 +160,7 @@ void TransferQueue::startNext(QWidget *asking) {
                transfer.folder == archive::libraryObjectFolder();
     };
     auto next = std::find_if(m_transfers.begin(), m_transfers.end(), [&](const Transfer &transfer) {
-        return waits(transfer) && !m_later.contains(transfer.id);
+        return waits(transfer) && !transfer.isForLater;
     });
     if (next == m_transfers.end())
         next = std::find_if(m_transfers.begin(), m_transfers.end(), waits);
@@ -161,7 +168,7 @@ void TransferQueue::startNext(QWidget *asking) {
         return;
     m_isWaitingForSecrets = true;
     // Nobody is asked for a password because of a study that may be wanted later.
-    QWidget *const asked = m_later.contains(next->id) ? nullptr : m_asking.data();
+    QWidget *const asked = next->isForLater ? nullptr : m_asking.data();
     m_book.withSecrets({QString::fromStdString(next->server)}, asked,
                        [this, transfer = *next](const std::vector<archive::Server> &servers) {
                            m_isWaitingForSecrets = false;
@@ -171,8 +178,7 @@ void TransferQueue::startNext(QWidget *asking) {
                            }
                            // The server has been removed, or its password is not known.
                            attempt([&] {
-                               TransferLog(TransferLog::fileOfUser())
-                                   .setState(transfer.id, TransferState::cancelled);
+                               TransferLog(TransferLog::fileOfUser()).cancel(transfer.id);
                                read();
                            });
                            startNext(m_asking);
@@ -181,13 +187,13 @@ void TransferQueue::startNext(QWidget *asking) {
 
 void TransferQueue::run(const Transfer &transfer, const archive::Server &server) {
     m_running = transfer.id;
-    const auto show = [this, id = transfer.id](const archive::RetrievalState &state) {
+    const auto show = [this, transfer](const archive::RetrievalState &state) {
         for (Transfer &one : m_transfers)
-            if (one.id == id) {
+            if (one.id == transfer.id) {
                 one.state = TransferState::running;
                 one.total = state.wanted;
                 one.received = state.present + state.received;
-                one.bytes = state.bytes;
+                one.bytes = transfer.bytes + state.bytes;
             }
         emit changed();
     };
@@ -227,11 +233,10 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
             if (ended != m_transfers.end() && ended->state == TransferState::complete)
                 emit completed(
                     QString::fromStdString((transfer.folder / transfer.wanted.studyUid).string()),
-                    !m_later.contains(transfer.id));
+                    !isForLater(transfer.id));
             // The user is asked to log in; what has arrived is not asked for again.
             if (outcome.kind == Outcome::Kind::failed && m_asking != nullptr &&
-                !m_later.contains(transfer.id) &&
-                outcome.reason->is(task::because::loginHasExpired)) {
+                !isForLater(transfer.id) && outcome.reason->is(task::because::loginHasExpired)) {
                 retry(transfer.id, m_asking);
                 return;
             }
@@ -242,6 +247,27 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
                 m_elsewhere.insert(transfer.id);
             startNext(m_asking);
         });
+}
+
+void TransferQueue::lookAtLog() {
+    attempt([this] {
+        if (m_jobs.isRunning() || !hasLog())
+            return;
+        const QString file = QString::fromStdString(TransferLog::fileOfUser().string());
+        const QPair times{QFileInfo(file).lastModified(), QFileInfo(file + "-wal").lastModified()};
+        const bool isNew = std::exchange(m_logTimes, times) != times;
+        if (isNew)
+            read();
+        // When nothing more has come for a moment.
+        if (!isNew && m_arrivalsSeen == 0)
+            return;
+        const std::size_t before =
+            std::exchange(m_arrivalsSeen, TransferLog(TransferLog::fileOfUser()).arrivals().size());
+        if (m_arrivalsSeen > 0 && m_arrivalsSeen == before) {
+            m_arrivalsSeen = 0;
+            listArrivals();
+        }
+    });
 }
 
 void TransferQueue::listArrivals() {

@@ -5,9 +5,12 @@
 #include <set>
 #include <vector>
 
+#include <QDateTime>
 #include <QHash>
 #include <QObject>
+#include <QPair>
 #include <QPointer>
+#include <QTimer>
 
 #include "core/archive/run_transfer.h"
 #include "core/dicom/arriving_series.h"
@@ -53,8 +56,11 @@ signals:
 private:
     void read();
     void startNext(QWidget *asking);
+    bool isForLater(qint64 id) const;
     void run(const archive::Transfer &transfer, const archive::Server &server);
     void listArrivals();
+    /// Notices what other programs retrieve and receive, such as the command line.
+    void lookAtLog();
     template <class F> void attempt(const F &what);
 
     ServerBook &m_book;
@@ -65,9 +71,10 @@ private:
     qint64 m_running = 0;
     /// Those that another program works on.
     std::set<qint64> m_elsewhere;
-    /// Those that nobody waits for.
-    std::set<qint64> m_later;
     bool m_isWaitingForSecrets = false;
+    QTimer m_look;
+    QPair<QDateTime, QDateTime> m_logTimes; ///< when the log was last written
+    std::size_t m_arrivalsSeen = 0;
     QPointer<QWidget> m_asking; ///< windows come and go
     JobRunner m_jobs;
 };

@@ -68,16 +68,16 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
     });
     connect(&document, &Document::volumeChanged, this, [this] {
         const auto &volume = m_document.volume();
-        const bool isSameLattice = volume && m_lattice.isNear(volume->lattice());
+        const bool isSameBox = volume && m_lattice.fillsSameBox(volume->lattice());
         dropTextFields(*this); // their texts belong to the former volume
         // A volume that replaces its own preview does not interrupt a drag.
-        if (!isSameLattice || !m_wasPreview)
+        if (!isSameBox || !m_wasPreview)
             m_tools.cancel();
         m_wasPreview = m_document.isPreview();
         m_cutMs = 0.0;
         if (volume) {
             m_lattice = volume->lattice();
-            if (!isSameLattice) // a different phase keeps the view
+            if (!isSameBox) // a different phase keeps the view
                 resetView();
         }
         refresh();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/study_docks.h"
 
+#include <QAction>
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QUndoView>
@@ -38,6 +39,19 @@ StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme
     m_transfers->hide();
     m_history = addHistory(window, bench);
     m_spectrum = addSpectrum(window, bench, theme);
+    arrange();
+    // A tab that is asked for comes to the front.
+    for (QDockWidget *dock : {m_measured, m_earlierDock, m_transfers, m_history, m_spectrum})
+        connect(dock->toggleViewAction(), &QAction::triggered, dock, [dock](bool isShown) {
+            if (isShown)
+                dock->raise();
+        });
+}
+
+// One above the other, they would leave room for a few rows each.
+void StudyDocks::arrange() {
+    for (QDockWidget *dock : {m_earlierDock, m_transfers, m_history, m_spectrum})
+        m_window.tabifyDockWidget(m_measured, dock);
 }
 
 void StudyDocks::reset() {
@@ -47,6 +61,7 @@ void StudyDocks::reset() {
         m_window.addDockWidget(Qt::LeftDockWidgetArea, dock);
         dock->setVisible(dock == m_study || dock == m_measured);
     }
+    arrange();
     m_studies->show();
     m_measurements->show();
     m_window.resizeDocks({m_study, m_measured}, {700, 180}, Qt::Vertical);

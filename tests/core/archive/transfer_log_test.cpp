@@ -7,6 +7,7 @@
 #include <array>
 #include <csignal>
 #include <numeric>
+#include <sqlite3.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -65,9 +66,9 @@ TEST(TransferLog, AnAttemptThatIsOverDoesNotEndTheNext) {
     TransferLog first(folder / "transfers.sqlite"), second(folder / "transfers.sqlite");
     const std::int64_t id = first.add(sample());
     ASSERT_TRUE(first.claim(id));
-    second.setState(id, TransferState::cancelled);
+    second.cancel(id);
     EXPECT_FALSE(first.hasClaim(id));
-    second.setState(id, TransferState::waiting);
+    second.retry(id);
     ASSERT_TRUE(second.claim(id));
     EXPECT_FALSE(first.hasClaim(id));
     first.finish(id, TransferState::cancelled, {}, 1.0, {});
@@ -99,9 +100,64 @@ TEST(TransferLog, AKilledProgramReleasesItsTransfer) {
     EXPECT_EQ(hasIt, 'y');
     TransferLog log(folder / "transfers.sqlite");
     EXPECT_FALSE(log.claim(id));
+    EXPECT_EQ(log.transfer(id)->state, TransferState::running);
     ::kill(other, SIGKILL);
     ::waitpid(other, nullptr, 0);
+    EXPECT_EQ(log.transfers().front().state, TransferState::waiting);
     EXPECT_TRUE(log.claim(id));
+}
+
+// A second run into the same place finds all there; what the first one brought is still told.
+TEST(TransferLog, BytesAndTimeAddUpOverTheRuns) {
+    const test::TemporaryFolder folder;
+    TransferLog log(folder / "transfers.sqlite");
+    const std::int64_t id = log.add(sample());
+    ASSERT_TRUE(log.claim(id));
+    log.finish(id, TransferState::incomplete, {.wanted = 3, .received = 2, .bytes = 2000}, 4.0, {});
+    log.add(sample());
+    ASSERT_TRUE(log.claim(id));
+    log.update(id, {.wanted = 3, .present = 2, .bytes = 500}, 0.5);
+    log.finish(id, TransferState::complete,
+               {.wanted = 3, .present = 2, .received = 1, .bytes = 1000}, 1.0, {});
+    log.add(sample());
+    ASSERT_TRUE(log.claim(id));
+    log.finish(id, TransferState::complete, {.wanted = 3, .present = 3}, 0.3, {});
+    const Transfer transfer = log.transfer(id).value();
+    EXPECT_EQ(transfer.received, 3U);
+    EXPECT_EQ(transfer.bytes, 3000U);
+    EXPECT_EQ(transfer.seconds, 5.0);
+}
+
+TEST(TransferLog, WhatSomebodyWaitsForIsNotPutOff) {
+    const test::TemporaryFolder folder;
+    TransferLog log(folder / "transfers.sqlite");
+    Transfer inAdvance = sample();
+    inAdvance.isForLater = true;
+    const std::int64_t id = log.add(inAdvance);
+    EXPECT_TRUE(TransferLog(folder / "transfers.sqlite").transfer(id)->isForLater);
+    log.add(sample());
+    EXPECT_FALSE(log.transfer(id)->isForLater);
+    log.add(inAdvance);
+    EXPECT_FALSE(log.transfer(id)->isForLater);
+    ASSERT_TRUE(log.claim(id));
+    log.finish(id, TransferState::complete, {}, 1.0, {});
+    log.add(inAdvance); // nobody waits any more
+    EXPECT_TRUE(log.transfer(id)->isForLater);
+    log.retry(id);
+    EXPECT_FALSE(log.transfer(id)->isForLater);
+}
+
+TEST(TransferLog, ReadsAFileOfAnEarlierVersion) {
+    const test::TemporaryFolder folder;
+    { const TransferLog make(folder / "transfers.sqlite"); }
+    sqlite3 *database = nullptr;
+    ASSERT_EQ(sqlite3_open((folder / "transfers.sqlite").c_str(), &database), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(database, "ALTER TABLE transfers DROP COLUMN later", nullptr, nullptr,
+                           nullptr),
+              SQLITE_OK);
+    sqlite3_close(database);
+    TransferLog log(folder / "transfers.sqlite");
+    EXPECT_FALSE(log.transfer(log.add(sample()))->isForLater);
 }
 
 TEST(TransferLog, ADamagedFileIsReported) {

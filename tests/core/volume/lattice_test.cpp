@@ -66,6 +66,21 @@ TEST(GridSize, SamplesAreOrderedColumnsFirst) {
     EXPECT_EQ((volume::GridSize{4096, 4096, 4096}.offsetOf(1, 2, 4000)), 67108872193U);
 }
 
+TEST(Lattice, FillsTheBoxOfALatticeWithOtherSlices) {
+    const Lattice fine =
+        Lattice::make({10, 20, 64}, {{1.0, 2.0, 3.0}},
+                      {glm::dvec3(0.7, 0.0, 0.0), {0.0, 0.7, 0.0}, {0.1, 0.2, 1.0}});
+    const glm::dvec3 step = fine.step(2);
+    const auto coarse = [&](glm::dvec3 shift) {
+        return Lattice::make({10, 20, 8}, {fine.origin().mm + 3.5 * step + shift},
+                             {fine.step(0), fine.step(1), 8.0 * step});
+    };
+    EXPECT_TRUE(coarse({}).fillsSameBox(fine));
+    EXPECT_TRUE(fine.fillsSameBox(coarse({0.0, 0.0, 0.05})));
+    EXPECT_FALSE(fine.fillsSameBox(coarse({0.0, 0.0, 0.2})));
+    EXPECT_FALSE(fine.fillsSameBox(fine.cropped({{0, 0, 0}, {10, 20, 63}})));
+}
+
 TEST(Lattice, CroppingKeepsPositions) {
     const Lattice lattice = test::tiltedLattice({10, 20, 30}, {0.5, 0.7, 3.0}, 18.5);
     const Lattice part = lattice.cropped({{2, 3, 4}, {5, 7, 9}});
