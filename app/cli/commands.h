@@ -29,5 +29,7 @@ void addFindCommand(CLI::App &app, const Context &context);
 void addGetCommand(CLI::App &app, const Context &context);
 void addSendCommand(CLI::App &app, const Context &context);
 void addListenCommand(CLI::App &app, const Context &context);
+void addBatchCommand(CLI::App &app, const Context &context);
+void addRecipeCommand(CLI::App &app, const Context &context);
 
 } // namespace pellucid::cli

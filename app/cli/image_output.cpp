@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include "app/cli/json_text.h"
+#include "core/files/atomic_file.h"
 #include "core/files/image_files.h"
 #include "core/picture/compose.h"
 #include "core/picture/projection_volume.h"
 #include "core/scene/positioner_angles.h"
+#include "core/scene/projection_matrix.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 
@@ -80,6 +83,37 @@ void writeImage(const fs::path &path, const picture::ProjectionImage &image,
 fs::path framePath(const fs::path &out, int frame) {
     return out.parent_path() /
            fmt::format("{}_{:04d}{}", out.stem().string(), frame, out.extension().string());
+}
+
+fs::path geometryPath(const fs::path &array) {
+    fs::path path = array;
+    return path.replace_extension(".json");
+}
+
+nlohmann::json geometryJson(const scene::Camera &camera, const volume::Lattice &patient) {
+    const scene::PositionerAngles angles = scene::positionerAngles(camera.orientation);
+    const glm::dmat3 axes = camera.axes();
+    const auto list = [](const glm::dvec3 &v) { return nlohmann::json{v.x, v.y, v.z}; };
+    return {{"matrix", scene::projectionMatrix(camera, patient)},
+            {"primary_deg", angles.primaryDeg},
+            {"secondary_deg", angles.secondaryDeg},
+            {"right", list(axes[0])},
+            {"down", list(-axes[1])},
+            {"toward_viewer", list(axes[2])}};
+}
+
+void writeGeometry(const fs::path &path, const scene::Camera &camera, const nlohmann::json &views) {
+    files::AtomicFile file(path);
+    file.write(jsonText({{"geometry", "parallel"},
+                         {"space", "DICOM patient space (LPS), mm"},
+                         {"matrix", "(x, y, z, 1) to (column, row, 1); whole numbers are centers "
+                                    "of pixels"},
+                         {"values", "line integrals, field times mm"},
+                         {"size", {camera.width, camera.height}},
+                         {"pixel_mm", camera.pixelMm},
+                         {"views", views}}) +
+               "\n");
+    file.commit();
 }
 
 } // namespace pellucid::cli

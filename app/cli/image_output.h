@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "core/dicom/write_capture.h"
 #include "core/picture/projection_image.h"
 #include "core/scene/scene.h"
@@ -26,5 +28,14 @@ void writeImage(const std::filesystem::path &path, const picture::ProjectionImag
 
 /// OUT_0007.png for frame 7.
 std::filesystem::path framePath(const std::filesystem::path &out, int frame);
+
+/// The file beside an array of views that describes them.
+std::filesystem::path geometryPath(const std::filesystem::path &array);
+/// Where a view was seen from: its projection matrix, its angles as of DICOM's positioner, and the
+/// directions of its axes. *Shape*: `patient`: that of the volume.
+nlohmann::json geometryJson(const scene::Camera &camera, const volume::Lattice &patient);
+/// Describes views that have one size, and one size of a pixel. *Throws* Error{output}.
+void writeGeometry(const std::filesystem::path &path, const scene::Camera &camera,
+                   const nlohmann::json &views);
 
 } // namespace pellucid::cli

@@ -74,6 +74,8 @@ int run(int argc, char **argv) {
     cli::addGetCommand(app, context);
     cli::addSendCommand(app, context);
     cli::addListenCommand(app, context);
+    cli::addBatchCommand(app, context);
+    cli::addRecipeCommand(app, context);
     // CLI11 itself would only report that a subcommand is missing.
     const auto commands = app.get_subcommands([](const CLI::App *) { return true; });
     const auto known = [&](const std::string &word) {
@@ -85,7 +87,7 @@ int run(int argc, char **argv) {
         return report(
             std::string("unknown command '") + argv[1] +
                 "': use info, render, volume, segment, preset, phantom, server, echo, find, "
-                "get, transfers, send or listen",
+                "get, transfers, send, listen, batch or recipe",
             exitCode(task::ErrorCode::usage));
     try {
         app.parse(argc, argv);

@@ -14,13 +14,15 @@
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
 #include "app/cli/look_options.h"
-#include "app/cli/renderer.h"
 #include "app/cli/scene_fields.h"
 #include "app/cli/scene_options.h"
+#include "app/cli/scene_renderer.h"
 #include "app/cli/segment_options.h"
 #include "app/cli/terminal.h"
 #include "core/files/file_set.h"
-#include "core/system/memory.h"
+#include "core/files/image_files.h"
+#include "core/files/read_text.h"
+#include "core/scene/projection_matrix.h"
 #include "core/task/error.h"
 
 namespace pellucid::cli {
@@ -36,19 +38,11 @@ using task::ErrorCode;
 struct Options {
     SceneOptions scene;
     InputOptions input;
-    std::string out, engine = "auto";
+    std::string out, engine = "auto", views;
     int threads = 0, frames = 0;
     std::uint64_t memory = 0;
     bool json = false, isDeidentified = false;
 };
-
-// Whether the last picture misses the tolerance although the plan keeps it, and a closer plan may
-// help.
-bool mayPlanCloser(const Renderer &renderer, const scene::Scene &scene) {
-    return renderer.lastViewError() > scene.tolerance &&
-           renderer.predictedError() <= scene.tolerance && !renderer.isReduced() &&
-           scene.interpolation.isPlanned() && scene.plannedFor != scene::PlannedFor::volume;
-}
 
 // One picture or a turntable, step by step.
 class RenderRun {
@@ -62,30 +56,47 @@ public:
         m_preset = presetFor(m_options.scene);
         checkOutput(out, classify::isGrey(lookFor(m_options.scene, m_preset)) &&
                              shadingFor(m_options.scene, m_command, m_preset).isGrey());
-        m_card = chooseCard(m_options.engine, m_options.frames);
+        if (!m_options.views.empty())
+            readViews(out);
+        m_card = chooseCard(m_options.engine, frames());
         std::optional<tbb::global_control> threads;
         if (m_options.threads > 0)
             threads.emplace(tbb::global_control::max_allowed_parallelism,
                             std::size_t(m_options.threads));
         open(out);
-        makeFields();
         prepare();
-        warnOfFields();
-        renderFrames();
-        warnOfView();
+        if (m_options.views.empty())
+            renderFrames();
+        else
+            renderViews(out);
+        if (const std::string missed = m_renderer->warningOfViews(); !missed.empty())
+            warn(missed);
         if (m_options.json)
             print();
     }
 
 private:
     const volume::Volume &volume() const { return m_input.loaded.volume; }
-    bool isMemoryGiven() const { return m_command.count("--memory") > 0; }
     bool isTurntable() const { return m_options.frames > 0; }
-    int frames() const { return std::max(1, m_options.frames); }
+    int frames() const {
+        return m_options.views.empty() ? std::max(1, m_options.frames) : int(m_views.views.size());
+    }
 
     void warn(const std::string &text) {
         m_warnings.push_back(text);
         cli::warn(text);
+    }
+
+    void readViews(const fs::path &out) {
+        if (out.extension() != ".npy")
+            throw Error(ErrorCode::usage,
+                        because::inWords("-o: the pictures of --matrix are one array, .npy"));
+        const std::string text = files::readText(m_options.views, files::maxSceneBytes);
+        try {
+            m_views = scene::viewListFromJson(text);
+        } catch (const Error &error) {
+            throw Error(error.code(), error.reason(), m_options.views);
+        }
     }
 
     void open(const fs::path &out) {
@@ -94,74 +105,42 @@ private:
                 m_outs.push_back(framePath(out, frame));
         else
             m_outs.push_back(out);
+        if (!m_options.views.empty())
+            m_outs.push_back(geometryPath(out));
         m_input = openInput(m_options.input, m_outs, m_context);
         m_warnings = englishTexts(volume().notes().warnings);
         m_segments = loadSegments(m_options.scene.segmentations, m_outs, volume(), m_context);
-        m_scene = m_planned =
-            sceneFor(m_options.scene, m_command, m_preset, volume(), m_segments.get());
+        m_scene = sceneFor(m_options.scene, m_command, m_preset, volume(), m_segments.get());
+        if (!m_options.views.empty())
+            placeViews();
         // The scene file may have brought colors.
         checkOutput(out, classify::isGrey(m_scene.look) && m_scene.shading.isGrey());
     }
 
-    void makeFields() {
-        Stopwatch watch;
-        m_window = windowFor(m_scene, volume());
-        const std::size_t samples = volume().lattice().size().count();
-        const std::size_t forLight = prepare::bytesForLight(
-            m_scene.shading, volume().lattice().size(), classify::channelsOf(m_scene.look));
-        m_held = volume().bytes() + classify::peakBytes(m_scene.look, samples) + forLight;
-        if (isMemoryGiven() && m_options.memory < m_held)
-            throw Error(
-                ErrorCode::outOfMemory,
-                because::inWords(fmt::format("the volume needs {} MB, but only {} MB are allowed",
-                                             (m_held >> 20) + 1, m_options.memory >> 20)),
-                m_options.input.path);
-        m_fields = fieldsFor(m_scene, volume(), m_segments, m_context);
-        m_whyEmpty = whyEmpty(m_scene, volume(), m_fields);
-        // If the program asked for more than is available, the system would kill it.
-        m_budget.bytes = system::availableMemoryBytes();
-        m_budget.bytes -= std::min(m_budget.bytes, forLight); // not allocated yet
-        if (isMemoryGiven())
-            m_budget.bytes = std::min(m_budget.bytes, std::size_t(m_options.memory - m_held));
-        m_fieldMs = watch.lapMs();
+    // The list has a size and a pixel of its own, unless options name others.
+    void placeViews() {
+        scene::Camera &camera = m_scene.camera;
+        if (m_views.size && m_command.count("--size") == 0)
+            camera.width = (*m_views.size)[0], camera.height = (*m_views.size)[1];
+        if (m_views.pixelMm && m_command.count("--pixel-mm") == 0)
+            camera.pixelMm = *m_views.pixelMm;
+        const scene::Camera base = camera;
+        for (const scene::ViewList::View &view : m_views.views)
+            m_cameras.push_back(scene::cameraOf(view, base, volume().lattice()));
+        // The plan is for pictures of this pixel.
+        camera.pixelMm = m_cameras.front().pixelMm;
     }
 
     void prepare() {
-        Stopwatch watch;
-        try {
-            m_renderer.reset();
-            if (m_fields.channels.empty()) // this is not the first plan
-                m_fields = fieldsFor(m_scene, volume(), m_segments, m_context);
-            // Another plan may need them, and steps of classes take long.
-            classify::ShownFields fields = m_fields;
-            if (!classify::haveRegions(m_scene.look.classes))
-                m_fields = {};
-            m_renderer.emplace(m_planned, std::move(fields), m_budget, m_context);
-            m_renderer->use(m_card);
-        } catch (const Error &error) {
-            if (error.code() != ErrorCode::outOfMemory || !isMemoryGiven())
-                throw;
-            throw Error(error.code(),
-                        because::inWords(fmt::format(
-                            "{}; the volume and its fields take {} of {} MB",
-                            error.reason().english(), m_held >> 20, m_options.memory >> 20)),
-                        m_options.input.path);
-        }
-        m_prepareMs += watch.lapMs();
-    }
-
-    void warnOfFields() {
-        if (m_renderer->isReduced())
-            warn(m_renderer->reason());
+        const bool isGiven = m_command.count("--memory") > 0;
+        m_renderer.emplace(
+            m_scene, Subject{volume(), m_segments, m_options.input.path},
+            MemoryLimit{isGiven ? std::optional(m_options.memory) : std::nullopt, isGiven}, m_card,
+            m_context);
         for (const std::string &text : lookWarnings(m_command, m_preset, m_scene, volume()))
             warn(text);
-        if (!m_whyEmpty.empty())
-            warn(m_whyEmpty);
-        // `reference` selects the exact method; its nominal tolerance is no target.
-        if (m_renderer->predictedError() > m_scene.tolerance &&
-            !(m_renderer->isExact() && m_scene.tolerance == scene::referenceTolerance))
-            warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted",
-                             m_scene.tolerance, m_renderer->predictedError()));
+        for (const std::string &text : m_renderer->warnings())
+            warn(text);
     }
 
     void renderFrames() {
@@ -173,16 +152,13 @@ private:
         if (isTurntable())
             turn.emplace(m_outs.front());
         for (int frame = 0; frame < frames(); ++frame) {
-            task::Progress(m_context.stop).check();
             scene::Scene turned = m_scene;
             turned.camera.orientation =
                 glm::angleAxis(glm::radians(360.0 * frame / frames()), glm::dvec3(0, 0, 1)) *
                 m_scene.camera.orientation;
-            const picture::ProjectionImage image = imageOf(turned.camera);
-            takeErrors(frame == 0);
-            if (isDisplayed(m_options.out) && !m_scene.tone.exposure)
-                m_scene.tone.exposure = m_renderer->exposure(picture::backgroundOf(volume()));
-            turned.tone = m_scene.tone;
+            const picture::ProjectionImage image = m_renderer->image(turned.camera);
+            if (isDisplayed(m_options.out))
+                turned.tone.exposure = m_renderer->exposure();
             task::Progress(m_context.stop).check();
             Stopwatch watch;
             labels.instanceNumber = frame + 1;
@@ -194,60 +170,47 @@ private:
             turn->commit();
     }
 
-    // The plan is for the whole volume. The error of a part that contains little is known only
-    // after rendering it; if it misses the tolerance, plan again with a smaller one.
-    picture::ProjectionImage imageOf(const scene::Camera &camera) {
-        picture::ProjectionImage image = m_renderer->image(camera, m_times);
-        for (int tries = 0; tries < 3 && mayPlanCloser(*m_renderer, m_scene); ++tries) {
-            m_planned.tolerance *= 0.8 * m_scene.tolerance / m_renderer->lastViewError();
-            prepare();
-            image = m_renderer->image(camera, m_times);
+    // The pictures of all views as one array, and beside it where each was seen from.
+    void renderViews(const fs::path &out) {
+        std::vector<std::size_t> shape{m_cameras.size(), std::size_t(m_scene.camera.height),
+                                       std::size_t(m_scene.camera.width)};
+        if (!classify::isGrey(m_scene.look) || !m_scene.shading.isGrey())
+            shape.push_back(3);
+        files::FileSet both(out);
+        files::NpyFile stack(both.aside(out), shape);
+        json views = json::array();
+        for (const scene::Camera &camera : m_cameras) {
+            const picture::ProjectionImage image = m_renderer->image(camera);
+            Stopwatch watch;
+            stack.write(image.samples);
+            m_writeMs += watch.lapMs();
+            views.push_back(geometryJson(camera, volume().lattice()));
+            views.back()["predicted_error"] = m_renderer->renderer().lastViewError();
         }
-        return image;
-    }
-
-    void takeErrors(bool isFirst) {
-        m_viewError = std::max(m_viewError, m_renderer->lastViewError());
-        m_isWhole = isFirst || m_isWhole == true ? m_renderer->wasWhole() : m_isWhole;
-        const std::optional<double> here = m_renderer->predictedMaximum();
-        m_maximum = here && (isFirst || m_maximum)
-                        ? std::optional(std::max(*here, m_maximum.value_or(0.0)))
-                        : std::nullopt;
-    }
-
-    void warnOfView() {
-        const bool isMissed =
-            m_viewError > m_scene.tolerance && m_renderer->predictedError() <= m_scene.tolerance;
-        if (!isMissed)
-            return;
-        warn(m_isWhole == false
-                 ? fmt::format("the tolerance of {:.2g} is met for the whole volume, but {:.2g} is "
-                               "predicted for this part",
-                               m_scene.tolerance, m_viewError)
-                 : fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted for this "
-                               "picture",
-                               m_scene.tolerance, m_viewError));
+        stack.commit();
+        writeGeometry(both.aside(geometryPath(out)), m_scene.camera, views);
+        both.commit();
     }
 
     void print() const {
         json skipped = json::array();
         for (const auto &s : m_input.skipped)
             skipped.push_back({{"path", s.path.string()}, {"reason", s.reason.english()}});
-        std::puts(jsonText({{"engine", m_renderer->description()},
-                            {"device", m_renderer->isOnCard() ? "gpu" : "cpu"},
-                            {"engine_reason", m_renderer->engineReason()},
+        std::puts(jsonText({{"engine", m_renderer->renderer().description()},
+                            {"device", m_renderer->renderer().isOnCard() ? "gpu" : "cpu"},
+                            {"engine_reason", m_renderer->renderer().engineReason()},
                             {"size", {m_scene.camera.width, m_scene.camera.height}},
                             {"pixel_mm", m_scene.camera.pixelMm},
                             {"frames", frames()},
                             {"volume", volumeJson()},
                             {"segmentations", segmentationsJson()},
                             {"registration", registrationJson()},
-                            {"window", {m_window.low, m_window.high}},
+                            {"window", {m_renderer->window().low, m_renderer->window().high}},
                             {"shading", json::parse(shading::toJson(m_scene.shading))},
                             {"milliseconds", timesJson()},
-                            {"bytes", m_renderer->bytes()},
-                            {"card_bytes", m_renderer->cardBytes()},
-                            {"plan", m_renderer->planJson(m_times)},
+                            {"bytes", m_renderer->renderer().bytes()},
+                            {"card_bytes", m_renderer->renderer().cardBytes()},
+                            {"plan", m_renderer->renderer().planJson(m_renderer->times())},
                             {"tolerance", m_scene.tolerance},
                             {"predicted_error", errorJson()},
                             {"warnings", m_warnings},
@@ -291,16 +254,19 @@ private:
     }
 
     json timesJson() const {
-        return {{"scan", m_input.scanMs},     {"load", m_input.loadMs},
-                {"field", m_fieldMs},         {"prepare", m_prepareMs},
-                {"slice", m_times.sliceMs},   {"transform", m_times.transformMs},
-                {"frame", m_times.totalMs()}, {"write", m_writeMs}};
+        const picture::FrameTimes &times = m_renderer->times();
+        return {{"scan", m_input.scanMs},         {"load", m_input.loadMs},
+                {"field", m_renderer->fieldMs()}, {"prepare", m_renderer->prepareMs()},
+                {"slice", times.sliceMs},         {"transform", times.transformMs},
+                {"frame", times.totalMs()},       {"write", m_writeMs}};
     }
 
     json errorJson() const {
-        return {{"relative_l2", m_viewError},
-                {"maximum", m_maximum ? json(*m_maximum) : json(nullptr)},
-                {"whole", m_isWhole ? json(*m_isWhole) : json(nullptr)}};
+        const std::optional<double> maximum = m_renderer->largestMaximum();
+        const std::optional<bool> areWhole = m_renderer->wereWhole();
+        return {{"relative_l2", m_renderer->largestError()},
+                {"maximum", maximum ? json(*maximum) : json(nullptr)},
+                {"whole", areWhole ? json(*areWhole) : json(nullptr)}};
     }
 
     const Options &m_options;
@@ -313,19 +279,10 @@ private:
     std::shared_ptr<const segment::SegmentSet> m_segments; ///< of --segmentation, or null
     std::vector<std::string> m_warnings;
     scene::Scene m_scene;
-    scene::Scene m_planned; ///< with a smaller tolerance, if a part of the volume needs one
-    classify::FieldWindow m_window;
-    std::size_t m_held = 0;         ///< bytes of the volume, its fields and their preparation
-    classify::ShownFields m_fields; ///< until the renderer takes them; with steps, longer
-    std::string m_whyEmpty;         ///< a warning, or empty
-    plan::Budget m_budget;
-    std::optional<Renderer> m_renderer; ///< refers to the planned scene
-    double m_fieldMs = 0.0, m_prepareMs = 0.0, m_writeMs = 0.0;
-    picture::FrameTimes m_times; ///< of the last frame
-    // For all frames together.
-    double m_viewError = 0.0;
-    std::optional<bool> m_isWhole;
-    std::optional<double> m_maximum; ///< if every frame shows the whole volume
+    scene::ViewList m_views;              ///< of --matrix
+    std::vector<scene::Camera> m_cameras; ///< of the views
+    std::optional<SceneRenderer> m_renderer;
+    double m_writeMs = 0.0;
 };
 
 } // namespace
@@ -362,6 +319,11 @@ void addRenderCommand(CLI::App &app, const Context &context) {
                 "Render one turn about the patient's long axis; file names get the frame number")
             ->needs(frames);
     frames->needs(turntable);
+    c->add_option("--matrix", o->views,
+                  "Views from a JSON file: 3x4 matrices of parallel projections, or angles of a "
+                  "C-arm; writes one array (.npy), and the geometry of each view beside it (.json)")
+        ->check(notEmpty())
+        ->excludes(turntable);
     c->add_flag("--deidentify", o->isDeidentified,
                 "Remove the patient's identity from the .dcm (PS3.15, basic profile)");
     c->add_flag("--json", o->json, "Print a report as one JSON object");

@@ -19,6 +19,11 @@ struct CaptureLabels {
     std::string studyUid, studyDate, studyDescription;
     /// The same for all pictures of one series; empty: a new series.
     std::string seriesUid;
+    /// Empty: a new one.
+    std::string instanceUid;
+    /// Whether the file tells when it was made. Without it, and with given UIDs, two runs write the
+    /// same bytes.
+    bool isDated = true;
     std::string seriesDescription = "Projection";
     std::string derivation = "Fourier volume rendering, parallel projection";
     int seriesNumber = 9001, instanceNumber = 1;

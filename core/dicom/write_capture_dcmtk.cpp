@@ -57,12 +57,16 @@ void putIdentity(DcmDataset &d, const CaptureLabels &labels, const char *sopClas
     put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
     put(d, DCM_ImageType, "DERIVED\\SECONDARY");
     put(d, DCM_SOPClassUID, sopClass);
-    put(d, DCM_SOPInstanceUID, labels.isDeidentified ? randomUid() : newUid(UidKind::instance));
+    put(d, DCM_SOPInstanceUID,
+        !labels.instanceUid.empty() ? labels.instanceUid
+        : labels.isDeidentified     ? randomUid()
+                                    : newUid(UidKind::instance));
     put(d, DCM_StudyDate, labels.studyDate);
     put(d, DCM_StudyTime, "");
     // The date of the picture would reveal the date of the visit.
-    put(d, DCM_ContentDate, labels.isDeidentified ? "" : now("%Y%m%d"));
-    put(d, DCM_ContentTime, labels.isDeidentified ? "" : now("%H%M%S"));
+    const bool isDated = labels.isDated && !labels.isDeidentified;
+    put(d, DCM_ContentDate, isDated ? now("%Y%m%d") : "");
+    put(d, DCM_ContentTime, isDated ? now("%H%M%S") : "");
     if (labels.isDeidentified) {
         put(d, DCM_PatientIdentityRemoved, "YES");
         put(d, DCM_DeidentificationMethod, "Attributes of patient and study removed by Pellucid");

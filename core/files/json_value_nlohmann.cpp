@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/files/json_value_nlohmann.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -11,6 +12,27 @@ namespace because = task::because;
 
 bool JsonValue::isObject() const {
     return m_json != nullptr && m_json->is_object();
+}
+
+bool JsonValue::isList() const {
+    return m_json != nullptr && m_json->is_array();
+}
+
+bool JsonValue::isText() const {
+    return m_json != nullptr && m_json->is_string();
+}
+
+void JsonValue::requireOnly(std::initializer_list<const char *> names) const {
+    std::string known;
+    for (const char *const name : names)
+        known += (known.empty() ? "" : ", ") + std::string(name);
+    for (const auto &[name, value] : members())
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            value.refuse(because::isNoneOf(name, known));
+}
+
+std::string JsonValue::dumped() const {
+    return m_json == nullptr ? std::string() : m_json->dump();
 }
 
 JsonValue JsonValue::operator[](const std::string &name) const {
@@ -93,6 +115,13 @@ std::array<double, 3> JsonValue::threeNumbers(double largest) const {
 
 std::array<double, 4> JsonValue::fourNumbers() const {
     return numbersOf<4>(largestNumber, because::mustBeFourNumbers);
+}
+
+int JsonValue::wholeNumber(int least, int most) const {
+    const double value = number();
+    if (value != std::floor(value) || value < least || value > most)
+        refuse(because::mustBeWhole(least, most));
+    return int(value);
 }
 
 bool JsonValue::boolean() const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <exception>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,12 @@ public:
     /// Whether it is present.
     explicit operator bool() const { return m_json != nullptr; }
     bool isObject() const;
+    bool isList() const;
+    bool isText() const;
+    /// For objects only: refuses the first member that has none of these names, as misspelt.
+    void requireOnly(std::initializer_list<const char *> names) const;
+    /// The value itself, as JSON.
+    std::string dumped() const;
 
     /// For lists only.
     std::size_t size() const;
@@ -53,6 +60,15 @@ public:
     std::array<double, 2> twoNumbers() const;
     std::array<double, 3> threeNumbers(double largest = largestNumber) const;
     std::array<double, 4> fourNumbers() const;
+    int wholeNumber(int least, int most) const;
+    template <std::size_t N> std::array<int, N> wholeNumbers(int least, int most) const {
+        std::array<int, N> values{};
+        if (size() != N)
+            refuse(task::because::mustHaveElements(N));
+        for (std::size_t n = 0; n < N; ++n)
+            values[n] = at(n).wholeNumber(least, most);
+        return values;
+    }
     bool boolean() const;
     std::string text() const;
     /// The meaning of a word.

@@ -2,6 +2,8 @@
 #include "core/picture/compose.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <optional>
 
 #include <tbb/blocked_range.h>
@@ -55,6 +57,24 @@ Pixels compose(const ProjectionImage &image, const Display &display, PixelOrder 
                           }
                       });
     return bytes;
+}
+
+std::vector<std::uint16_t> greyOf(const ProjectionImage &image, const Display &display,
+                                  bool isWhole) {
+    assert(image.channels == 1);
+    ToneRange range = display.range;
+    if (isWhole)
+        range.high = std::max(
+            range.high, double(*std::max_element(image.samples.begin(), image.samples.end())));
+    constexpr double white = 65535.0;
+    const double scale = white / (range.high - range.low);
+    std::vector<std::uint16_t> grey;
+    grey.reserve(image.samples.size());
+    for (const float sample : image.samples) {
+        const double value = std::clamp((double(sample) - range.low) * scale, 0.0, white);
+        grey.push_back(std::uint16_t(std::lround(display.inverted ? white - value : value)));
+    }
+    return grey;
 }
 
 } // namespace pellucid::picture

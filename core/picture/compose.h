@@ -25,4 +25,10 @@ Samples brightnessOf(const ProjectionImage &image);
 Pixels compose(const ProjectionImage &image, const Display &display,
                PixelOrder order = PixelOrder::rgba);
 
+/// Grey in 16 bits, linear from the lower to the upper end of the range, as the values are
+/// measured. *Shape*: height x width. `isWhole`: the range is extended, so that no high value is
+/// cut off. *Requires*: one channel.
+std::vector<std::uint16_t> greyOf(const ProjectionImage &image, const Display &display,
+                                  bool isWhole);
+
 } // namespace pellucid::picture

@@ -14,10 +14,10 @@
 #include <fmt/format.h>
 
 #include "core/preprocess/class_region.h"
-#include "core/preprocess/content_digest.h"
 #include "core/preprocess/coverage_where.inc"
 #include "core/preprocess/step_result.h"
 #include "core/segment/coverages.h"
+#include "core/system/content_digest.h"
 #include "core/task/error.h"
 
 namespace pellucid::preprocess {
@@ -41,7 +41,7 @@ std::string geometryText(const volume::Lattice &l) {
 
 std::string identity(const volume::Volume &volume) {
     const std::string samples =
-        volume.visit([](auto s) { return contentDigest(std::as_bytes(s)); });
+        volume.visit([](auto s) { return system::contentDigest(std::as_bytes(s)); });
     return fmt::format("{} {} {}", samples, geometryText(volume.lattice()), int(volume.unit()));
 }
 
@@ -235,7 +235,7 @@ private:
         add(m_volume.lattice().origin());
         // Strokes can be long, and the store compares keys one by one.
         return classify::describe(step.kind).name + " " +
-               contentDigest(std::as_bytes(std::span(text)));
+               system::contentDigest(std::as_bytes(std::span(text)));
     }
 
     std::string contentText(const TissueClass &tissue) const {

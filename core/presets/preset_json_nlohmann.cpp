@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <map>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "core/classify/look_json.h"
-#include "core/files/json_value_nlohmann.h"
+#include "core/files/json_lines_nlohmann.h"
 #include "core/presets/preset.h"
 #include "core/task/error.h"
 
@@ -17,130 +15,11 @@ namespace {
 namespace because = task::because;
 using files::JsonValue;
 using nlohmann::json;
-using task::Error;
-using task::ErrorCode;
 
 // The first schema kept the thresholds of `binarise` steps in values, also beside shares of the
 // window.
 constexpr const char *schema = "pellucid-preset/2", *firstSchema = "pellucid-preset/1";
 constexpr int longestName = 80; // characters
-
-// Reads a text and counts lines. The parser reads one character beyond a number, so a line ends
-// only when the first character of the next one is read.
-struct LineReader {
-    using iterator_category = std::forward_iterator_tag;
-    using value_type = char;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const char *;
-    using reference = const char &;
-
-    const char *at = nullptr, *begin = nullptr;
-    int *line = nullptr;
-
-    reference operator*() const { return *at; }
-    LineReader &operator++() {
-        if (at != begin && at[-1] == '\n')
-            ++*line;
-        ++at;
-        return *this;
-    }
-    LineReader operator++(int) {
-        LineReader before = *this;
-        ++*this;
-        return before;
-    }
-    bool operator==(const LineReader &other) const { return at == other.at; }
-};
-
-// The line of every value, by JSON pointer.
-class Lines : public json::json_sax_t {
-public:
-    explicit Lines(const std::string &text) {
-        const char *const first = text.data();
-        json::sax_parse(LineReader{first, first, &m_line},
-                        LineReader{first + text.size(), first, &m_line}, this);
-    }
-    // The line of a value, or of the nearest enclosing one.
-    int of(std::string pointer) const {
-        for (;;) {
-            const auto found = m_lines.find(pointer);
-            if (found != m_lines.end())
-                return found->second;
-            const auto slash = pointer.rfind('/');
-            if (slash == std::string::npos)
-                return 1;
-            pointer.resize(slash);
-        }
-    }
-    // Where and why parsing stopped; empty if it did not.
-    const std::string &failure() const { return m_failure; }
-
-    bool null() override { return value(); }
-    bool boolean(bool) override { return value(); }
-    bool number_integer(number_integer_t) override { return value(); }
-    bool number_unsigned(number_unsigned_t) override { return value(); }
-    bool number_float(number_float_t, const string_t &) override { return value(); }
-    bool string(string_t &) override { return value(); }
-    bool binary(binary_t &) override { return value(); }
-    bool start_object(std::size_t) override { return open(false); }
-    bool start_array(std::size_t) override { return open(true); }
-    bool end_object() override { return close(); }
-    bool end_array() override { return close(); }
-    bool key(string_t &name) override {
-        m_levels.back().key = name;
-        return true;
-    }
-    bool parse_error(std::size_t, const std::string &, const json::exception &error) override {
-        // "parse error at line 3, column 5: what", or "what".
-        m_failure = files::jsonFault(error);
-        if (m_failure.rfind("parse error at", 0) == 0)
-            m_failure = m_failure.substr(m_failure.find(": ") + 2);
-        return false;
-    }
-    int line() const { return m_line; }
-
-private:
-    struct Level {
-        bool isArray = false;
-        std::size_t index = 0;
-        std::string key;
-    };
-    std::string pointer() const {
-        std::string text;
-        for (const Level &level : m_levels)
-            text += "/" + (level.isArray ? std::to_string(level.index) : level.key);
-        return text;
-    }
-    void next() {
-        if (!m_levels.empty() && m_levels.back().isArray)
-            ++m_levels.back().index;
-    }
-    bool value() {
-        m_lines[pointer()] = m_line;
-        next();
-        return true;
-    }
-    bool open(bool isArray) {
-        // No preset is nested deeper.
-        if (m_levels.size() >= 32) {
-            m_failure = "it is nested too deeply";
-            return false;
-        }
-        m_lines[pointer()] = m_line;
-        m_levels.push_back({isArray, 0, {}});
-        return true;
-    }
-    bool close() {
-        m_levels.pop_back();
-        next();
-        return true;
-    }
-
-    int m_line = 1;
-    std::vector<Level> m_levels;
-    std::map<std::string, int> m_lines;
-    std::string m_failure;
-};
 
 std::string textOrEmpty(const JsonValue &in) {
     return in ? in.text() : std::string();
@@ -212,17 +91,7 @@ json joined(const json &former, json known) {
 } // namespace
 
 Preset presetFromJson(const std::string &text) {
-    const Lines lines(text);
-    if (!lines.failure().empty())
-        throw Error(ErrorCode::unusable, because::atLine(lines.line(), lines.failure()));
-    try {
-        const json in = json::parse(text);
-        return parsed(JsonValue(in), text);
-    } catch (const Error &error) {
-        const task::Reason &reason = error.reason();
-        throw Error(ErrorCode::unusable,
-                    because::atLine(lines.of(files::jsonPointer(reason)), reason));
-    }
+    return files::readJson(text, [&](const JsonValue &in) { return parsed(in, text); });
 }
 
 std::string toJson(const Preset &preset) {

@@ -16,8 +16,8 @@
 #include <QTimer>
 
 #include "core/decoder/read_volume_file.h"
+#include "core/files/video_file.h"
 #include "tests/support/files.h"
-#include "ui/export/video_writer.h"
 
 namespace pellucid {
 
@@ -267,7 +267,7 @@ private slots:
     }
 
     void aVideoIsWrittenWithFfmpeg() {
-        QVERIFY2(ui::VideoWriter::isAvailable(), "ffmpeg is missing: ./dev deps installs it");
+        QVERIFY2(files::VideoFile::isAvailable(), "ffmpeg is missing: ./dev deps installs it");
         dialogFor("Projection", 6, 1, true);
         const QString path = find<QLineEdit>("exportPathEdit")->text();
         find<QSpinBox>("exportFramesBox")->setValue(10);

@@ -19,10 +19,10 @@
 #include "core/archive/sending.h"
 #include "core/dicom/scan.h"
 #include "core/files/session_folder.h"
+#include "core/files/video_file.h"
 #include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/export/capture_labels.h"
-#include "ui/export/video_writer.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/jobs/job_strip.h"
 #include "ui/language/reasons.h"
@@ -63,7 +63,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     setWindowTitle(tr("Export picture"));
     setAttribute(Qt::WA_DeleteOnClose);
     m_pane->setCurrentIndex(int(Pane::projection));
-    if (!VideoWriter::isAvailable())
+    if (!files::VideoFile::isAvailable())
         m_format->setItemText(int(PictureFormat::video),
                               tr("Turntable, video (MP4): install ffmpeg first"));
     m_annotated->setObjectName("exportAnnotatedBox");

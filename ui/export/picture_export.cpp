@@ -14,6 +14,7 @@
 #include "core/files/atomic_file.h"
 #include "core/files/file_set.h"
 #include "core/files/image_files.h"
+#include "core/files/video_file.h"
 #include "core/picture/compose.h"
 #include "core/picture/projection_volume.h"
 #include "core/scene/positioner_angles.h"
@@ -22,7 +23,6 @@
 #include "ui/document/document.h"
 #include "ui/export/capture_labels.h"
 #include "ui/export/scene_files.h"
-#include "ui/export/video_writer.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
 
@@ -34,26 +34,6 @@ namespace because = task::because;
 namespace fs = std::filesystem;
 
 constexpr int framesPerSecond = 25;
-
-// Linear from the lower to the upper end of the window, as the grey values are measured.
-QImage sixteenBits(const picture::ProjectionImage &image, const picture::Display &display,
-                   bool isAutomatic) {
-    QImage out(image.width, image.height, QImage::Format_Grayscale16);
-    picture::ToneRange range = display.range;
-    if (isAutomatic) // no value is cut off
-        range.high = std::max(
-            range.high, double(*std::max_element(image.samples.begin(), image.samples.end())));
-    const double scale = 65535.0 / (range.high - range.low);
-    for (int r = 0; r < image.height; ++r) {
-        auto *const row = reinterpret_cast<quint16 *>(out.scanLine(r));
-        const float *const in = image.samples.data() + std::size_t(r) * std::size_t(image.width);
-        for (int c = 0; c < image.width; ++c) {
-            const double v = std::clamp((double(in[c]) - range.low) * scale, 0.0, 65535.0);
-            row[c] = quint16(std::lround(display.inverted ? 65535.0 - v : v));
-        }
-    }
-    return out;
-}
 
 QImage onScreen(const picture::ProjectionImage &image, const picture::Display &display) {
     const auto rgba = picture::compose(image, display);
@@ -218,10 +198,12 @@ void ProjectionJob::run(const task::Progress &progress) const {
         write(picture(0), what.format, path, labels, isGrey);
         break;
     case PictureFormat::png16:
-        writePictureFile(path,
-                         sixteenBits(render(scene.camera),
-                                     picture::plainDisplayOf(scene.tone, scene.camera.orientation),
-                                     !scene.tone.high));
+        files::writePng16(
+            file,
+            picture::greyOf(render(scene.camera),
+                            picture::plainDisplayOf(scene.tone, scene.camera.orientation),
+                            !scene.tone.high),
+            scene.camera.height, scene.camera.width);
         break;
     case PictureFormat::npy: {
         const picture::ProjectionImage image = render(scene.camera);
@@ -242,8 +224,10 @@ void ProjectionJob::run(const task::Progress &progress) const {
         break;
     }
     case PictureFormat::video: {
-        VideoWriter video(path, {scene.camera.width, scene.camera.height}, framesPerSecond);
-        everyFrame(progress, [&](const QImage &frame, int) { video.add(frame, progress); });
+        files::VideoFile video(file, scene.camera.width, scene.camera.height, framesPerSecond);
+        everyFrame(progress, [&](const QImage &frame, int) {
+            video.add(bytesOf(frame.convertToFormat(QImage::Format_RGBA8888)), progress);
+        });
         video.finish(progress);
         break;
     }
@@ -362,7 +346,7 @@ std::optional<task::Reason> obstacle(const PictureExport &what, const Panes &pan
         return because::valuesOfTheProjectionOnly;
     if (isPlane && what.isTurn())
         return because::onlyTheProjectionTurns;
-    if (what.format == PictureFormat::video && !VideoWriter::isAvailable())
+    if (what.format == PictureFormat::video && !files::VideoFile::isAvailable())
         return because::videosNeedFfmpeg;
     const scene::Scene &scene = document.scene();
     const bool isGrey = classify::isGrey(scene.look) && scene.shading.isGrey();

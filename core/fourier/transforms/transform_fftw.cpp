@@ -164,6 +164,12 @@ void keepWisdomIn(const std::filesystem::path &file) {
     readWisdom(file);
 }
 
+void estimatePlans() {
+    const std::lock_guard lock(plannerMutex());
+    wisdomFile().clear();
+    fftwf_forget_wisdom();
+}
+
 struct ForwardTransform1d::Plan {
     fftwf_plan plan;
 };

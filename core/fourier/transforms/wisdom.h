@@ -10,4 +10,8 @@ namespace pellucid::fourier {
 /// measured. Before this call, and if the file cannot be written, plans are estimated.
 void keepWisdomIn(const std::filesystem::path &file);
 
+/// Plans are estimated from now on, and forgotten as far as they were measured: then every run on a
+/// processor of the same kind gives the same bits.
+void estimatePlans();
+
 } // namespace pellucid::fourier

@@ -11,7 +11,7 @@
 
 #include "core/classify/shown_fields.h"
 #include "core/phantom/phantom.h"
-#include "core/preprocess/content_digest.h"
+#include "core/system/content_digest.h"
 #include "core/task/error.h"
 
 namespace pellucid {
@@ -35,12 +35,12 @@ TissueClass bone(std::vector<classify::Step> steps) {
 
 TEST(ContentDigest, IsXxh3With128Bits) {
     // The published test value for no bytes.
-    EXPECT_EQ(preprocess::contentDigest({}), "99aa06d3014798d86001c324468d497f");
+    EXPECT_EQ(system::contentDigest({}), "99aa06d3014798d86001c324468d497f");
     std::vector<std::byte> bytes(1000);
-    const std::string zeros = preprocess::contentDigest(bytes);
+    const std::string zeros = system::contentDigest(bytes);
     bytes[999] = std::byte{1};
-    EXPECT_NE(preprocess::contentDigest(bytes), zeros);
-    EXPECT_NE(preprocess::contentDigest(std::span(bytes).first(999)), zeros);
+    EXPECT_NE(system::contentDigest(bytes), zeros);
+    EXPECT_NE(system::contentDigest(std::span(bytes).first(999)), zeros);
 }
 
 TEST(StepCache, ComputesByContentOnce) {

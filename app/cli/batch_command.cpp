@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+
+#include "app/cli/batch_sources.h"
+#include "app/cli/commands.h"
+#include "app/cli/input.h"
+#include "app/cli/json_text.h"
+#include "app/cli/servers.h"
+#include "app/cli/terminal.h"
+#include "core/archive/sending.h"
+#include "core/batch/study_results.h"
+#include "core/files/atomic_file.h"
+#include "core/files/user_folders.h"
+#include "core/files/video_file.h"
+#include "core/fourier/transforms/wisdom.h"
+#include "core/system/memory.h"
+#include "core/task/error.h"
+#include "core/task/naming.h"
+
+namespace pellucid::cli {
+
+namespace {
+
+namespace because = task::because;
+namespace fs = std::filesystem;
+using batch::DoneRecord;
+using nlohmann::json;
+using task::Error;
+using task::ErrorCode;
+
+struct Options {
+    std::string recipe, from, out, sendTo, shard, engine = "auto";
+    std::vector<std::string> paths, terms;
+    int jobs = 2, threads = 0;
+    std::uint64_t memory = 0;
+    bool resumes = false, json = false;
+};
+
+struct Shard {
+    int index = 0, count = 1;
+};
+
+// "I/N": part I of N, from 0 as Slurm counts tasks.
+Shard shardFrom(const std::string &text) {
+    if (text.empty())
+        return {};
+    const auto n = parseNumbers("--shard", text, '/', 2);
+    constexpr double most = 1e6;
+    if (n[0] != std::floor(n[0]) || n[1] != std::floor(n[1]) || n[0] < 0 || n[1] < 1 ||
+        n[0] >= n[1] || n[1] > most)
+        throw Error(ErrorCode::usage,
+                    because::inWords("--shard: '" + text +
+                                     "' is not I/N with I from 0 to N - 1, such as 0/4"));
+    return {int(n[0]), int(n[1])};
+}
+
+archive::SearchTerms termsFrom(const std::vector<std::string> &texts) {
+    archive::SearchTerms terms;
+    const std::pair<const char *, std::string *> names[]{
+        {"name", &terms.patientName},  {"id", &terms.patientId},   {"date", &terms.date},
+        {"modality", &terms.modality}, {"study", &terms.studyUid}, {"accession", &terms.accession}};
+    for (const std::string &text : texts) {
+        const auto equals = text.find('=');
+        const auto *const known =
+            std::find_if(std::begin(names), std::end(names),
+                         [&](const auto &one) { return text.substr(0, equals) == one.first; });
+        if (equals == std::string::npos || known == std::end(names))
+            throw Error(ErrorCode::usage,
+                        because::inWords("--find: '" + text +
+                                         "' is not TERM=VALUE with one of the terms name, id, "
+                                         "date, modality, study and accession"));
+        *known->second = text.substr(equals + 1);
+    }
+    archive::queryOf(terms, 0); // makes sense
+    return terms;
+}
+
+// What a recipe needs, before any work.
+void requirePossible(const batch::Recipe &recipe, bool isSent) {
+    bool hasCapture = false;
+    for (const batch::Output &output : recipe.outputs) {
+        if (output.format == batch::Format::video && !files::VideoFile::isAvailable())
+            throw Error(ErrorCode::usage, because::videosNeedFfmpeg);
+        hasCapture = hasCapture || output.format == batch::Format::capture ||
+                     output.format == batch::Format::captureLoop;
+    }
+    if (isSent && !hasCapture)
+        throw Error(ErrorCode::usage,
+                    because::inWords("--send: the recipe has no output that a server stores: "
+                                     "format dicom or dicom-loop"));
+}
+
+class BatchRun {
+public:
+    BatchRun(const Options &options, const Context &caller)
+        : m_options(options), m_context{m_stop.get_token()},
+          m_forward(caller.stop, [this] { m_stop.request_stop(); }), m_caller(caller) {}
+
+    void run() {
+        Stopwatch watch;
+        const Shard shard = shardFrom(m_options.shard);
+        m_recipe = batch::readRecipe(m_options.recipe);
+        requirePossible(m_recipe, !m_options.sendTo.empty());
+        choosePlace();
+        // The same bits in every run: plans that are measured depend on the moment.
+        fourier::estimatePlans();
+        std::optional<tbb::global_control> threads;
+        if (m_options.threads > 0)
+            threads.emplace(tbb::global_control::max_allowed_parallelism,
+                            std::size_t(m_options.threads));
+        constexpr int several = 1000; // pictures
+        m_card = chooseCard(m_options.engine, several);
+        if (!m_options.sendTo.empty())
+            m_receiver = serverNamed(m_options.sendTo, m_context);
+        openSource();
+        m_items = m_source->list();
+        std::erase_if(m_items, [&](const BatchItem &item) {
+            return batch::shardOf(item.key, shard.count) != shard.index;
+        });
+        renderAll();
+        report(watch.lapMs() / 1000.0);
+    }
+
+private:
+    struct Failure {
+        std::string key, reason;
+    };
+
+    // With --send alone, only the records of what was sent are kept.
+    void choosePlace() {
+        m_out = m_options.out;
+        m_isKept = !m_out.empty();
+        if (!m_isKept) {
+            const auto data = files::userDataFolder();
+            if (!data)
+                throw Error(ErrorCode::output, because::noFolderForData);
+            m_out = *data / "batch" / m_recipe.digest;
+        }
+        std::error_code failed;
+        fs::create_directories(m_out, failed);
+        if (failed)
+            throw Error(ErrorCode::output, because::cannotBeMade(task::systemReason(failed)),
+                        m_out);
+        files::requireWritable(m_out);
+    }
+
+    void openSource() {
+        if (m_options.from.empty()) {
+            m_source = batchOfFiles({m_options.paths.begin(), m_options.paths.end()}, m_context);
+            return;
+        }
+        const archive::SearchTerms terms = termsFrom(m_options.terms);
+        m_source = batchOfServer(serverNamed(m_options.from, m_context), terms, m_recipe.series,
+                                 m_context);
+    }
+
+    void renderAll() {
+        const int jobs = std::max(1, std::min(m_options.jobs, int(m_items.size())));
+        const std::size_t bytes =
+            m_options.memory > 0 ? std::size_t(m_options.memory) : system::availableMemoryBytes();
+        m_memory = std::make_unique<batch::MemoryShares>(bytes, jobs);
+        {
+            std::vector<std::jthread> workers;
+            for (int n = 0; n < jobs; ++n)
+                workers.emplace_back([this] { work(); });
+        }
+        if (m_fatal)
+            std::rethrow_exception(m_fatal);
+        if (m_caller.stop.stop_requested())
+            throw task::Cancelled();
+    }
+
+    void work() {
+        for (std::size_t n = 0; !m_stop.stop_requested() && (n = m_next++) < m_items.size();) {
+            const BatchItem &item = m_items[n];
+            try {
+                naming(item.key, [&] { renderOne(item); });
+            } catch (const task::Cancelled &) {
+                return;
+            } catch (const Error &error) {
+                // Nothing can be written, not of the others either.
+                if (error.code() == ErrorCode::output) {
+                    stop();
+                    return;
+                }
+                fail(item, error.what());
+            } catch (const std::exception &error) {
+                fail(item, error.what());
+            }
+        }
+    }
+
+    void renderOne(const BatchItem &item) {
+        Stopwatch watch;
+        DoneRecord wanted;
+        wanted.program = "pellucid-cli " PELLUCID_VERSION;
+        wanted.recipe = m_recipe.digest;
+        wanted.sentTo = m_options.sendTo;
+        if (m_options.resumes) {
+            wanted.inputs = m_source->digestOf(item);
+            if (batch::isDone(m_out / item.key, wanted)) {
+                ++m_skipped;
+                return;
+            }
+        }
+        m_source->open(item, [&](const StudyToRender &study) {
+            batch::StudyResults results(m_out, item.key);
+            DoneRecord record =
+                renderStudy(m_recipe, study, results.folder(), *m_memory, m_card, m_context);
+            record.program = wanted.program;
+            record.sentTo = wanted.sentTo;
+            if (m_receiver)
+                send(results.folder());
+            if (!m_isKept)
+                for (const fs::directory_entry &made : fs::directory_iterator(results.folder()))
+                    fs::remove(made.path());
+            results.publish(record);
+            const std::lock_guard lock(m_mutex);
+            ++m_done;
+            tell(item, record, watch.lapMs() / 1000.0);
+        });
+    }
+
+    void send(const fs::path &folder) const {
+        std::vector<fs::path> captures;
+        for (const fs::directory_entry &made : fs::directory_iterator(folder))
+            if (made.path().extension() == ".dcm")
+                captures.push_back(made.path());
+        std::sort(captures.begin(), captures.end());
+        const archive::SendingReport report =
+            archive::send(*m_receiver, captures, {}, task::Progress(m_context.stop));
+        if (!report.notSent.empty())
+            throw Error(ErrorCode::incomplete, report.notSent.front().reason, m_receiver->name);
+    }
+
+    // Requires the lock.
+    void tell(const BatchItem &item, const DoneRecord &record, double seconds) const {
+        double error = 0.0;
+        std::size_t warnings = 0;
+        for (const DoneRecord::MadeOutput &output : record.outputs) {
+            error = std::max(error, output.predictedError);
+            warnings += output.warnings.size();
+            for (const std::string &warning : output.warnings)
+                warn(item.key + ": " + output.name + ": " + warning);
+        }
+        if (m_options.json)
+            return;
+        std::puts(
+            printable(fmt::format("{} of {}: {}: {} outputs in {:.2f} s, error at most {:.2g}",
+                                  m_done + m_skipped + m_failures.size(), m_items.size(), item.key,
+                                  record.outputs.size(), seconds, error))
+                .c_str());
+        std::fflush(stdout);
+    }
+
+    void fail(const BatchItem &item, const std::string &reason) {
+        const std::lock_guard lock(m_mutex);
+        m_failures.push_back({item.key, reason});
+        warn(reason.find(item.key) == std::string::npos ? item.key + ": " + reason : reason);
+    }
+
+    // In a handler of the exception.
+    void stop() {
+        const std::lock_guard lock(m_mutex);
+        if (!m_fatal)
+            m_fatal = std::current_exception();
+        m_stop.request_stop();
+    }
+
+    void report(double seconds) {
+        std::sort(m_failures.begin(), m_failures.end(),
+                  [](const Failure &a, const Failure &b) { return a.key < b.key; });
+        const std::size_t unused = m_source->skipped().size();
+        if (m_options.json) {
+            json failures = json::array();
+            for (const Failure &failure : m_failures)
+                failures.push_back({{"study", failure.key}, {"reason", failure.reason}});
+            std::puts(jsonText({{"studies", m_items.size()},
+                                {"done", m_done},
+                                {"skipped", m_skipped.load()},
+                                {"failed", failures},
+                                {"unused_files", unused},
+                                {"recipe", m_recipe.digest},
+                                {"seconds", seconds}})
+                          .c_str());
+        } else {
+            std::string text = fmt::format("{} of {} done", m_done, m_items.size());
+            if (m_skipped > 0)
+                text += fmt::format(", {} were done before", m_skipped.load());
+            if (!m_failures.empty())
+                text += fmt::format(", {} failed", m_failures.size());
+            if (unused > 0)
+                text += fmt::format("; files that are not used: {}", unused);
+            std::puts(fmt::format("{}; {:.1f} s", text, seconds).c_str());
+        }
+        if (m_items.empty() && m_options.shard.empty())
+            throw Error(ErrorCode::unusable, because::holdsNoUsableImages,
+                        m_options.from.empty() ? m_options.paths.front() : m_options.from);
+        if (!m_failures.empty())
+            throw Error(ErrorCode::incomplete,
+                        because::inWords(fmt::format("{} of {} studies failed", m_failures.size(),
+                                                     m_items.size())));
+    }
+
+    const Options &m_options;
+    std::stop_source m_stop;
+    Context m_context;
+    std::stop_callback<std::function<void()>> m_forward;
+    const Context &m_caller;
+    batch::Recipe m_recipe;
+    fs::path m_out;
+    bool m_isKept = true;
+    CardChoice m_card;
+    std::optional<archive::Server> m_receiver;
+    std::unique_ptr<BatchSource> m_source;
+    std::vector<BatchItem> m_items;
+    std::unique_ptr<batch::MemoryShares> m_memory;
+    std::atomic<std::size_t> m_next = 0, m_skipped = 0;
+    std::mutex m_mutex; ///< of what follows
+    std::size_t m_done = 0;
+    std::vector<Failure> m_failures;
+    std::exception_ptr m_fatal;
+};
+
+} // namespace
+
+void addBatchCommand(CLI::App &app, const Context &context) {
+    auto o = std::make_shared<Options>();
+    CLI::App *c = app.add_subcommand("batch", "Render many studies by one recipe");
+    c->add_option("RECIPE", o->recipe, "The recipe, a JSON file; see 'recipe'")
+        ->required()
+        ->check(notEmpty());
+    CLI::Option *paths =
+        c->add_option("PATH", o->paths, "Files, folders, DICOMDIRs and ZIP archives with studies");
+    CLI::Option *from =
+        c->add_option("--from", o->from, "Name of the server to retrieve the studies from")
+            ->check(notEmpty())
+            ->excludes(paths);
+    c->add_option("--find", o->terms,
+                  "TERM=VALUE: which studies of the server: name, id, date, modality, study, "
+                  "accession; default: all")
+        ->needs(from);
+    c->add_option("--out", o->out,
+                  "Folder for the results; each study gets a folder of its own there")
+        ->check(notEmpty());
+    c->add_option("--send", o->sendTo, "Name of the server to send the DICOM outputs to")
+        ->check(notEmpty());
+    c->add_option("--jobs", o->jobs,
+                  "Studies at the same time; default 2: one is loaded while "
+                  "another is rendered")
+        ->check(CLI::Range(1, 256));
+    c->add_option("--shard", o->shard, "I/N: only part I, from 0, of the studies in N parts");
+    c->add_flag("--resume", o->resumes,
+                "Skip the studies whose results are there, made by this recipe of the same files");
+    c->add_option("--engine", o->engine,
+                  "Engine that renders the images; default: auto, the GPU if there is one")
+        ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
+    c->add_option("--threads", o->threads, "Maximum number of threads; default: all processors")
+        ->check(CLI::Range(1, 1024));
+    c->add_option("--memory", o->memory,
+                  "Memory that all jobs share, in bytes or with a unit (2GB); default: the "
+                  "available memory")
+        ->transform(CLI::AsSizeValue(false));
+    c->add_flag("--json", o->json, "Print a report as one JSON object");
+    c->callback([o, context] {
+        if (o->paths.empty() && o->from.empty())
+            throw CLI::RequiredError("PATH or --from");
+        if (o->out.empty() && o->sendTo.empty())
+            throw CLI::RequiredError("--out or --send");
+        BatchRun(*o, context).run();
+    });
+}
+
+} // namespace pellucid::cli

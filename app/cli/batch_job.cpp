@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/batch_job.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/image_output.h"
+#include "app/cli/input.h"
+#include "app/cli/json_text.h"
+#include "app/cli/scene_renderer.h"
+#include "core/batch/derived_uid.h"
+#include "core/dicom/load_volume.h"
+#include "core/dicom/write_capture.h"
+#include "core/files/image_files.h"
+#include "core/files/video_file.h"
+#include "core/picture/compose.h"
+#include "core/picture/display.h"
+#include "core/task/error.h"
+
+namespace pellucid::cli {
+
+namespace {
+
+namespace because = task::because;
+namespace fs = std::filesystem;
+using batch::DoneRecord;
+using batch::Format;
+using batch::Output;
+using task::Error;
+using task::ErrorCode;
+
+constexpr int framesPerSecond = 25; // of videos and loops
+
+// What a plan is made for: the scene without the direction that it is seen from.
+scene::Scene subjectOf(scene::Scene scene) {
+    scene.camera.orientation = glm::dquat(1.0, 0.0, 0.0, 0.0);
+    scene.camera.panMm = {};
+    return scene;
+}
+
+// The memory that a volume and its pictures need at most, unless the plan has to be tighter: the
+// values, the field, and a spectrum of single precision with its transform.
+std::size_t bytesFor(const dicom::VolumeEntry &volume) {
+    constexpr std::size_t bytesOfVoxel = 48;
+    return bytesOfVoxel * volume.voxels();
+}
+
+class StudyRun {
+public:
+    StudyRun(const StudyToRender &study, const batch::Recipe &recipe, const fs::path &folder,
+             batch::MemoryShares &memory, const CardChoice &card, const Context &context)
+        : m_study(study), m_recipe(recipe), m_folder(folder), m_memory(memory), m_card(card),
+          m_context(context) {}
+
+    DoneRecord run() {
+        Stopwatch watch;
+        const task::Progress progress(m_context.stop);
+        const dicom::Selection selection =
+            batch::choose(m_recipe.series, m_study.patient, m_study.study);
+        const auto share = m_memory.take(bytesFor(*selection.volume), progress);
+        m_memoryBytes = share.bytes();
+        const dicom::LoadedVolume loaded = dicom::loadVolume(*selection.volume, progress);
+        if (!loaded.skipped.empty()) // a picture of a part is not what the recipe asks for
+            throw Error(ErrorCode::unusable, loaded.skipped.front().reason,
+                        m_study.catalogue.named(loaded.skipped.front().path));
+        if (!loaded.volume.notes().placed)
+            throw Error(ErrorCode::unusable, because::inWords("contains images but no volume"));
+        m_volume = &loaded.volume;
+        m_labels = dicom::captureLabels(selection);
+        m_record.recipe = m_recipe.digest;
+        m_record.inputs = m_study.inputs;
+        m_record.studyUid = m_study.study.uid;
+        m_record.seriesUid = selection.series->uid;
+        m_record.loadSeconds = watch.lapMs() / 1000.0;
+        renderAll();
+        m_record.renderSeconds = watch.lapMs() / 1000.0;
+        return std::move(m_record);
+    }
+
+private:
+    // Outputs in their order, except that those that share a preparation follow each other.
+    void renderAll() {
+        std::vector<std::pair<const Output *, scene::Scene>> scenes;
+        for (const Output &output : m_recipe.outputs)
+            scenes.emplace_back(&output, batch::sceneOf(output, *m_volume));
+        m_record.outputs.resize(scenes.size());
+        std::vector<bool> isDone(scenes.size());
+        for (std::size_t first = 0; first < scenes.size(); ++first) {
+            if (isDone[first])
+                continue;
+            const scene::Scene &scene = scenes[first].second;
+            SceneRenderer renderer(scene, Subject{*m_volume, nullptr, {}},
+                                   MemoryLimit{m_memoryBytes, false}, m_card, m_context);
+            for (std::size_t n = first; n < scenes.size(); ++n)
+                if (!isDone[n] && subjectOf(scenes[n].second) == subjectOf(scene)) {
+                    isDone[n] = true;
+                    m_record.outputs[n] = render(*scenes[n].first, scenes[n].second, renderer);
+                }
+        }
+    }
+
+    DoneRecord::MadeOutput render(const Output &output, scene::Scene scene,
+                                  SceneRenderer &renderer) {
+        DoneRecord::MadeOutput made{output.name, scene.tolerance, 0.0, renderer.warnings()};
+        if (output.look)
+            if (const auto why = presets::mismatch(*output.look, *m_volume))
+                made.warnings.push_back(why->english());
+        const bool isGrey = classify::isGrey(scene.look) && scene.shading.isGrey();
+        if (!isGrey && (output.format == Format::png16 || output.format == Format::nrrd))
+            throw Error(ErrorCode::usage, because::colorsHaveNoGreyValues);
+        if (output.format != Format::npy && output.format != Format::nrrd)
+            scene.tone.exposure = renderer.exposure();
+        const std::vector<scene::Camera> cameras =
+            batch::camerasOf(output, scene, m_volume->lattice());
+        const std::vector<std::string> files = batch::filesOf(output);
+        beginFile(output, scene, files.front(), cameras.size(), isGrey);
+        for (std::size_t view = 0; view < cameras.size(); ++view) {
+            scene.camera = cameras[view];
+            const picture::ProjectionImage image = renderer.image(scene.camera);
+            made.predictedError =
+                std::max(made.predictedError, renderer.renderer().lastViewError());
+            add(output, scene, image, files[files.size() > 1 ? view : 0], int(view));
+        }
+        endFile(output, scene, files.front());
+        if (made.predictedError > scene.tolerance && made.warnings.empty())
+            made.warnings.push_back(
+                fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted",
+                            scene.tolerance, made.predictedError));
+        return made;
+    }
+
+    dicom::CaptureLabels labelsFor(const Output &output, int view) const {
+        dicom::CaptureLabels labels =
+            output.isDeidentified ? dicom::deidentified(m_labels) : m_labels;
+        const std::string of = m_recipe.digest + m_study.inputs + m_study.study.uid + output.name;
+        labels.seriesUid = batch::derivedUid(of);
+        labels.instanceUid = batch::derivedUid(fmt::format("{} {}", of, view));
+        if (output.isDeidentified) // of nothing that others know
+            labels.studyUid = batch::derivedUid("study " + m_recipe.digest + m_study.inputs);
+        labels.isDated = false;
+        labels.seriesDescription = output.name;
+        labels.instanceNumber = view + 1;
+        return labels;
+    }
+
+    static picture::Pixels shown(const picture::ProjectionImage &image, const scene::Scene &scene) {
+        return picture::compose(image, picture::displayOf(scene.tone, scene.camera.orientation));
+    }
+
+    // Files that all views of an output share.
+    void beginFile(const Output &output, const scene::Scene &scene, const std::string &name,
+                   std::size_t views, bool isGrey) {
+        const int width = scene.camera.width, height = scene.camera.height;
+        if (output.format == Format::npy) {
+            std::vector<std::size_t> shape{std::size_t(height), std::size_t(width)};
+            if (views > 1)
+                shape.insert(shape.begin(), views);
+            if (!isGrey)
+                shape.push_back(3);
+            m_array = std::make_unique<files::NpyFile>(m_folder / name, shape);
+            m_geometry = nlohmann::json::array();
+        } else if (output.format == Format::captureLoop) {
+            if (dicom::CaptureLoop::bytesOf(int(views), height, width, isGrey) >
+                dicom::CaptureLoop::mostBytes)
+                throw Error(ErrorCode::usage,
+                            because::loopIsTooLarge(dicom::CaptureLoop::mostBytes >> 20));
+            m_loop = std::make_unique<dicom::CaptureLoop>(int(views), height, width, isGrey,
+                                                          1000.0 / framesPerSecond);
+        } else if (output.format == Format::video) {
+            m_video =
+                std::make_unique<files::VideoFile>(m_folder / name, width, height, framesPerSecond);
+        }
+    }
+
+    void add(const Output &output, const scene::Scene &scene, const picture::ProjectionImage &image,
+             const std::string &name, int view) {
+        const fs::path path = m_folder / name;
+        switch (output.format) {
+        case Format::npy:
+            m_array->write(image.samples);
+            m_geometry.push_back(geometryJson(scene.camera, m_volume->lattice()));
+            break;
+        case Format::png16:
+            files::writePng16(
+                path,
+                picture::greyOf(image,
+                                picture::plainDisplayOf(scene.tone, scene.camera.orientation),
+                                !scene.tone.high),
+                image.height, image.width);
+            break;
+        case Format::captureLoop:
+            m_loop->add(shown(image, scene));
+            break;
+        case Format::video:
+            m_video->add(shown(image, scene), task::Progress(m_context.stop));
+            break;
+        case Format::png:
+        case Format::nrrd:
+        case Format::capture:
+            writeImage(path, image, scene, m_volume->lattice(), labelsFor(output, view));
+            break;
+        }
+    }
+
+    void endFile(const Output &output, const scene::Scene &scene, const std::string &name) {
+        const fs::path path = m_folder / name;
+        if (m_array) {
+            std::exchange(m_array, nullptr)->commit();
+            writeGeometry(geometryPath(path), scene.camera, m_geometry);
+        }
+        if (m_loop)
+            std::exchange(m_loop, nullptr)->write(path, labelsFor(output, 0));
+        if (m_video)
+            std::exchange(m_video, nullptr)->finish(task::Progress(m_context.stop));
+    }
+
+    const StudyToRender &m_study;
+    const batch::Recipe &m_recipe;
+    const fs::path &m_folder;
+    batch::MemoryShares &m_memory;
+    const CardChoice &m_card;
+    const Context &m_context;
+    std::size_t m_memoryBytes = 0;
+    const volume::Volume *m_volume = nullptr;
+    dicom::CaptureLabels m_labels;
+    DoneRecord m_record;
+    std::unique_ptr<files::NpyFile> m_array;
+    nlohmann::json m_geometry;
+    std::unique_ptr<dicom::CaptureLoop> m_loop;
+    std::unique_ptr<files::VideoFile> m_video;
+};
+
+} // namespace
+
+DoneRecord renderStudy(const batch::Recipe &recipe, const StudyToRender &study,
+                       const fs::path &folder, batch::MemoryShares &memory, const CardChoice &card,
+                       const Context &context) {
+    return StudyRun(study, recipe, folder, memory, card, context).run();
+}
+
+} // namespace pellucid::cli

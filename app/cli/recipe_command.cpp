@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/commands.h"
+#include "app/cli/input.h"
+#include "app/cli/terminal.h"
+#include "core/batch/recipe.h"
+
+namespace pellucid::cli {
+
+void addRecipeCommand(CLI::App &app, const Context &) {
+    auto file = std::make_shared<std::string>();
+    CLI::App *c = app.add_subcommand("recipe", "Check and explain recipes for 'batch'");
+    c->require_subcommand(1);
+    CLI::App *check = c->add_subcommand("check", "Say whether a recipe can be used, or the line "
+                                                 "where it cannot");
+    check->add_option("RECIPE", *file, "The recipe, a JSON file")->required()->check(notEmpty());
+    check->callback([file] {
+        batch::readRecipe(*file);
+        std::puts(printable(*file + " is a recipe").c_str());
+    });
+    CLI::App *explain = c->add_subcommand("explain", "Say what a recipe makes, a line each");
+    explain->add_option("RECIPE", *file, "The recipe, a JSON file")->required()->check(notEmpty());
+    explain->callback([file] {
+        for (const std::string &line : batch::explained(batch::readRecipe(*file)))
+            std::puts(printable(line).c_str());
+    });
+}
+
+} // namespace pellucid::cli

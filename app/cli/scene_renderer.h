@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/cli/renderer.h"
+#include "core/classify/shown_fields.h"
+#include "core/picture/exposure.h"
+#include "core/scene/scene.h"
+#include "core/segment/segment_set.h"
+
+namespace pellucid::cli {
+
+/// A volume, for its pictures, and where it came from, for errors.
+struct Subject {
+    volume::Volume volume;
+    std::shared_ptr<const segment::SegmentSet> segments; ///< null if none are loaded
+    std::filesystem::path path;
+};
+
+/// The memory that pictures may take.
+struct MemoryLimit {
+    /// Bytes, the volume included; none: what the system has.
+    std::optional<std::uint64_t> bytes;
+    /// Whether the user has given them, so that errors name them.
+    bool isGiven = false;
+};
+
+/// Makes pictures of one scene, from any direction, within its tolerance: of parts of the volume,
+/// too, for which it plans again if it must.
+class SceneRenderer {
+public:
+    /// *Throws* Error{outOfMemory}, naming the path; Error{noSuchDevice}; Cancelled.
+    SceneRenderer(const scene::Scene &scene, Subject subject, const MemoryLimit &memory,
+                  const CardChoice &card, const Context &context);
+    SceneRenderer(const SceneRenderer &) = delete; // the renderer refers to the planned scene
+    SceneRenderer &operator=(const SceneRenderer &) = delete;
+
+    picture::ProjectionImage image(const scene::Camera &camera);
+    /// The scene's own exposure or, measured once, that of the study.
+    const scene::Exposure &exposure();
+
+    const Renderer &renderer() const { return *m_renderer; }
+    classify::FieldWindow window() const { return m_window; }
+    /// What cannot be kept, a line each; without what concerns single pictures.
+    std::vector<std::string> warnings() const;
+    /// The same for the pictures so far; empty if they keep the tolerance.
+    std::string warningOfViews() const;
+
+    double fieldMs() const { return m_fieldMs; }
+    double prepareMs() const { return m_prepareMs; }
+    /// Of the last picture.
+    const picture::FrameTimes &times() const { return m_times; }
+
+    /// For all pictures together: the largest predicted error, whether each showed the whole
+    /// volume, and the largest error of a pixel if so.
+    double largestError() const { return m_viewError; }
+    std::optional<bool> wereWhole() const { return m_isWhole; }
+    std::optional<double> largestMaximum() const { return m_maximum; }
+
+private:
+    void makeFields(const MemoryLimit &memory);
+    void prepare();
+    bool mayPlanCloser() const;
+    void takeErrors();
+
+    scene::Scene m_scene;
+    scene::Scene m_planned; ///< with a smaller tolerance, if a part of the volume needs one
+    Subject m_subject;
+    std::optional<std::uint64_t> m_given; ///< bytes
+    CardChoice m_card;
+    Context m_context;
+    classify::FieldWindow m_window;
+    std::size_t m_held = 0;         ///< bytes of the volume, its fields and their preparation
+    classify::ShownFields m_fields; ///< until the renderer takes them; with steps, longer
+    std::string m_whyEmpty;         ///< a warning, or empty
+    plan::Budget m_budget;
+    std::optional<Renderer> m_renderer; ///< refers to the planned scene
+    double m_fieldMs = 0.0, m_prepareMs = 0.0;
+    picture::FrameTimes m_times;
+    int m_pictures = 0;
+    double m_viewError = 0.0;
+    std::optional<bool> m_isWhole;
+    std::optional<double> m_maximum;
+};
+
+} // namespace pellucid::cli

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/batch/recipe.h"
+#include "core/files/json_lines_nlohmann.h"
+#include "core/files/read_text.h"
+#include "core/presets/preset_library.h"
+#include "core/system/content_digest.h"
+#include "core/task/error.h"
+
+namespace pellucid::batch {
+
+namespace {
+
+namespace because = task::because;
+namespace fs = std::filesystem;
+using files::JsonValue;
+using files::JsonWords;
+using nlohmann::json;
+using scene::StandardView;
+using scene::ViewList;
+
+constexpr JsonWords<Format, 7> formats{{{"png", Format::png},
+                                        {"png16", Format::png16},
+                                        {"npy", Format::npy},
+                                        {"nrrd", Format::nrrd},
+                                        {"dicom", Format::capture},
+                                        {"dicom-loop", Format::captureLoop},
+                                        {"mp4", Format::video}}};
+constexpr JsonWords<StandardView, 6> standardViews{{{"front", StandardView::front},
+                                                    {"back", StandardView::back},
+                                                    {"left", StandardView::left},
+                                                    {"right", StandardView::right},
+                                                    {"top", StandardView::top},
+                                                    {"bottom", StandardView::bottom}}};
+constexpr int longestName = 60;
+
+// Reads the outputs of a recipe, and notes the contents of the files that they name.
+class Reader {
+public:
+    explicit Reader(fs::path folder) : m_folder(std::move(folder)) {}
+
+    Recipe read(const JsonValue &in) {
+        in.requireOnly({"recipe", "notes", "series", "outputs"});
+        if (in.at("recipe").number() != 1.0)
+            in["recipe"].refuse(because::isNot("1"));
+        Recipe recipe;
+        if (const JsonValue series = in["series"])
+            recipe.series = seriesFrom(series);
+        for (const JsonValue &output : in.at("outputs").elements())
+            recipe.outputs.push_back(outputFrom(output));
+        if (recipe.outputs.empty())
+            in["outputs"].refuse(because::mustNotBeEmpty);
+        const std::string contents = in.dumped() + m_contents;
+        recipe.digest = system::contentDigest(std::as_bytes(std::span(contents)));
+        return recipe;
+    }
+
+private:
+    static SeriesChoice seriesFrom(const JsonValue &in) {
+        in.requireOnly({"modality", "description", "slice_mm", "least_slices"});
+        SeriesChoice choice;
+        if (const JsonValue modality = in["modality"]) {
+            if (modality.isList())
+                for (const JsonValue &one : modality.elements())
+                    choice.modalities.push_back(one.text());
+            else
+                choice.modalities.push_back(modality.text());
+        }
+        if (const JsonValue description = in["description"])
+            choice.description = description.text();
+        if (const JsonValue range = in["slice_mm"]) {
+            choice.sliceMm = range.twoNumbers();
+            if (!((*choice.sliceMm)[0] <= (*choice.sliceMm)[1]))
+                range.refuse(because::mustBeTwoRisingNumbers);
+        }
+        if (const JsonValue least = in["least_slices"])
+            choice.leastSlices = least.wholeNumber(2, 1000000);
+        return choice;
+    }
+
+    Output outputFrom(const JsonValue &in) {
+        in.requireOnly({"name", "format", "view", "views", "turntable", "look", "scene", "size",
+                        "pixel_mm", "tolerance", "deidentify"});
+        Output output;
+        if (const JsonValue format = in["format"])
+            output.format = format.meaning(formats);
+        readScene(in, output);
+        readViews(in, output);
+        readCamera(in, output);
+        if (const JsonValue deidentify = in["deidentify"])
+            output.isDeidentified = deidentify.boolean();
+        const bool isLoop = output.format == Format::captureLoop || output.format == Format::video;
+        if (isLoop && output.views.size() < 2)
+            in.refuse(because::loopNeedsViews);
+        output.name = nameFrom(in);
+        return output;
+    }
+
+    void readScene(const JsonValue &in, Output &output) {
+        if (const JsonValue scene = in["scene"]) {
+            const std::string text = textOf(scene);
+            output.scene = scene.checked([&] { return scene::sceneFromJson(text); });
+            // Measured on the study that the scene is of.
+            output.scene->tone.exposure.reset();
+            if (output.scene->isOfDifference)
+                scene.refuse(because::sceneShowsADifference);
+        }
+        if (const JsonValue look = in["look"]) {
+            output.look = look.checked([&] { return presetOf(look); });
+            m_contents += presets::toJson(*output.look);
+        }
+        if (const JsonValue tolerance = in["tolerance"])
+            output.tolerance = toleranceFrom(tolerance);
+    }
+
+    static double toleranceFrom(const JsonValue &in) {
+        if (in.isText()) {
+            const std::string given = in.text();
+            std::string known;
+            for (const auto &[name, tolerance] : scene::namedTolerances) {
+                if (given == name)
+                    return tolerance;
+                known += (known.empty() ? "" : ", ") + std::string(name);
+            }
+            in.refuse(because::isNoneOf(given, known));
+        }
+        const double tolerance = in.number();
+        if (!(tolerance > 0.0))
+            in.refuse(because::toleranceMustBePositive);
+        return tolerance;
+    }
+
+    void readViews(const JsonValue &in, Output &output) {
+        const JsonValue view = in["view"], views = in["views"], turn = in["turntable"];
+        if (int(bool(view)) + int(bool(views)) > 1 || (views && turn))
+            in.refuse(because::viewsAreGivenTwice);
+        if (views) {
+            const ViewList list = views.checked([&] {
+                return scene::viewListFromJson(views.isText() ? textOf(views)
+                                               : views.isList()
+                                                   ? "{\"views\":" + views.dumped() + "}"
+                                                   : views.dumped());
+            });
+            output.views = list.views;
+            output.size = list.size;
+            output.pixelMm = list.pixelMm;
+            return;
+        }
+        glm::dquat first = output.scene ? output.scene->camera.orientation
+                                        : scene::viewOrientation(StandardView::front);
+        if (view)
+            first = viewFrom(view);
+        const int count = turn ? turn.wholeNumber(2, maxTurnViews) : 1;
+        output.isTurn = bool(turn);
+        for (int n = 0; n < count; ++n)
+            output.views.push_back(
+                {glm::angleAxis(glm::radians(360.0 * n / count), glm::dvec3(0, 0, 1)) * first, {}});
+    }
+
+    static glm::dquat viewFrom(const JsonValue &in) {
+        if (in.isText())
+            for (const auto &[word, view] : standardViews)
+                if (in.text() == word)
+                    return scene::viewOrientation(view);
+        const std::string list = "{\"views\":[" + in.dumped() + "]}";
+        const ViewList read = in.checked([&] { return scene::viewListFromJson(list); });
+        if (!read.views.front().orientation)
+            in.refuse(because::matricesNeedASize);
+        return *read.views.front().orientation;
+    }
+
+    static void readCamera(const JsonValue &in, Output &output) {
+        if (const JsonValue size = in["size"]) {
+            if (size.isList()) {
+                output.size = size.wholeNumbers<2>(1, scene::largestImageSize);
+            } else {
+                const int side = size.wholeNumber(1, scene::largestImageSize);
+                output.size = {side, side};
+            }
+        } else if (!output.size && output.scene) {
+            output.size = {output.scene->camera.width, output.scene->camera.height};
+        }
+        if (const JsonValue pixel = in["pixel_mm"]) {
+            output.pixelMm = pixel.number();
+            if (!(*output.pixelMm > 0.0))
+                pixel.refuse(because::pixelMustBePositive);
+        }
+    }
+
+    std::string nameFrom(const JsonValue &in) {
+        const JsonValue given = in["name"];
+        std::string name = given ? given.text() : "picture";
+        if (!given && in["view"] && in["view"].isText())
+            name = in["view"].text();
+        if (!given && in["turntable"])
+            name = "turntable";
+        const bool isSafe = !name.empty() && name.size() <= longestName && name.front() != '.' &&
+                            std::all_of(name.begin(), name.end(), [](char c) {
+                                return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
+                                       (c >= 'a' && c <= 'z') || c == '-' || c == '_' || c == '.' ||
+                                       c == ',';
+                            });
+        if (!isSafe)
+            given.refuse(because::mustBeAFileName(longestName));
+        if (!m_names.insert(name).second)
+            (given ? given : in).refuse(because::nameIsTaken(name));
+        return name;
+    }
+
+    // An object of the recipe itself, or the text of the file that it names.
+    std::string textOf(const JsonValue &in) {
+        if (!in.isText())
+            return in.dumped();
+        const fs::path path = m_folder / in.text();
+        const std::string text =
+            in.checked([&] { return files::readText(path, files::maxSceneBytes); });
+        m_contents += text;
+        return text;
+    }
+
+    presets::Preset presetOf(const JsonValue &in) const {
+        if (!in.isText())
+            return presets::presetFromJson(in.dumped());
+        const fs::path path(in.text());
+        if (path.extension() == ".json" || path.has_parent_path())
+            return presets::readPreset(m_folder / path);
+        return presets::PresetLibrary::ofUser().get(in.text()).preset;
+    }
+
+    fs::path m_folder;
+    std::string m_contents; ///< of what it names
+    std::set<std::string> m_names;
+};
+
+} // namespace
+
+Recipe recipeFromJson(const std::string &text, const fs::path &folder) {
+    return files::readJson(text, [&](const JsonValue &in) { return Reader(folder).read(in); });
+}
+
+Recipe readRecipe(const fs::path &path) {
+    const std::string text = files::readText(path, maxRecipeBytes);
+    try {
+        return recipeFromJson(text, path.parent_path());
+    } catch (const task::Error &error) {
+        throw task::Error(error.code(), error.reason(), path);
+    }
+}
+
+std::string recipeOf(const scene::Scene &scene) {
+    scene::Scene shown = scene;
+    shown.tone.exposure.reset(); // of this study
+    return json{{"recipe", 1},
+                {"outputs",
+                 {{{"name", "picture"},
+                   {"format", "png"},
+                   {"size", {scene.camera.width, scene.camera.height}},
+                   {"scene", json::parse(scene::toJson(shown))}}}}}
+        .dump(2);
+}
+
+} // namespace pellucid::batch

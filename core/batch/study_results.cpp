@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/batch/study_results.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <fcntl.h>
+#include <system_error>
+
+#include "core/files/atomic_file.h"
+#include "core/task/error.h"
+
+namespace pellucid::batch {
+
+namespace {
+
+namespace because = task::because;
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::error_code &error, const fs::path &path) {
+    throw task::Error(task::ErrorCode::output, task::systemReason(error), path);
+}
+
+// Puts a folder in the place of another one, which comes to where it was. False if the file system
+// cannot do that at once.
+bool exchange(const fs::path &a, const fs::path &b) {
+    return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
+}
+
+} // namespace
+
+StudyResults::StudyResults(fs::path out, std::string key)
+    : m_place(std::move(out) / std::move(key)), m_aside(files::SessionFolder::beside(m_place)),
+      m_folder(m_aside.path() / "results") {
+    std::error_code failed;
+    fs::create_directory(m_folder, failed);
+    if (failed)
+        fail(failed, m_folder);
+}
+
+void StudyResults::publish(DoneRecord record) {
+    record.files.clear();
+    for (const fs::directory_entry &entry : fs::directory_iterator(m_folder))
+        record.files.push_back({entry.path().filename().string(), entry.file_size()});
+    std::sort(record.files.begin(), record.files.end(),
+              [](const auto &a, const auto &b) { return a.name < b.name; });
+    files::AtomicFile done(m_folder / doneFile);
+    done.write(toJson(record));
+    done.commit();
+    std::error_code failed;
+    for (int tries = 0; tries < 2; ++tries) {
+        fs::rename(m_folder, m_place, failed); // succeeds if there is none, or an empty one
+        if (!failed)
+            break;
+        if (exchange(m_folder, m_place)) {
+            failed.clear();
+            break;
+        }
+        // In two steps: a kill between them leaves a study that is not done.
+        fs::rename(m_place, m_aside.path() / "former", failed);
+    }
+    if (failed)
+        fail(failed, m_place);
+    files::flush(m_place.parent_path());
+}
+
+} // namespace pellucid::batch

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/batch/done_record.h"
+#include "core/files/session_folder.h"
+
+namespace pellucid::batch {
+
+/// The results of one study, which get their folder when all of them are there. Until then, and if
+/// the program is killed, the results of an earlier run stay; what was unfinished is removed by the
+/// next program that writes there. Several machines may share the folder.
+class StudyResults {
+public:
+    /// *Shape*: `key`: the name of the study's folder in `out`. *Throws* Error{output}.
+    StudyResults(std::filesystem::path out, std::string key);
+
+    /// Where to write the results.
+    const std::filesystem::path &folder() const { return m_folder; }
+    /// Writes the record, with the files that are there, and puts the folder in its place. *Throws*
+    /// Error{output}.
+    void publish(DoneRecord record);
+
+private:
+    std::filesystem::path m_place;
+    files::SessionFolder m_aside;
+    std::filesystem::path m_folder;
+};
+
+} // namespace pellucid::batch

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "core/files/json_lines_nlohmann.h"
+#include "core/scene/positioner_angles.h"
+#include "core/scene/projection_matrix.h"
+
+namespace pellucid::scene {
+
+namespace {
+
+namespace because = task::because;
+using files::JsonValue;
+
+ProjectionMatrix matrixFrom(const JsonValue &in) {
+    if (in.size() != 3)
+        in.refuse(because::mustBeThreeRowsOfFour);
+    ProjectionMatrix matrix{};
+    for (std::size_t row = 0; row < 3; ++row)
+        matrix[row] = in.at(row).fourNumbers();
+    in.checked([&] { pixelOf(matrix); });
+    return matrix;
+}
+
+ViewList::View viewFrom(const JsonValue &in) {
+    if (!in.isObject()) {
+        const std::string text = in.text();
+        return {in.checked([&] { return orientationOf(positionerAnglesFromText(text)); }), {}};
+    }
+    if (const JsonValue matrix = in["matrix"])
+        return {{}, matrixFrom(matrix)};
+    const auto degrees = [&](const char *name, double largest) {
+        const JsonValue angle = in[name];
+        return angle ? angle.number(largest) : 0.0;
+    };
+    const ViewAngles angles{in.at("primary_deg").number(360.0), degrees("secondary_deg", 90.0),
+                            degrees("roll_deg", 360.0)};
+    return {viewOrientation(StandardView::front, angles), {}};
+}
+
+} // namespace
+
+ViewList viewListFromJson(const std::string &text) {
+    return files::readJson(text, [](const JsonValue &in) {
+        in.requireOnly({"views", "size", "pixel_mm"});
+        ViewList list;
+        if (const JsonValue size = in["size"])
+            list.size = size.wholeNumbers<2>(1, largestImageSize);
+        if (const JsonValue pixel = in["pixel_mm"]) {
+            list.pixelMm = pixel.number();
+            if (!(*list.pixelMm > 0.0))
+                pixel.refuse(because::pixelMustBePositive);
+        }
+        std::optional<double> pixelMm;
+        for (const JsonValue &each : in.at("views").elements()) {
+            if (each.isObject())
+                each.requireOnly({"matrix", "primary_deg", "secondary_deg", "roll_deg"});
+            list.views.push_back(viewFrom(each));
+            if (!list.views.back().matrix)
+                continue;
+            // The pictures of all views are one array.
+            constexpr double rounding = 1e-4;
+            const double here = pixelOf(*list.views.back().matrix);
+            if (!pixelMm)
+                pixelMm = here;
+            if (std::abs(here - *pixelMm) > rounding * *pixelMm)
+                each.refuse(because::pixelsOfViewsDiffer);
+            if (!list.size)
+                in.refuse(because::matricesNeedASize);
+        }
+        if (list.views.empty())
+            in["views"].refuse(because::mustNotBeEmpty);
+        return list;
+    });
+}
+
+} // namespace pellucid::scene
