@@ -61,6 +61,12 @@ nlohmann::json jsonOf(const archive::FoundEntry &entry) {
     return out;
 }
 
+// Nothing if the server does not count them.
+std::string imagesOf(const archive::FoundEntry &entry) {
+    const std::string count = entry.text(tag::instancesInSeries);
+    return count.empty() ? count : count + (count == "1" ? " image" : " images");
+}
+
 std::string lineOf(const archive::FoundEntry &entry, Level level) {
     std::string servers;
     for (const std::string &server : entry.servers)
@@ -72,9 +78,9 @@ std::string lineOf(const archive::FoundEntry &entry, Level level) {
                            entry.text(tag::patientId), entry.text(tag::studyDescription),
                            entry.text(tag::studyUid), servers);
     case Level::series:
-        return fmt::format("{:>4}  {:<4}  {}  {} images  {}  [{}]", entry.text(tag::seriesNumber),
+        return fmt::format("{:>4}  {:<4}  {}  {}  {}  [{}]", entry.text(tag::seriesNumber),
                            entry.text(tag::modality), entry.text(tag::seriesDescription),
-                           entry.text(tag::instancesInSeries), entry.text(tag::seriesUid), servers);
+                           imagesOf(entry), entry.text(tag::seriesUid), servers);
     case Level::image:
         return fmt::format("{:>5}  {}  [{}]", entry.text(tag::instanceNumber),
                            entry.text(tag::sopInstanceUid), servers);
@@ -128,13 +134,15 @@ void addFindCommand(CLI::App &app, const Context &context) {
     c->add_option("NAME", o->names, "Names of servers")->required();
     c->add_option("--level", o->level, "What is searched for; default study")
         ->check(CLI::IsMember({"study", "series", "image"}));
-    c->add_option("--name", o->terms.patientName, "Name of the patient; * and ? are wildcards");
-    c->add_option("--id", o->terms.patientId, "ID of the patient");
-    c->add_option("--accession", o->terms.accession, "Accession number");
-    c->add_option("--date", o->terms.date, "Date YYYYMMDD, or a range YYYYMMDD-YYYYMMDD");
-    c->add_option("--modality", o->terms.modality, "Modality, such as CT");
+    c->add_option("--name", o->terms.patientName,
+                  "Name of the patient, for studies; * and ? are wildcards");
+    c->add_option("--id", o->terms.patientId, "ID of the patient, for studies");
+    c->add_option("--accession", o->terms.accession, "Accession number, for studies");
+    c->add_option("--date", o->terms.date,
+                  "Date YYYYMMDD, or a range YYYYMMDD-YYYYMMDD, for studies");
+    c->add_option("--modality", o->terms.modality, "Modality, such as CT, for studies and series");
     c->add_option("--study", o->terms.studyUid, "UID of the study");
-    c->add_option("--series", o->terms.seriesUid, "UID of the series");
+    c->add_option("--series", o->terms.seriesUid, "UID of the series, for series and images");
     CLI::Option *limit =
         c->add_option("--limit", o->limit,
                       "Most answers of each server; default: that of the server; 0: no limit");

@@ -10,6 +10,7 @@
 
 #include "core/archive/login.h"
 #include "core/exchange/link.h"
+#include "core/system/utf8.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -22,23 +23,60 @@ using exchange::Level;
 using task::Error;
 using task::ErrorCode;
 
+const char *nameOf(Level level) {
+    switch (level) {
+    case Level::study:
+        return "study";
+    case Level::series:
+        return "series";
+    case Level::image:
+        return "image";
+    }
+    return "";
+}
+
 void requirePlain(const std::string &text) {
+    if (!system::isUtf8(text))
+        throw Error(ErrorCode::usage, because::searchTextIsNotUtf8(text));
     if (text.find('\\') != std::string::npos ||
         std::any_of(text.begin(), text.end(), [](char c) { return (unsigned char)(c) < 0x20; }))
         throw Error(ErrorCode::usage, because::searchTextHasABackslash(text));
 }
 
 void requireDate(const std::string &date) {
-    const auto isDay = [](const std::string &day) {
-        return day.size() == 8 &&
-               std::all_of(day.begin(), day.end(), [](char c) { return c >= '0' && c <= '9'; });
-    };
     const auto dash = date.find('-');
     const std::string from = date.substr(0, dash),
                       to = dash == std::string::npos ? from : date.substr(dash + 1);
-    if (!((isDay(from) || from.empty()) && (isDay(to) || to.empty()) &&
-          !(from.empty() && to.empty())))
+    if (from.empty() && to.empty())
         throw Error(ErrorCode::usage, because::isNoDateRange(date));
+    for (const std::string &day : {from, to}) {
+        if (day.empty() || isDay(day))
+            continue;
+        const bool isWritten =
+            day.size() == 8 && day.find_first_not_of("0123456789") == std::string::npos;
+        throw Error(ErrorCode::usage,
+                    isWritten ? because::thereIsNoDay(day) : because::isNoDateRange(date));
+    }
+    if (!from.empty() && !to.empty() && to < from)
+        throw Error(ErrorCode::usage, because::rangeEndsBeforeItBegins(date));
+}
+
+// A server would ignore a term of another level, and answer with more than was asked for.
+void requireTermsOfTheLevel(const SearchTerms &terms) {
+    struct Term {
+        const std::string &text;
+        const char *option;
+        Level first, last; // to which it applies
+    };
+    for (const Term &term : {Term{terms.patientName, "--name", Level::study, Level::study},
+                             Term{terms.patientId, "--id", Level::study, Level::study},
+                             Term{terms.accession, "--accession", Level::study, Level::study},
+                             Term{terms.date, "--date", Level::study, Level::study},
+                             Term{terms.modality, "--modality", Level::study, Level::series},
+                             Term{terms.seriesUid, "--series", Level::series, Level::image}})
+        if (!term.text.empty() && (terms.level < term.first || terms.level > term.last))
+            throw Error(ErrorCode::usage,
+                        because::termDoesNotApply(term.option, nameOf(terms.level)));
 }
 
 std::uint32_t uidOf(Level level) {
@@ -115,12 +153,25 @@ void searchAt(const Server &server, const SearchTerms &terms, Fold &fold,
 
 } // namespace
 
+bool isDay(const std::string &text) {
+    if (text.size() != 8 || text.find_first_not_of("0123456789") != std::string::npos)
+        return false;
+    const auto number = [&](std::size_t at, std::size_t digits) {
+        return std::stoi(text.substr(at, digits));
+    };
+    return std::chrono::year_month_day(std::chrono::year(number(0, 4)),
+                                       std::chrono::month(unsigned(number(4, 2))),
+                                       std::chrono::day(unsigned(number(6, 2))))
+        .ok();
+}
+
 std::string FoundEntry::text(std::uint32_t tag) const {
     const auto at = attributes.find(tag);
     return at == attributes.end() ? std::string() : at->second;
 }
 
 exchange::Query queryOf(const SearchTerms &terms, std::uint32_t limit) {
+    requireTermsOfTheLevel(terms);
     for (const std::string *const text :
          {&terms.patientName, &terms.patientId, &terms.accession, &terms.modality})
         requirePlain(*text);

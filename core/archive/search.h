@@ -14,13 +14,14 @@
 
 namespace pellucid::archive {
 
-/// What is searched for; empty texts restrict nothing. `*` and `?` are wildcards.
+/// What is searched for; empty texts restrict nothing. `*` and `?` are wildcards. Patient,
+/// accession number and date apply to studies, the modality to studies and series.
 struct SearchTerms {
     std::string patientName, patientId, accession, modality, studyUid;
     /// YYYYMMDD, or a range FROM-TO with one end missing perhaps.
     std::string date;
     exchange::Level level = exchange::Level::study;
-    std::string seriesUid; ///< for images
+    std::string seriesUid; ///< for series and images
 };
 
 /// A study, series or image, as one or more servers describe it.
@@ -57,6 +58,9 @@ struct SearchObserver {
 /// Error{usage} if the terms make no sense; Cancelled.
 SearchResult search(const std::vector<Server> &servers, const SearchTerms &terms,
                     const SearchObserver &observer = {}, const task::Progress &progress = {});
+
+/// Whether the text is a day of the calendar, YYYYMMDD.
+bool isDay(const std::string &text);
 
 /// The query of these terms, and the attributes it asks for. *Throws* Error{usage}.
 exchange::Query queryOf(const SearchTerms &terms, std::uint32_t limit);

@@ -485,6 +485,9 @@ private slots:
         QCOMPARE(QString::fromStdString(terms.modality), QString("CT"));
         QCOMPARE(QString::fromStdString(terms.patientId), QString("*A4711*"));
         QVERIFY(ui::searchTermsOf(" ").patientName.empty());
+        // Eight digits that are no day are an identifier.
+        QCOMPARE(QString::fromStdString(ui::searchTermsOf("20260230").patientId),
+                 QString("*20260230*"));
     }
 
 private:

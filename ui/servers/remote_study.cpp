@@ -25,14 +25,14 @@ RemoteStudy remoteStudy(const archive::FoundEntry &entry) {
 }
 
 archive::SearchTerms searchTermsOf(const QString &words) {
-    static const QRegularExpression date("^\\d{8}(-\\d{8})?$|^\\d{8}-$|^-\\d{8}$"),
+    static const QRegularExpression range("^\\d{8}-(\\d{8})?$|^-\\d{8}$"),
         isoDate("^(\\d{4})-(\\d{2})-(\\d{2})$"), hasDigit("\\d");
     static const QStringList modalities{"CT", "MR", "PT", "CR", "DX", "XA",
                                         "NM", "US", "MG", "RF", "SC", "OT"};
     archive::SearchTerms terms;
     QStringList name;
     for (const QString &word : words.split(QRegularExpression("[\\s^]+"), Qt::SkipEmptyParts)) {
-        if (date.match(word).hasMatch())
+        if (archive::isDay(word.toStdString()) || range.match(word).hasMatch())
             terms.date = word.toStdString();
         else if (const auto iso = isoDate.match(word); iso.hasMatch())
             terms.date = (iso.captured(1) + iso.captured(2) + iso.captured(3)).toStdString();

@@ -10,6 +10,20 @@
 
 namespace pellucid::archive {
 
+namespace {
+
+std::string refusalOf(const SearchTerms &terms) {
+    try {
+        queryOf(terms, 0);
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.code(), task::ErrorCode::usage);
+        return error.what();
+    }
+    return "accepted";
+}
+
+} // namespace
+
 TEST(Server, AddressesAreReadAndWritten) {
     const exchange::Peer dicom = dicomPeer("ARCHIVE@pacs.example.org:4242");
     EXPECT_EQ(dicom.calledAe, "ARCHIVE");
@@ -81,14 +95,7 @@ TEST(Server, ADamagedListNamesThePlace) {
 }
 
 TEST(Search, TermsAreChecked) {
-    const auto isRefused = [](const SearchTerms &terms) {
-        try {
-            queryOf(terms, 0);
-        } catch (const task::Error &error) {
-            return error.code() == task::ErrorCode::usage;
-        }
-        return false;
-    };
+    const auto isRefused = [](const SearchTerms &terms) { return refusalOf(terms) != "accepted"; };
     EXPECT_TRUE(isRefused({.patientName = "a\\b"}));
     EXPECT_TRUE(isRefused({.date = "2026"}));
     EXPECT_TRUE(isRefused({.date = "-"}));
@@ -97,6 +104,43 @@ TEST(Search, TermsAreChecked) {
     EXPECT_TRUE(isRefused({.studyUid = "1.2", .level = exchange::Level::image}));
     EXPECT_FALSE(isRefused({.patientName = "M*ller^E?a", .date = "20260101-"}));
     EXPECT_FALSE(isRefused({.date = "-20260101"}));
+    EXPECT_FALSE(isRefused({.date = "20240229"}));
+    EXPECT_FALSE(isRefused({.date = "20260101-20260101"}));
+}
+
+TEST(Search, DatesAreOfTheCalendar) {
+    EXPECT_EQ(refusalOf({.date = "20261399"}), "'20261399' is not a day of the calendar");
+    EXPECT_EQ(refusalOf({.date = "20260101-20260231"}), "'20260231' is not a day of the calendar");
+    EXPECT_EQ(refusalOf({.date = "20250229-"}), "'20250229' is not a day of the calendar");
+    EXPECT_EQ(refusalOf({.date = "20260102-20260101"}),
+              "the range of dates '20260102-20260101' ends before it begins");
+    EXPECT_NE(refusalOf({.date = "20260101-20260102-20260103"}), "accepted");
+}
+
+// A server ignores what does not belong to the level.
+TEST(Search, TermsOfOtherLevelsAreRefused) {
+    using exchange::Level;
+    EXPECT_EQ(refusalOf({.patientName = "A", .studyUid = "1.2", .level = Level::series}),
+              "--name does not apply to a search at the level 'series'");
+    EXPECT_EQ(refusalOf({.date = "20260101", .level = Level::series}),
+              "--date does not apply to a search at the level 'series'");
+    EXPECT_EQ(
+        refusalOf(
+            {.modality = "CT", .studyUid = "1.2", .level = Level::image, .seriesUid = "1.2.3"}),
+        "--modality does not apply to a search at the level 'image'");
+    EXPECT_EQ(refusalOf({.seriesUid = "1.2.3"}),
+              "--series does not apply to a search at the level 'study'");
+    EXPECT_EQ(
+        refusalOf(
+            {.modality = "CT", .studyUid = "1.2", .level = Level::series, .seriesUid = "1.2.3"}),
+        "accepted");
+}
+
+TEST(Search, TextsAreUtf8) {
+    EXPECT_EQ(refusalOf({.patientName = "M\u00FCller"}), "accepted");
+    EXPECT_NE(refusalOf({.patientName = "M\xFCller"}).find("not encoded in UTF-8"),
+              std::string::npos);
+    EXPECT_NE(refusalOf({.patientId = "\xC0\xAF"}).find("not encoded in UTF-8"), std::string::npos);
 }
 
 } // namespace pellucid::archive
