@@ -34,9 +34,8 @@ std::vector<std::string> seriesNumbered(const archive::Server &server, const std
         if (entry.text(tag::seriesNumber) == number)
             uids.push_back(entry.text(tag::seriesUid));
     if (uids.empty())
-        throw Error(ErrorCode::usage, because::inWords("--series: the study on the server has no "
-                                                       "series " +
-                                                       number));
+        throw Error(ErrorCode::unusable,
+                    because::inWords("the study on the server has no series " + number));
     return uids;
 }
 
@@ -65,6 +64,8 @@ FetchedStudy::FetchedStudy(const RemoteOptions &remote, const std::string &serie
                            const Context &context) {
     if (!exchange::isUid(remote.studyUid))
         throw Error(ErrorCode::usage, because::isNoUid(remote.studyUid));
+    if (!series.empty() && !exchange::isUid(series)) // a number has the form of a UID, too
+        throw Error(ErrorCode::usage, because::isNoUid(series));
     const archive::Server server = serverNamed(remote.server, context);
     const task::Progress progress(context.stop);
     task::naming(server.name, [&] {
@@ -77,10 +78,11 @@ FetchedStudy::FetchedStudy(const RemoteOptions &remote, const std::string &serie
             wanted.seriesUids = {series};
         const archive::ObjectFolder objects(m_folder.path(),
                                             archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
-        requireComplete(watched([&](const archive::RetrievalObserver &observer) {
-                            return archive::retrieve(server, wanted, objects, observer, progress);
-                        }),
-                        server.name);
+        const auto report = watched([&](const archive::RetrievalObserver &observer) {
+            return archive::retrieve(server, wanted, objects, observer, progress);
+        });
+        warnOfLacking(report);
+        requireComplete(report, server.name);
     });
 }
 

@@ -29,8 +29,8 @@ void requirePathOrServer(bool hasPath, const RemoteOptions &options);
 class FetchedStudy {
 public:
     /// `series`: its number or UID; empty: all of them. *Throws* Error{usage} if there is no such
-    /// server; Error{unusable} if it has no such study or series; Error{incomplete} if not all of
-    /// it arrived; as archive::retrieve otherwise.
+    /// server, or a UID is none; Error{unusable} if the server has no such study or series;
+    /// Error{incomplete} if not all of it arrived; as archive::retrieve otherwise.
     FetchedStudy(const RemoteOptions &remote, const std::string &series, const Context &context);
 
     const std::filesystem::path &path() const { return m_folder.path(); }

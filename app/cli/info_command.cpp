@@ -85,11 +85,10 @@ void printSegmentation(const dicom::Catalogue &catalogue, const dicom::Segmentat
     std::string names;
     for (const std::string &name : segments.names)
         names += (names.empty() ? "" : ", ") + name;
-    fmt::print("      {}\n",
-               segments.reason
-                   ? printable(segments.reason->english())
-                   : fmt::format("{} segment{}: {}", segments.names.size(),
-                                 segments.names.size() == 1 ? "" : "s", printable(names)));
+    fmt::print("      {}\n", segments.reason
+                                 ? printable(segments.reason->english())
+                                 : fmt::format("{}: {}", counted(segments.names.size(), "segment"),
+                                               printable(names)));
 }
 
 json catalogueJson(const dicom::Catalogue &catalogue, const Context &context) {

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/reason_lines.h"
 #include "app/cli/terminal.h"
 #include "core/decoder/read_volume_file.h"
 #include "core/dicom/scan.h"
@@ -67,17 +68,20 @@ std::size_t filesOf(const dicom::VolumeEntry &volume) {
 
 void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &shown,
                   bool isSeriesByDefault, bool isVolumeByDefault) {
-    constexpr std::size_t maxLines = 20;
-    std::size_t others = 0, more = 0, lines = 0;
+    std::size_t others = 0;
+    std::vector<Named> unused;
     for (const dicom::Skipped &skipped : catalogue.skipped)
         if (skipped.reason.is(because::isNotDicom))
             ++others; // texts and programs beside images
-        else if (lines++ >= maxLines)
-            ++more;
         else
-            warn(skipped.path.string() + ": not used: " + skipped.reason.english());
-    if (more > 0)
-        warn(fmt::format("more unused files: {}; 'info' lists them", more));
+            unused.push_back({skipped.path.string(), skipped.reason});
+    constexpr std::size_t maxLines = 20;
+    const std::vector<std::string> lines = linesByReason(unused, "not used");
+    for (std::size_t n = 0; n < std::min(lines.size(), maxLines); ++n)
+        warn(lines[n]);
+    if (lines.size() > maxLines)
+        warn(fmt::format("more reasons for unused files: {}; 'info' lists them",
+                         lines.size() - maxLines));
     if (others > 0)
         warn(fmt::format("unused files of other kinds: {}; 'info' lists them", others));
     std::set<const dicom::Series *> series;
@@ -86,19 +90,17 @@ void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &sho
     const std::size_t patients = catalogue.patients.size();
     if (isSeriesByDefault && series.size() > 1)
         warn(fmt::format(
-            "series {} ({}) of {} series, {} patient{}; --series selects another, 'info' "
-            "lists them",
-            shown.series->number, shown.series->uid, series.size(), patients,
-            patients == 1 ? "" : "s"));
+            "series {} ({}) of {} series, {}; --series selects another, 'info' lists them",
+            shown.series->number, shown.series->uid, series.size(), counted(patients, "patient")));
     const std::vector<dicom::VolumeEntry> &volumes = shown.series->volumes;
     if (isVolumeByDefault && volumes.size() > 1) {
         // Volumes of one file have no frames.
         const std::size_t files = shown.volume->volumeFile.empty() ? filesOf(*shown.volume) : 1;
         const std::size_t all = shown.series->files.size();
-        warn(fmt::format("volume {} of {} in the series ('{}', {} of {} file{}); --volume selects "
+        warn(fmt::format("volume {} of {} in the series ('{}', {} of {}); --volume selects "
                          "another, 'info' lists them",
                          shown.volume - volumes.data() + 1, volumes.size(),
-                         dicom::labelText(shown.volume->label), files, all, all == 1 ? "" : "s"));
+                         dicom::labelText(shown.volume->label), files, counted(all, "file")));
     }
 }
 
@@ -109,8 +111,8 @@ void requireAllRead(const std::vector<dicom::Skipped> &skipped, const std::files
     });
     if (lacking > 0)
         throw Error(ErrorCode::outOfMemory,
-                    because::inWords(
-                        fmt::format("{} of its files need more memory than is available", lacking)),
+                    because::inWords(fmt::format("{} of its files {} more memory than is available",
+                                                 lacking, lacking == 1 ? "needs" : "need")),
                     path);
 }
 

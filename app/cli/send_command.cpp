@@ -10,6 +10,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
+#include "app/cli/reason_lines.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
 #include "core/archive/sending.h"
@@ -48,8 +49,11 @@ void send(const Options &o, const Context &context) {
                             {"left_out", jsonOf(report.leftOut)}})
                       .c_str());
     } else {
+        std::vector<Named> notSent;
         for (const dicom::Skipped &file : report.notSent)
-            warn(file.path.string() + ": not sent: " + file.reason.english());
+            notSent.push_back({file.path.string(), file.reason});
+        for (const std::string &line : linesByReason(notSent, "not sent"))
+            warn(line);
         if (!report.leftOut.empty())
             warn(
                 fmt::format("files of other kinds, which are not sent: {}", report.leftOut.size()));

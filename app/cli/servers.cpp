@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "app/cli/reason_lines.h"
 #include "app/cli/terminal.h"
 #include "core/archive/login.h"
 #include "core/files/descriptor.h"
@@ -95,6 +96,14 @@ archive::RetrievalReport watched(
     if (isWatched)
         std::fputs("\n", stderr);
     return report;
+}
+
+void warnOfLacking(const archive::RetrievalReport &report) {
+    std::vector<Named> lacking;
+    for (const archive::RefusedObject &object : report.lacking)
+        lacking.push_back({object.sopInstanceUid, object.reason});
+    for (const std::string &line : linesByReason(lacking, "not received"))
+        warn(line);
 }
 
 void requireComplete(const archive::RetrievalReport &report, const std::string &server) {

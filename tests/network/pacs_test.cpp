@@ -226,9 +226,17 @@ TEST_F(Pacs, CommandsTakeAStudyFromAServer) {
     EXPECT_EQ(run("render" + out).exitCode, 2);
     EXPECT_EQ(run("render --from s" + out).exitCode, 2);
     EXPECT_EQ(run("render --from nobody --study 1.2" + out).exitCode, 2);
-    EXPECT_EQ(run("render" + from + " --series 7" + out).exitCode, 2);
+    EXPECT_EQ(run("render" + from + " --series soft" + out).exitCode, 2);
+    EXPECT_EQ(run("get s --study " + studyIn(sent) + " --series soft").exitCode, 2);
     EXPECT_EQ(run("render '" + sent.string() + "'" + from + out).exitCode, 2);
+    // What is well formed, and not there.
     EXPECT_EQ(run("render --from s --study 1.2.3.4" + out).exitCode, 3);
+    EXPECT_EQ(run("get s --study 1.2.3.4").exitCode, 3);
+    for (const std::string series : {"7", "1.2.3.4.5"}) {
+        EXPECT_EQ(run("render" + from + " --series " + series + out).exitCode, 3) << series;
+        EXPECT_EQ(run("get s --study " + studyIn(sent) + " --series " + series).exitCode, 3)
+            << series;
+    }
     ASSERT_EQ(
         run("server add dead --dicom X@127.0.0.1:" + std::to_string(test::freePort())).exitCode, 0);
     EXPECT_EQ(run("info --from dead --study 1.2.3.4").exitCode, 6);
