@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -57,19 +57,21 @@ void listen(Options o, const Context &context) {
     std::optional<archive::TransferLog> log;
     if (o.isForLibrary)
         log.emplace(archive::TransferLog::fileOfUser());
-    std::atomic<std::size_t> stored = 0;
     archive::Receiving receiving(folder, log ? &*log : nullptr,
-                                 {[&](const archive::StoredObject &) { ++stored; },
-                                  [](const archive::RefusedObject &object) {
+                                 {{}, [](const archive::RefusedObject &object) {
                                       warn(object.sopInstanceUid +
                                            ": not stored: " + object.reason.english());
                                   }});
+    std::map<std::string, std::size_t> stored; // by sender
     const archive::Listener listener(
-        o.listener, [&] { return receiving.receiver(); },
-        {[&](const std::string &sender, const std::optional<task::Reason> &reason) {
-            if (reason)
-                warn(sender + ": " + reason->english());
-            fmt::print("{}: {} stored so far\n", printable(sender), stored.load());
+        o.listener, [&] { return receiving.receiver(); }, {[&](const archive::ConnectionEnd &end) {
+            const std::string sender =
+                end.sender == end.address ? end.address : end.sender + " at " + end.address;
+            if (end.reason)
+                warn(sender + ": " + end.reason->english());
+            std::size_t &count = stored[sender];
+            count += end.stored;
+            fmt::print("{}: {} stored so far\n", printable(sender), count);
             std::fflush(stdout);
         }});
     fmt::print("{} listens on port {}\n", o.listener.ae, listener.port());

@@ -37,6 +37,27 @@ std::string textOf(const in_addr &address) {
     return text.data();
 }
 
+// Counts what a receiver keeps.
+class Counting : public exchange::Receiver {
+public:
+    Counting(exchange::Receiver &receiver, std::size_t &kept)
+        : m_receiver(receiver), m_kept(kept) {}
+
+    std::variant<int, std::uint16_t> open(const exchange::Arrival &arrival) override {
+        return m_receiver.open(arrival);
+    }
+    std::uint16_t keep(const exchange::Arrival &arrival, std::uint64_t bytes) override {
+        const std::uint16_t status = m_receiver.keep(arrival, bytes);
+        m_kept += status == exchange::status::success ? 1 : 0;
+        return status;
+    }
+    void receive(std::uint64_t bytes) override { m_receiver.receive(bytes); }
+
+private:
+    exchange::Receiver &m_receiver;
+    std::size_t &m_kept;
+};
+
 Descriptor openPort(int port, int &boundPort) {
     Descriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const int on = 1;
@@ -46,8 +67,12 @@ Descriptor openPort(int port, int &boundPort) {
     at.sin_port = htons(std::uint16_t(port));
     at.sin_addr.s_addr = htonl(INADDR_ANY);
     if (!socket || ::bind(socket.get(), reinterpret_cast<const sockaddr *>(&at), sizeof at) != 0 ||
-        ::listen(socket.get(), int(maxAtOnce)) != 0)
-        throw Error(ErrorCode::usage, because::portCannotBeUsed(port, task::systemReason(errno)));
+        ::listen(socket.get(), int(maxAtOnce)) != 0) {
+        const int failure = errno;
+        if (failure == EADDRINUSE)
+            throw Error(ErrorCode::unreachable, because::portIsInUse(port));
+        throw Error(ErrorCode::usage, because::portCannotBeUsed(port, task::systemReason(failure)));
+    }
     socklen_t size = sizeof at;
     ::getsockname(socket.get(), reinterpret_cast<sockaddr *>(&at), &size);
     boundPort = ntohs(at.sin_port);
@@ -116,8 +141,7 @@ private:
     }
 
     void serve(Descriptor socket, const std::string &address, const std::stop_token &stop) {
-        std::string sender = address;
-        std::optional<task::Reason> reason;
+        ConnectionEnd end{address, address};
         try {
             exchange::Acceptance acceptance{m_options.ae,          {},
                                             m_options.usesTls,     m_options.authorities,
@@ -133,22 +157,23 @@ private:
                     acceptance.callingAes.clear();
             }
             const auto receiver = m_receivers();
-            exchange::serveClient(std::move(socket), acceptance, *receiver, task::Progress(stop),
+            Counting counting(*receiver, end.stored);
+            exchange::serveClient(std::move(socket), acceptance, counting, task::Progress(stop),
                                   [&](exchange::Step step, const std::string &found) {
                                       if (step == exchange::Step::association)
-                                          sender = found;
+                                          end.sender = found;
                                   });
         } catch (const Error &error) {
-            reason = error.reason();
+            end.reason = error.reason();
         } catch (const task::Cancelled &) {
-            reason = because::wasCancelled;
+            end.reason = because::wasCancelled;
         } catch (const std::exception &error) {
             system::log(std::string("a connection ended: ") + error.what());
-            reason = because::faultOfTheProgram;
+            end.reason = because::faultOfTheProgram;
         }
         const std::lock_guard lock(m_mutex);
         if (m_observer.ended)
-            m_observer.ended(sender, reason);
+            m_observer.ended(end);
     }
 
     ListenerOptions m_options;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,11 +32,17 @@ struct ListenerOptions {
     bool operator==(const ListenerOptions &) const = default;
 };
 
+/// How a connection ended.
+struct ConnectionEnd {
+    std::string sender;                 ///< its AE title, or its address if the title is unknown
+    std::string address;                ///< of its host
+    std::size_t stored = 0;             ///< objects that were kept
+    std::optional<task::Reason> reason; ///< empty: in order
+};
+
 /// Reports what a listener does, from the listener's threads, one call at a time.
 struct ListenerObserver {
-    /// A connection has ended, `reason` being empty if in order. `sender`: the AE title, or the
-    /// address if it is unknown.
-    std::function<void(const std::string &sender, const std::optional<task::Reason> &reason)> ended;
+    std::function<void(const ConnectionEnd &)> ended;
 };
 
 /// A DICOM server for storage: accepts connections of known senders only, each in a `pellucid-net`
@@ -43,8 +50,8 @@ struct ListenerObserver {
 class Listener {
 public:
     using Receivers = std::function<std::unique_ptr<exchange::Receiver>()>;
-    /// `receivers` makes the receiver of each connection. *Throws* Error{usage} if the port cannot
-    /// be used.
+    /// `receivers` makes the receiver of each connection. *Throws* Error{unreachable} if another
+    /// listener has the port; Error{usage} if it cannot be used otherwise.
     Listener(ListenerOptions options, Receivers receivers, ListenerObserver observer = {});
     ~Listener();
     Listener(const Listener &) = delete;

@@ -53,9 +53,10 @@ struct MoveDestination {
 /// Retrieves what lacks in a folder of a study: compressed objects stay compressed, series come
 /// from coarse to fine, over up to `Server::connections` connections. A connection that is lost is
 /// made again while the others go on; what is still missing at the end is listed. *Throws*
-/// Error{unreachable} if nothing could be retrieved because the server cannot be reached, as
-/// exchange::Link otherwise; Error{unusable, loginHasExpired} if the user has to log in again;
-/// Error{output} if the folder cannot be written; Cancelled. What has arrived stays in any case.
+/// Error{unreachable} if nothing could be retrieved because the server cannot be reached, or
+/// because the port of the destination is in use; as exchange::Link otherwise; Error{unusable,
+/// loginHasExpired} if the user has to log in again; Error{output} if the folder cannot be written;
+/// Cancelled. What has arrived stays in any case.
 RetrievalReport retrieve(const Server &server, const Wanted &wanted, const ObjectFolder &folder,
                          const RetrievalObserver &observer = {},
                          const task::Progress &progress = {},

@@ -18,7 +18,7 @@ enum class ErrorCode {
     unusable,     ///< a path is missing, empty, or has nothing usable
     outOfMemory,  ///< the request needs more memory than is available or allowed
     noSuchDevice, ///< the requested engine does not exist on this machine
-    unreachable,  ///< a server cannot be reached
+    unreachable,  ///< a server cannot be reached, or cannot reach this program
     incomplete,   ///< part of what was requested is missing
 };
 

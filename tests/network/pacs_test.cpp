@@ -304,6 +304,14 @@ TEST_F(Pacs, AServerThatOnlySendsIsGivenAPort) {
     ASSERT_EQ(refused.lacking.size(), 20U);
     EXPECT_NE(refused.lacking[0].reason.english().find("0xA801"), std::string::npos)
         << refused.lacking[0].reason.english();
+    // The port of another receiver.
+    int port = 0;
+    const int taken = test::listenOn(port);
+    EXPECT_NE(failureOf([&] {
+                  archive::retrieve(server, {studyIn(sent), {}}, other, {}, {}, {.port = port});
+              }).find("is in use"),
+              std::string::npos);
+    ::close(taken);
 }
 
 // A pulled cable at any moment: the reason is named, nothing is half there, and the next retrieval
@@ -439,19 +447,17 @@ TEST_F(Pacs, TheListenerConfirmsWhatItHas) {
     const ObjectFolder folder(m_folder / "in", ObjectFolder::Keeps::onDisk);
     fs::create_directories(folder.folder());
     archive::TransferLog log(m_folder / "transfers.sqlite");
-    std::vector<std::string> ends;
+    std::vector<archive::ConnectionEnd> ends;
     archive::Receiving receiving(folder, &log);
     archive::ListenerOptions options;
     options.port = 0;
-    options.senders = {{"KNOWN", "127.0.0.1"}};
-    const archive::Listener listener(
-        options, [&] { return receiving.receiver(); },
-        {[&](const std::string &, const std::optional<task::Reason> &reason) {
-            ends.push_back(reason ? reason->english() : "");
-        }});
+    options.senders = {{"KNOWN", "127.0.0.1"}, {"OTHER", "127.0.0.1"}};
+    std::optional<archive::Listener> listener(
+        std::in_place, options, [&] { return receiving.receiver(); },
+        archive::ListenerObserver{[&](const archive::ConnectionEnd &end) { ends.push_back(end); }});
     const auto storescu = [&](const std::string &from, const std::string &to) {
         return test::run("storescu -R -aet " + from + " -aec " + to + " +sd 127.0.0.1 " +
-                         std::to_string(listener.port()) + " '" + sent.string() + "'")
+                         std::to_string(listener->port()) + " '" + sent.string() + "'")
             .exitCode;
     };
     EXPECT_EQ(storescu("KNOWN", "PELLUCID"), 0);
@@ -461,9 +467,19 @@ TEST_F(Pacs, TheListenerConfirmsWhatItHas) {
     EXPECT_NE(storescu("KNOWN", "ANOTHER"), 0);
     EXPECT_EQ(dataSetsIn(folder.folder()).size(), 6U);
     EXPECT_EQ(
-        test::run("echoscu -aet KNOWN -aec PELLUCID 127.0.0.1 " + std::to_string(listener.port()))
+        test::run("echoscu -aet KNOWN -aec PELLUCID 127.0.0.1 " + std::to_string(listener->port()))
             .exitCode,
         0);
+    // Each sender is counted by itself, also for what is here already.
+    EXPECT_EQ(storescu("OTHER", "PELLUCID"), 0);
+    listener.reset(); // waits for the connections to end
+    std::map<std::string, std::size_t> stored;
+    for (const archive::ConnectionEnd &end : ends) {
+        stored[end.sender] += end.stored;
+        EXPECT_EQ(end.address, "127.0.0.1");
+    }
+    EXPECT_EQ(stored["KNOWN"], 6U);
+    EXPECT_EQ(stored["OTHER"], 6U);
 }
 
 // One server is dead, one hangs: the third answers at once.

@@ -145,23 +145,22 @@ void StudyReceiver::start() {
                                        [tell](const archive::RefusedObject &object) {
                                            tell(object.reason, object.sopInstanceUid);
                                        }},
-            archive::ListenerObserver{
-                [this, tell](const std::string &sender, const std::optional<task::Reason> &reason) {
-                    // Whoever scans the network does not fill the list of problems.
-                    if (reason && !reason->is(because::wasCancelled) &&
-                        m_toldOf.insert(sender + reason->encoded()).second &&
-                        m_toldOf.size() <= mostTold)
-                        tell(*reason, sender);
-                    QMetaObject::invokeMethod(
-                        this,
-                        [this] {
-                            if (m_listing.isActive()) {
-                                m_listing.stop();
-                                emit arrived();
-                            }
-                        },
-                        Qt::QueuedConnection);
-                }});
+            archive::ListenerObserver{[this, tell](const archive::ConnectionEnd &end) {
+                // Whoever scans the network does not fill the list of problems.
+                if (end.reason && !end.reason->is(because::wasCancelled) &&
+                    m_toldOf.insert(end.sender + end.reason->encoded()).second &&
+                    m_toldOf.size() <= mostTold)
+                    tell(*end.reason, end.sender);
+                QMetaObject::invokeMethod(
+                    this,
+                    [this] {
+                        if (m_listing.isActive()) {
+                            m_listing.stop();
+                            emit arrived();
+                        }
+                    },
+                    Qt::QueuedConnection);
+            }});
     } catch (const task::Error &error) {
         m_failure = error.reason();
     }
