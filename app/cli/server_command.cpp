@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -22,7 +23,30 @@ namespace pellucid::cli {
 namespace {
 
 using archive::Server;
+using exchange::Authentication;
 using exchange::Step;
+
+// The words of options and of JSON.
+constexpr std::array methods{std::pair("automatic", archive::RetrieveMethod::automatic),
+                             std::pair("get", archive::RetrieveMethod::get),
+                             std::pair("move", archive::RetrieveMethod::move)};
+constexpr std::array authentications{
+    std::pair("none", Authentication::none), std::pair("basic", Authentication::basic),
+    std::pair("bearer", Authentication::bearer), std::pair("oauth", Authentication::oauth)};
+
+template <class Words> auto meaningOf(const std::string &given, const Words &words) {
+    for (const auto &[word, meaning] : words)
+        if (given == word)
+            return meaning;
+    return words.front().second;
+}
+
+template <class T, class Words> const char *wordFor(T value, const Words &words) {
+    for (const auto &[word, meaning] : words)
+        if (meaning == value)
+            return word;
+    return "";
+}
 
 struct Options {
     std::string name, dicom, web, tls = "off", authorities, certificate, key,
@@ -52,14 +76,14 @@ void add(const Options &o) {
     peer.key = absolute(o.key);
     peer.user = o.user;
     peer.characterSet = o.set;
-    peer.authentication = o.authentication == "basic"    ? exchange::Authentication::basic
-                          : o.authentication == "bearer" ? exchange::Authentication::bearer
-                          : o.authentication == "oauth"  ? exchange::Authentication::oauth
-                                                         : exchange::Authentication::none;
+    peer.authentication = meaningOf(o.authentication, authentications);
+    // An association would be negotiated without the token.
+    if (!o.dicom.empty() && peer.authentication == Authentication::bearer)
+        throw task::Error(
+            task::ErrorCode::usage,
+            task::because::inWords("--authentication bearer is for DICOMweb servers only"));
     server.loginSettings = o.login;
-    server.retrieve = o.retrieve == "get"    ? archive::RetrieveMethod::get
-                      : o.retrieve == "move" ? archive::RetrieveMethod::move
-                                             : archive::RetrieveMethod::automatic;
+    server.retrieve = meaningOf(o.retrieve, methods);
     server.connections = o.connections;
     server.limit = o.limit;
     server.mayUncompress = o.uncompress;
@@ -68,25 +92,70 @@ void add(const Options &o) {
     std::puts(printable(fmt::format("{}: {}", server.name, archive::addressOf(peer))).c_str());
 }
 
+// All settings; never a secret.
+nlohmann::json jsonOf(const Server &server) {
+    const exchange::Peer &peer = server.peer;
+    const archive::LoginSettings &login = server.loginSettings;
+    return {{"name", server.name},
+            {"address", archive::addressOf(peer)},
+            {"tls", peer.usesTls},
+            {"calling_ae", peer.callingAe},
+            {"retrieve", wordFor(server.retrieve, methods)},
+            {"connections", server.connections},
+            {"limit", server.limit},
+            {"uncompress", server.mayUncompress},
+            {"character_set", peer.characterSet},
+            {"authentication", wordFor(peer.authentication, authentications)},
+            {"user", peer.user},
+            {"login",
+             {{"issuer", login.issuer},
+              {"authorization_url", login.authorizationUrl},
+              {"token_url", login.tokenUrl},
+              {"client_id", login.clientId},
+              {"scope", login.scope}}},
+            {"authorities", peer.authorities},
+            {"certificate", peer.certificate},
+            {"key", peer.key}};
+}
+
+// Its settings that differ from the default.
+std::string lineOf(const Server &server) {
+    const exchange::Peer &peer = server.peer;
+    const Server usual;
+    std::string line = fmt::format("{:<20}  {}", server.name, archive::addressOf(peer));
+    const auto add = [&](bool differs, const std::string &text) {
+        if (differs)
+            line += "  " + text;
+    };
+    add(peer.usesTls && peer.protocol == exchange::Protocol::dicom, "TLS");
+    add(peer.callingAe != usual.peer.callingAe, "calling AE " + peer.callingAe);
+    add(server.retrieve != usual.retrieve,
+        std::string("retrieve ") + wordFor(server.retrieve, methods));
+    add(server.connections != usual.connections,
+        counted(std::size_t(server.connections), "connection"));
+    add(server.limit != usual.limit,
+        server.limit == 0 ? "no limit" : fmt::format("limit {}", server.limit));
+    add(server.mayUncompress, "uncompress");
+    add(!peer.characterSet.empty(), "character set " + peer.characterSet);
+    add(peer.authentication != Authentication::none,
+        std::string("authentication ") + wordFor(peer.authentication, authentications));
+    add(!peer.user.empty(), "user " + peer.user);
+    add(!peer.authorities.empty(), "authorities " + peer.authorities);
+    add(!peer.certificate.empty(), "certificate " + peer.certificate);
+    return line;
+}
+
 void list(const Options &o) {
     const auto servers = archive::ServerList::ofUser().servers();
     if (o.json) {
         nlohmann::json out = nlohmann::json::array();
         for (const Server &server : servers)
-            out.push_back({{"name", server.name},
-                           {"address", archive::addressOf(server.peer)},
-                           {"tls", server.peer.usesTls}});
+            out.push_back(jsonOf(server));
         std::puts(jsonText(out).c_str());
         return;
     }
     for (const Server &server : servers)
-        std::puts(
-            printable(
-                fmt::format("{:<20}  {}{}", server.name, archive::addressOf(server.peer),
-                            server.peer.usesTls && server.peer.protocol == exchange::Protocol::dicom
-                                ? "  TLS"
-                                : ""))
-                .c_str());
+        std::puts(printable(lineOf(server)).c_str());
 }
 
 const char *nameOf(Step step) {
@@ -136,8 +205,10 @@ void addServerCommand(CLI::App &app, const Context &context) {
     CLI::Option *web =
         put->add_option("--web", o->web, "URL of a DICOMweb service")->excludes(dicom);
     dicom->excludes(web);
-    put->add_option("--tls", o->tls, "TLS for a DICOM server; default off")
-        ->check(CLI::IsMember({"off", "on"}));
+    put->add_option("--tls", o->tls,
+                    "TLS for a DICOM server; default off. The URL of a DICOMweb service tells it")
+        ->check(CLI::IsMember({"off", "on"}))
+        ->excludes(web);
     put->add_option("--authorities", o->authorities,
                     "Certificates of the authorities that are trusted, in PEM format; default: "
                     "those of the system")
@@ -151,31 +222,44 @@ void addServerCommand(CLI::App &app, const Context &context) {
             ->check(CLI::ExistingFile)
             ->needs(certificate);
     certificate->needs(key);
-    put->add_option("--calling-ae", o->callingAe, "AE title of this program; default PELLUCID");
-    put->add_option("--retrieve", o->retrieve, "How objects are retrieved; default automatic")
-        ->check(CLI::IsMember({"automatic", "get", "move"}));
-    put->add_option("--authentication,--login", o->authentication,
-                    "How this program authenticates itself; default none; oauth: by a login in the "
-                    "browser (DICOMweb)")
+    put->add_option("--calling-ae", o->callingAe,
+                    "AE title of this program for a DICOM server; default PELLUCID")
+        ->excludes(web);
+    put->add_option("--retrieve", o->retrieve,
+                    "How objects of a DICOM server are retrieved; default automatic")
+        ->check(CLI::IsMember({"automatic", "get", "move"}))
+        ->excludes(web);
+    put->add_option(
+           "--authentication,--login", o->authentication,
+           "How this program authenticates itself; default none; bearer: by a token; oauth: "
+           "by a login in the browser (both for DICOMweb)")
         ->check(CLI::IsMember({"none", "basic", "bearer", "oauth"}));
     put->add_option("--issuer", o->login.issuer,
-                    "URL of the login server for oauth; it describes the next two");
+                    "URL of the login server for oauth; it describes the next two")
+        ->excludes(dicom);
     put->add_option("--authorization-url", o->login.authorizationUrl,
-                    "URL of the login server's page, if there is no issuer");
+                    "URL of the login server's page, if there is no issuer")
+        ->excludes(dicom);
     put->add_option("--token-url", o->login.tokenUrl,
-                    "URL where the login server gives tokens, if there is no issuer");
+                    "URL where the login server gives tokens, if there is no issuer")
+        ->excludes(dicom);
     put->add_option("--client-id", o->login.clientId,
-                    "ID that the login server has for this program");
+                    "ID that the login server has for this program")
+        ->excludes(dicom);
     put->add_option("--scope", o->login.scope,
-                    "What the login is to allow, such as 'openid offline_access'");
+                    "What the login is to allow, such as 'openid offline_access'")
+        ->excludes(dicom);
     put->add_option("--user", o->user, "User name for basic authentication");
     put->add_option("--character-set", o->set,
-                    "Character set of answers that name none, such as 'ISO_IR 100'");
+                    "Character set of a DICOM server's answers that name none, such as "
+                    "'ISO_IR 100'")
+        ->excludes(web);
     put->add_option("--connections", o->connections, "Connections at once, 1 to 8; default 4")
         ->check(CLI::Range(1, archive::maxConnections));
     put->add_option("--limit", o->limit, "Most answers to a search; default 200; 0: no limit");
     put->add_flag("--uncompress", o->uncompress,
-                  "Send files uncompressed whose encoding a DICOM server does not accept");
+                  "Send files uncompressed whose encoding a DICOM server does not accept")
+        ->excludes(web);
     put->callback([o] {
         if (o->dicom.empty() == o->web.empty())
             throw CLI::RequiredError("--dicom or --web");

@@ -265,6 +265,12 @@ TEST_F(Faults, UnusedFilesAndSeriesAreReported) {
     EXPECT_NE(cut.error.find("IM0001.dcm: not used: the pixel data is truncated"),
               std::string::npos)
         << cut.error;
+    // Files with the same reason share a line.
+    for (const char *name : {"a.dcm", "b.dcm", "c.dcm", "d.dcm", "e.dcm"})
+        std::ofstream(in / name);
+    const auto empty = render();
+    EXPECT_NE(empty.error.find("5 not used: is empty: "), std::string::npos) << empty.error;
+    EXPECT_NE(empty.error.find("c.dcm and 2 others\n"), std::string::npos) << empty.error;
     dicom::writeCtSeries(in / "other", head(3), {.patientName = "Other", .seriesNumber = 2},
                          dicom::TransferSyntax::explicitLittle);
     EXPECT_NE(render().error.find(" of 2 series, 2 patients"), std::string::npos);
