@@ -42,6 +42,11 @@ struct Outgoing {
     Encoding encoding;
 };
 
+bool isPlain(const Encoding &encoding) {
+    return encoding.transferSyntax == decoder::explicitLittleEndian ||
+           encoding.transferSyntax == decoder::implicitLittleEndian;
+}
+
 // Finds out what kind each file is: the association has to be negotiated for these kinds. `named`:
 // the files that the user has named, which are not left out silently.
 std::vector<Outgoing> describe(const std::vector<fs::path> &files, const std::set<fs::path> &named,
@@ -100,7 +105,7 @@ public:
                         exchange::Connection{peer, exchange::Purpose::store, {}, {}, encodings},
                         m_progress);
                 }
-                store(*link, files[n].path);
+                store(*link, files[n]);
                 failures = 0;
                 mayRenew = true;
                 ++n;
@@ -128,7 +133,8 @@ public:
     }
 
 private:
-    void store(exchange::Link &link, const fs::path &path) {
+    void store(exchange::Link &link, const Outgoing &outgoing) {
+        const fs::path &path = outgoing.path;
         const files::Descriptor file = files::openRegular(path);
         struct stat about {};
         if (::fstat(file.get(), &about) != 0)
@@ -136,10 +142,14 @@ private:
         try {
             storeFile(link, file.get(), std::uint64_t(about.st_size));
         } catch (const Error &error) {
-            if (!m_server.mayUncompress ||
-                !error.reason().is(because::serverDoesNotTakeTheEncoding))
+            if (!error.reason().is(because::serverDoesNotTakeTheEncoding))
                 throw;
-            storeUncompressed(link, path);
+            if (m_server.mayUncompress)
+                storeUncompressed(link, path);
+            else if (isPlain(outgoing.encoding))
+                throw;
+            else
+                throw Error(error.code(), because::mayBeUncompressed(error.reason()), error.path());
         }
     }
     // In the encoding that every DICOM server has to accept, if not in the better one.
@@ -202,10 +212,11 @@ SendingReport send(const Server &server, const std::vector<fs::path> &paths,
         for (; last < outgoing.size(); ++last) {
             std::set<Encoding> more = encodings;
             more.insert(outgoing[last].encoding);
-            if (server.mayUncompress)
-                for (const char *const plain :
-                     {decoder::explicitLittleEndian, decoder::implicitLittleEndian})
-                    more.insert({outgoing[last].encoding.sopClassUid, plain});
+            // Also uncompressed: a server that refuses that, too, refuses the kind of object. The
+            // results for compressed ones do not tell: some blame the kind for the encoding.
+            for (const char *const plain :
+                 {decoder::explicitLittleEndian, decoder::implicitLittleEndian})
+                more.insert({outgoing[last].encoding.sopClassUid, plain});
             if (more.size() > encodingsAtOnce)
                 break;
             encodings = std::move(more);

@@ -47,6 +47,9 @@ public:
     unsigned char contextFor(const std::string &sopClassUid) const;
     std::optional<unsigned char> contextFor(const exchange::Encoding &encoding) const;
     std::string syntaxOf(unsigned char context) const;
+    /// Whether the server refuses a kind of object in every encoding, and does not blame the
+    /// encodings (PS3.8, table 9-18).
+    bool isClassRefused(const std::string &sopClassUid) const;
 
     /// Waits for the next command. *Shape*: false if the program cancels meanwhile; the command may
     /// then still come. *Throws* Lost if nothing comes.

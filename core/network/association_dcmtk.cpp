@@ -181,7 +181,9 @@ void Association::negotiate(const exchange::Connection &connection, const std::s
         }
         failRequest(requested.text());
     }
-    if (ASC_countAcceptedPresentationContexts(m_parameters) == 0)
+    // Whether a kind of object or only its encodings are refused, each object tells.
+    if (connection.purpose != Purpose::store &&
+        ASC_countAcceptedPresentationContexts(m_parameters) == 0)
         throw task::Error(task::ErrorCode::unusable, because::serverLacksTheService);
 }
 
@@ -297,6 +299,18 @@ std::string Association::syntaxOf(unsigned char context) const {
     if (ASC_findAcceptedPresentationContext(m_parameters, context, &found).bad())
         return {};
     return found.acceptedTransferSyntax;
+}
+
+bool Association::isClassRefused(const std::string &sopClassUid) const {
+    for (int n = 0; n < ASC_countPresentationContexts(m_parameters); ++n) {
+        T_ASC_PresentationContext context{};
+        const bool isOfClass = ASC_getPresentationContext(m_parameters, n, &context).good() &&
+                               sopClassUid == context.abstractSyntax;
+        if (isOfClass && (context.resultReason == ASC_P_ACCEPTANCE ||
+                          context.resultReason == ASC_P_TRANSFERSYNTAXESNOTSUPPORTED))
+            return false;
+    }
+    return true;
 }
 
 Association::Event Association::wait(Control &control) const {

@@ -335,6 +335,8 @@ void store(Association &association, int file, std::uint64_t bytes, Control &con
     };
     const std::string uid = parse::readText(&dataset, DCM_SOPInstanceUID);
     const auto context = association.contextFor(encoding);
+    if (!context && association.isClassRefused(encoding.sopClassUid))
+        throw Error(ErrorCode::unusable, because::serverLacksTheService);
     if (!context)
         throw Error(ErrorCode::unusable, because::serverDoesNotTakeTheEncoding(std::string(
                                              DcmXfer(dataset.getOriginalXfer()).getXferName())));

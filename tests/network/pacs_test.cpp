@@ -21,6 +21,7 @@
 #include "core/dicom/load_volume.h"
 #include "core/task/error.h"
 #include "tests/network/pacs.h"
+#include "tests/network/scripted_server.h"
 #include "tests/support/command.h"
 #include "tests/support/fresh_seed.h"
 
@@ -150,12 +151,39 @@ TEST_F(Pacs, RefusedEncodingsAreUncompressedIfAllowed) {
         server.mayUncompress = false;
         const auto refused = archive::send(server, {sent});
         ASSERT_EQ(refused.notSent.size(), 4U) << name;
+        EXPECT_TRUE(refused.notSent.front().reason.is(because::mayBeUncompressed))
+            << refused.notSent.front().reason.english();
         server.mayUncompress = true;
         const auto report = archive::send(server, {sent});
         EXPECT_TRUE(report.notSent.empty()) << name << report.notSent.front().reason.english();
         EXPECT_EQ(report.uncompressed, 4U);
         EXPECT_TRUE(get(server, studyIn(sent), "got" + name).isComplete()) << name;
         EXPECT_EQ(valuesIn(m_folder / ("got" + name)), valuesIn(sent)) << name;
+    }
+}
+
+// A server that refuses everything tells whether it refuses the kind of object or its encodings
+// (PS3.8, table 9-18).
+TEST_F(PacsScripted, ARefusedKindIsNoRefusedEncoding) {
+    constexpr int kindIsRefused = 3, encodingIsRefused = 4;
+    const fs::path sent = series("R", 2, 16, dicom::TransferSyntax::jpegLs);
+    for (const int result : {kindIsRefused, encodingIsRefused}) {
+        const test::ScriptedServer scripted(
+            [](test::ScriptedAssociation &, const test::ScriptedRequest &) {},
+            [result](const std::string &, const std::string &) { return result; });
+        archive::Server server = serverAt(scripted.port(), "REFUSES");
+        const auto report = archive::send(server, {sent});
+        ASSERT_EQ(report.notSent.size(), 2U);
+        const task::Reason reason = report.notSent.front().reason;
+        EXPECT_EQ(reason.is(because::serverLacksTheService), result == kindIsRefused)
+            << reason.english();
+        EXPECT_EQ(reason.is(because::mayBeUncompressed), result == encodingIsRefused)
+            << reason.english();
+        // Also if uncompressing is allowed, which then helps neither.
+        server.mayUncompress = true;
+        const auto again = archive::send(server, {sent});
+        ASSERT_EQ(again.notSent.size(), 2U);
+        EXPECT_FALSE(again.notSent.front().reason.is(because::mayBeUncompressed));
     }
 }
 

@@ -51,11 +51,16 @@ struct ScriptedRequest {
     }
 };
 
-/// One association, accepted with all that the program proposes. Sending and waiting *throw*
-/// ProgramHasGone.
+/// One association. Sending and waiting *throw* ProgramHasGone.
 class ScriptedAssociation {
 public:
-    explicit ScriptedAssociation(int socket) : m_socket(socket) { accept(); }
+    /// The result for each presentation context that the program proposes (PS3.8, table 9-18): by
+    /// its kind of object and its first transfer syntax.
+    using Results = std::function<int(const std::string &sopClass, const std::string &syntax)>;
+    /// `results`: empty: all are accepted.
+    explicit ScriptedAssociation(int socket, const Results &results = {}) : m_socket(socket) {
+        accept(results);
+    }
 
     /// The next command; nothing when the program has released the association.
     std::optional<ScriptedRequest> next() {
@@ -274,8 +279,8 @@ private:
         }
         return items;
     }
-    // Accepts each context with the first transfer syntax of its list, and each role.
-    void accept() {
+    // Accepts contexts with the first transfer syntax of their lists, and each role.
+    void accept(const Results &results) {
         const auto [type, request] = receivePdu();
         if (type != 1 || request.size() < 68)
             throw ProgramHasGone();
@@ -291,8 +296,10 @@ private:
                     else if (part == 0x40 && syntax.empty())
                         syntax = text;
                 }
-                answer += item(0x21, body.substr(0, 1) + std::string(3, '\0') + item(0x40, syntax));
-                if (syntax == uid::explicitLittle)
+                const int result = results ? results(sopClass, syntax) : 0;
+                answer +=
+                    item(0x21, body.substr(0, 1) + '\0' + char(result) + '\0' + item(0x40, syntax));
+                if (result == 0 && syntax == uid::explicitLittle)
                     m_contexts.emplace(sopClass, std::uint8_t(body[0]));
             } else if (kind == 0x50) {
                 for (const auto &[part, text] : itemsOf(body))
@@ -315,8 +322,8 @@ private:
 class ScriptedServer {
 public:
     using Script = std::function<void(ScriptedAssociation &, const ScriptedRequest &)>;
-    explicit ScriptedServer(Script script)
-        : m_script(std::move(script)), m_socket(listenOn(m_port)),
+    explicit ScriptedServer(Script script, ScriptedAssociation::Results results = {})
+        : m_script(std::move(script)), m_results(std::move(results)), m_socket(listenOn(m_port)),
           m_acceptor([this](const std::stop_token &stop) { acceptAll(stop); }) {}
     ~ScriptedServer() {
         m_acceptor.request_stop();
@@ -355,7 +362,7 @@ private:
     }
     void serve(int client) const {
         try {
-            ScriptedAssociation association(client);
+            ScriptedAssociation association(client, m_results);
             while (const auto request = association.next()) {
                 if (request->field == command::echoRequest)
                     association.answer(*request, 0);
@@ -369,6 +376,7 @@ private:
     }
 
     Script m_script;
+    ScriptedAssociation::Results m_results;
     int m_port = 0, m_socket;
     std::mutex m_mutex;
     std::vector<int> m_clients; // closed at the end, so that no number is used twice
