@@ -162,7 +162,7 @@ TEST(RegionSteps, GoThroughJson) {
         "/classes: the steps of the class 'a' need the class 'b', which the look does not have");
     EXPECT_EQ(refusalOf(R"({"classes":[{"name":"a","range":[0,1],"steps":[{"kind":"paint","strokes":
               [{"path":[],"radius_mm":2}]}]}]})"),
-              "/classes/0/steps/0/strokes/0: there are 0 points; 1 to 10000 are allowed");
+              "/classes/0/steps/0/strokes/0: the number of points is 0, not between 1 and 10000");
     EXPECT_EQ(refusalOf(R"({"classes":[{"name":"a","range":[0,1],"steps":[{"kind":"scissors","cuts":
               [{"outline":[[0,0,0],[1,0,0],[0,1,0]],"sight":[0,0,2]}]}]}]})"),
               "/classes/0/steps/0/cuts/0: the line of sight of a cut is not a unit vector");
