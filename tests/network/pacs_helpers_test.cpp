@@ -192,11 +192,10 @@ TEST_F(Pacs, HelpersThatAreKilledWhileTheyReceiveKeepWhatWasConfirmed) {
         options.acceptsAnyone = true;
         auto listener = std::make_unique<archive::Listener>(
             options, [&] { return receiving.receiver(); },
-            archive::ListenerObserver{
-                [&](const std::string &, const std::optional<task::Reason> &reason) {
-                    const std::lock_guard lock(mutex);
-                    ends.push_back(reason ? reason->english() : "");
-                }});
+            archive::ListenerObserver{[&](const archive::ConnectionEnd &end) {
+                const std::lock_guard lock(mutex);
+                ends.push_back(end.reason ? end.reason->english() : "");
+            }});
         const auto storescu = [&](int port) {
             return run("storescu -v -R -aec PELLUCID +sd 127.0.0.1 " + std::to_string(port) + " '" +
                        sent.string() + "'");
