@@ -157,6 +157,7 @@ private:
             throw Error(ErrorCode::output, because::cannotBeMade(task::systemReason(failed)),
                         m_out);
         files::requireWritable(m_out);
+        batch::removeUnfinished(m_out);
     }
 
     void openSource() {
@@ -285,7 +286,7 @@ private:
     void report(double seconds) {
         std::sort(m_failures.begin(), m_failures.end(),
                   [](const Failure &a, const Failure &b) { return a.key < b.key; });
-        const std::size_t unused = m_source->skipped().size();
+        const std::size_t unused = m_source->unusedFiles();
         if (m_options.json) {
             json failures = json::array();
             for (const Failure &failure : m_failures)

@@ -97,6 +97,9 @@ private:
             const scene::Scene &scene = scenes[first].second;
             SceneRenderer renderer(scene, Subject{*m_volume, nullptr, {}},
                                    MemoryLimit{m_memoryBytes, false}, m_card, m_context);
+            // It would depend on the memory of the machine.
+            if (renderer.renderer().isReduced())
+                throw Error(ErrorCode::outOfMemory, because::inWords(renderer.renderer().reason()));
             for (std::size_t n = first; n < scenes.size(); ++n)
                 if (!isDone[n] && subjectOf(scenes[n].second) == subjectOf(scene)) {
                     isDone[n] = true;

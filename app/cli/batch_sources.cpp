@@ -8,6 +8,7 @@
 #include "app/cli/servers.h"
 #include "core/archive/retrieval.h"
 #include "core/dicom/scan.h"
+#include "core/dicom/study_index.h"
 #include "core/files/session_folder.h"
 #include "core/task/error.h"
 
@@ -38,20 +39,39 @@ std::string freeKey(const std::string &wanted, std::set<std::string> &taken) {
     return key;
 }
 
+// The study of a catalogue with this UID, or else the first one.
+const dicom::Study &studyOf(const dicom::Catalogue &catalogue, const std::string &uid,
+                            const dicom::Patient *&patient) {
+    for (const dicom::Patient &each : catalogue.patients)
+        for (const dicom::Study &study : each.studies)
+            if (study.uid == uid) {
+                patient = &each;
+                return study;
+            }
+    if (catalogue.empty())
+        throw task::Error(task::ErrorCode::unusable, catalogue.skipped.empty()
+                                                         ? because::holdsNoUsableImages
+                                                         : catalogue.skipped.front().reason);
+    patient = &catalogue.patients.front();
+    return patient->studies.front();
+}
+
 class FileSource : public BatchSource {
 public:
     FileSource(std::vector<fs::path> paths, const Context &context)
         : m_paths(std::move(paths)), m_context(context) {}
 
     std::vector<BatchItem> list() override {
-        m_catalogue = dicom::scan(m_paths, task::Progress(m_context.stop));
+        m_index = dicom::indexStudies(m_paths, task::Progress(m_context.stop));
+        m_names.unpacked = m_index.unpacked;
         std::vector<BatchItem> items;
-        for (const dicom::Patient &patient : m_catalogue.patients)
-            for (const dicom::Study &study : patient.studies)
-                if (exchange::isUid(study.uid))
-                    items.push_back({study.uid, &patient, study});
-                else
-                    addEachSeries(patient, study, items);
+        for (std::size_t n = 0; n < m_index.studies.size(); ++n) {
+            const dicom::IndexedStudy &study = m_index.studies[n];
+            items.push_back({exchange::isUid(study.uid)
+                                 ? study.uid
+                                 : safeName(study.files.front().filename().string()),
+                             n});
+        }
         std::stable_sort(items.begin(), items.end(),
                          [](const BatchItem &a, const BatchItem &b) { return a.key < b.key; });
         std::set<std::string> taken;
@@ -60,32 +80,27 @@ public:
         return items;
     }
     std::string digestOf(const BatchItem &item) override {
-        return batch::digestOf(m_catalogue, *item.study);
+        std::vector<batch::InputFile> files;
+        for (const fs::path &path : m_index.studies[item.index].files)
+            files.push_back({path, m_names.archiveOf(path).value_or(path)});
+        return batch::digestOf(files);
     }
     void open(const BatchItem &item,
               const std::function<void(const StudyToRender &)> &use) override {
-        use({m_catalogue, *item.patient, *item.study, digestOf(item)});
+        const dicom::IndexedStudy &indexed = m_index.studies[item.index];
+        dicom::Catalogue catalogue = dicom::scan(indexed.files, task::Progress(m_context.stop));
+        catalogue.unpacked = m_index.unpacked;
+        const dicom::Patient *patient = nullptr;
+        const dicom::Study &study = studyOf(catalogue, indexed.uid, patient);
+        use({catalogue, *patient, study, digestOf(item)});
     }
-    std::vector<dicom::Skipped> skipped() const override { return m_catalogue.skipped; }
+    std::size_t unusedFiles() const override { return m_index.skipped.size(); }
 
 private:
-    // Files of volumes have no study: each is one.
-    static void addEachSeries(const dicom::Patient &patient, const dicom::Study &study,
-                              std::vector<BatchItem> &items) {
-        for (const dicom::Series &series : study.series) {
-            dicom::Study alone;
-            alone.date = study.date;
-            alone.description = study.description;
-            alone.series = {series};
-            const std::string name =
-                series.files.empty() ? series.uid : series.files.front().path.filename().string();
-            items.push_back({safeName(name), &patient, std::move(alone)});
-        }
-    }
-
     std::vector<fs::path> m_paths;
     Context m_context;
-    dicom::Catalogue m_catalogue;
+    dicom::StudyIndex m_index;
+    dicom::Catalogue m_names; ///< of files in archives
 };
 
 class ServerSource : public BatchSource {
@@ -100,7 +115,7 @@ public:
     std::vector<BatchItem> list() override {
         std::vector<BatchItem> items;
         for (const archive::FoundEntry &entry : found(m_terms))
-            items.push_back({entry.text(tag::studyUid), nullptr, std::nullopt});
+            items.push_back({entry.text(tag::studyUid)});
         std::sort(items.begin(), items.end(),
                   [](const BatchItem &a, const BatchItem &b) { return a.key < b.key; });
         return items;
@@ -121,13 +136,9 @@ public:
         requireComplete(archive::retrieve(m_server, wantedOf(item), objects, observer, progress()),
                         m_server.name);
         const dicom::Catalogue catalogue = dicom::scan({folder.path()}, progress());
-        for (const dicom::Patient &patient : catalogue.patients)
-            for (const dicom::Study &study : patient.studies)
-                if (study.uid == item.key) {
-                    use({catalogue, patient, study, inputs});
-                    return;
-                }
-        throw task::Error(task::ErrorCode::unusable, because::holdsNoUsableImages);
+        const dicom::Patient *patient = nullptr;
+        const dicom::Study &study = studyOf(catalogue, item.key, patient);
+        use({catalogue, *patient, study, inputs});
     }
 
 private:

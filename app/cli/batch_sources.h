@@ -16,11 +16,10 @@
 
 namespace pellucid::cli {
 
-/// A study that a batch may render. `key` names its results: the study UID, or what stands for it.
+/// A study that a batch may render.
 struct BatchItem {
-    std::string key;
-    const dicom::Patient *patient = nullptr; ///< null: on a server
-    std::optional<dicom::Study> study;       ///< a file without a study is one of its own
+    std::string key;       ///< names its results: the study UID, or what stands for it
+    std::size_t index = 0; ///< of its source
 };
 
 /// Studies in files, or on a server. Thread-safe, but for `list`.
@@ -35,8 +34,8 @@ public:
     /// archive::retrieve; Error{incomplete} if not all of it arrived.
     virtual void open(const BatchItem &item,
                       const std::function<void(const StudyToRender &)> &use) = 0;
-    /// Files that are not used, each with its reason.
-    virtual std::vector<dicom::Skipped> skipped() const { return {}; }
+    /// How many files belong to no study that can be read.
+    virtual std::size_t unusedFiles() const { return 0; }
 };
 
 std::unique_ptr<BatchSource> batchOfFiles(const std::vector<std::filesystem::path> &paths,

@@ -40,9 +40,12 @@ std::optional<DoneRecord> doneIn(const std::filesystem::path &folder);
 /// Whether a folder has all results of this recipe for these inputs, by this program.
 bool isDone(const std::filesystem::path &folder, const DoneRecord &wanted);
 
-/// A digest of the files of a study: their names, sizes and times of change. For a file in an
-/// archive, the time is the archive's.
-std::string digestOf(const dicom::Catalogue &catalogue, const dicom::Study &study);
+/// A file of a study. One in an archive changes with the archive.
+struct InputFile {
+    std::filesystem::path path, changing;
+};
+/// A digest of the files of a study: their names, sizes and times of change.
+std::string digestOf(const std::vector<InputFile> &files);
 /// A digest of these instances, in whatever order.
 std::string digestOf(std::vector<std::string> sopInstanceUids);
 

@@ -96,18 +96,15 @@ bool isDone(const fs::path &folder, const DoneRecord &wanted) {
                        });
 }
 
-std::string digestOf(const dicom::Catalogue &catalogue, const dicom::Study &study) {
+std::string digestOf(const std::vector<InputFile> &files) {
     std::vector<std::string> lines;
-    for (const dicom::Series &series : study.series)
-        for (const dicom::InstanceFile &file : series.files) {
-            const fs::path changed = catalogue.archiveOf(file.path).value_or(file.path);
-            std::error_code unknown;
-            const auto bytes = fs::file_size(file.path, unknown);
-            const auto time = fs::last_write_time(changed, unknown).time_since_epoch();
-            const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
-            lines.push_back(fmt::format("{} {} {} {}", file.path.filename().string(),
-                                        file.sopInstanceUid, bytes, ns));
-        }
+    for (const InputFile &file : files) {
+        std::error_code unknown;
+        const auto bytes = fs::file_size(file.path, unknown);
+        const auto time = fs::last_write_time(file.changing, unknown).time_since_epoch();
+        const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
+        lines.push_back(fmt::format("{} {} {}", file.path.filename().string(), bytes, ns));
+    }
     return digestOf(std::move(lines));
 }
 

@@ -142,12 +142,18 @@ dicom::Selection choose(const SeriesChoice &choice, const dicom::Patient &patien
     dicom::Selection chosen;
     for (const dicom::Series &series : study.series)
         for (const dicom::VolumeEntry &volume : series.volumes) {
-            const auto slices = [](const dicom::VolumeEntry &one) {
-                return one.geometry.lattice.size().k;
+            if (!holds(choice, series, volume))
+                continue;
+            // Of equals, the same whatever the order of the files.
+            const auto comesBefore = [](const dicom::Selection &a, const dicom::Selection &b) {
+                const int slicesOfA = a.volume->geometry.lattice.size().k,
+                          slicesOfB = b.volume->geometry.lattice.size().k;
+                return slicesOfA != slicesOfB ? slicesOfA > slicesOfB
+                                              : a.series->uid < b.series->uid;
             };
-            if (holds(choice, series, volume) &&
-                (chosen.volume == nullptr || slices(volume) > slices(*chosen.volume)))
-                chosen = {&patient, &study, &series, &volume};
+            const dicom::Selection candidate{&patient, &study, &series, &volume};
+            if (chosen.volume == nullptr || comesBefore(candidate, chosen))
+                chosen = candidate;
         }
     if (chosen.volume == nullptr)
         throw task::Error(task::ErrorCode::unusable, because::noSeriesIsChosen);

@@ -63,8 +63,10 @@ Recipe recipeFromJson(const std::string &text, const std::filesystem::path &fold
 /// The same of a file, which the error names.
 Recipe readRecipe(const std::filesystem::path &path);
 
-/// A recipe that makes the picture of a scene, from its direction, of other studies.
-std::string recipeOf(const scene::Scene &scene);
+/// A recipe that makes the same picture of other studies: from the direction of a scene, with its
+/// quality and contrast, and this look. `turn`: the number of views of a turntable; 0: none.
+std::string recipeOf(const scene::Scene &scene, const presets::Preset &look, Format format,
+                     int turn, bool isDeidentified);
 
 /// The file names of an output, in the order of its views.
 std::vector<std::string> filesOf(const Output &output);

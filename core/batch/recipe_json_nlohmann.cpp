@@ -11,6 +11,7 @@
 #include "core/files/json_lines_nlohmann.h"
 #include "core/files/read_text.h"
 #include "core/presets/preset_library.h"
+#include "core/scene/view_list_nlohmann.h"
 #include "core/system/content_digest.h"
 #include "core/task/error.h"
 
@@ -105,15 +106,20 @@ private:
 
     void readScene(const JsonValue &in, Output &output) {
         if (const JsonValue scene = in["scene"]) {
-            const std::string text = textOf(scene);
-            output.scene = scene.checked([&] { return scene::sceneFromJson(text); });
+            if (scene.isText()) {
+                const std::string text = textOf(scene);
+                output.scene = scene.checked([&] { return scene::sceneFromJson(text); });
+            } else {
+                output.scene = scene.checkedText(scene::sceneFromJson);
+            }
             // Measured on the study that the scene is of.
             output.scene->tone.exposure.reset();
             if (output.scene->isOfDifference)
                 scene.refuse(because::sceneShowsADifference);
         }
         if (const JsonValue look = in["look"]) {
-            output.look = look.checked([&] { return presetOf(look); });
+            output.look = look.isText() ? look.checked([&] { return presetNamed(look.text()); })
+                                        : look.checkedText(presets::presetFromJson);
             m_contents += presets::toJson(*output.look);
         }
         if (const JsonValue tolerance = in["tolerance"])
@@ -142,12 +148,19 @@ private:
         if (int(bool(view)) + int(bool(views)) > 1 || (views && turn))
             in.refuse(because::viewsAreGivenTwice);
         if (views) {
-            const ViewList list = views.checked([&] {
-                return scene::viewListFromJson(views.isText() ? textOf(views)
-                                               : views.isList()
-                                                   ? "{\"views\":" + views.dumped() + "}"
-                                                   : views.dumped());
-            });
+            ViewList list;
+            if (views.isText()) {
+                const std::string text = textOf(views);
+                list = views.checked([&] { return scene::viewListFromJson(text); });
+            } else if (views.isList()) {
+                for (const JsonValue &one : views.elements())
+                    list.views.push_back(scene::viewFrom(one));
+                if (list.views.empty())
+                    views.refuse(because::mustNotBeEmpty);
+                requireSizeOfMatrices(in, list);
+            } else {
+                list = scene::viewListFrom(views);
+            }
             output.views = list.views;
             output.size = list.size;
             output.pixelMm = list.pixelMm;
@@ -169,11 +182,17 @@ private:
             for (const auto &[word, view] : standardViews)
                 if (in.text() == word)
                     return scene::viewOrientation(view);
-        const std::string list = "{\"views\":[" + in.dumped() + "]}";
-        const ViewList read = in.checked([&] { return scene::viewListFromJson(list); });
-        if (!read.views.front().orientation)
-            in.refuse(because::matricesNeedASize);
-        return *read.views.front().orientation;
+        const ViewList::View view = scene::viewFrom(in);
+        if (!view.orientation)
+            in.refuse(because::matrixBelongsToViews);
+        return *view.orientation;
+    }
+
+    // In a plain list, the size is that of the output.
+    static void requireSizeOfMatrices(const JsonValue &in, const ViewList &list) {
+        for (const ViewList::View &view : list.views)
+            if (view.matrix && !in["size"])
+                in.refuse(because::matricesNeedASize);
     }
 
     static void readCamera(const JsonValue &in, Output &output) {
@@ -214,10 +233,8 @@ private:
         return name;
     }
 
-    // An object of the recipe itself, or the text of the file that it names.
+    // The text of a file that the recipe names.
     std::string textOf(const JsonValue &in) {
-        if (!in.isText())
-            return in.dumped();
         const fs::path path = m_folder / in.text();
         const std::string text =
             in.checked([&] { return files::readText(path, files::maxSceneBytes); });
@@ -225,18 +242,16 @@ private:
         return text;
     }
 
-    presets::Preset presetOf(const JsonValue &in) const {
-        if (!in.isText())
-            return presets::presetFromJson(in.dumped());
-        const fs::path path(in.text());
+    presets::Preset presetNamed(const std::string &name) const {
+        const fs::path path(name);
         if (path.extension() == ".json" || path.has_parent_path())
             return presets::readPreset(m_folder / path);
-        return presets::PresetLibrary::ofUser().get(in.text()).preset;
+        return presets::PresetLibrary::ofUser().get(name).preset;
     }
 
     fs::path m_folder;
-    std::string m_contents; ///< of what it names
-    std::set<std::string> m_names;
+    std::string m_contents;                ///< of what it names
+    std::set<std::string> m_names{"done"}; ///< of the record beside the outputs
 };
 
 } // namespace
@@ -254,16 +269,27 @@ Recipe readRecipe(const fs::path &path) {
     }
 }
 
-std::string recipeOf(const scene::Scene &scene) {
+std::string recipeOf(const scene::Scene &scene, const presets::Preset &look, Format format,
+                     int turn, bool isDeidentified) {
     scene::Scene shown = scene;
-    shown.tone.exposure.reset(); // of this study
-    return json{{"recipe", 1},
-                {"outputs",
-                 {{{"name", "picture"},
-                   {"format", "png"},
-                   {"size", {scene.camera.width, scene.camera.height}},
-                   {"scene", json::parse(scene::toJson(shown))}}}}}
-        .dump(2);
+    // What belongs to this study, or comes from the look.
+    shown.tone.exposure.reset();
+    shown.tone.low.reset();
+    shown.tone.high.reset();
+    shown.look = {};
+    shown.shading = {};
+    shown.fieldWindow.reset();
+    shown.camera.panMm = {};
+    json output{{"name", turn > 0 ? "turntable" : "picture"},
+                {"format", files::wordFor(format, formats)},
+                {"size", {scene.camera.width, scene.camera.height}},
+                {"look", json::parse(presets::toJson(look))},
+                {"scene", json::parse(scene::toJson(shown))}};
+    if (turn > 0)
+        output["turntable"] = turn;
+    if (isDeidentified)
+        output["deidentify"] = true;
+    return json{{"recipe", 1}, {"outputs", {output}}}.dump(2) + "\n";
 }
 
 } // namespace pellucid::batch

@@ -2,10 +2,11 @@
 #include "core/batch/study_results.h"
 
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <cstdio>
 #include <fcntl.h>
 #include <system_error>
+#include <unistd.h>
 
 #include "core/files/atomic_file.h"
 #include "core/task/error.h"
@@ -27,10 +28,21 @@ bool exchange(const fs::path &a, const fs::path &b) {
     return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
 }
 
+// Locks that tell an abandoned folder may hold on one machine only: each has a folder of its own.
+fs::path unfinishedIn(const fs::path &out) {
+    std::array<char, 256> name{};
+    ::gethostname(name.data(), name.size() - 1);
+    return out / (std::string(".unfinished-") + name.data());
+}
+
 } // namespace
 
-StudyResults::StudyResults(fs::path out, std::string key)
-    : m_place(std::move(out) / std::move(key)), m_aside(files::SessionFolder::beside(m_place)),
+void removeUnfinished(const fs::path &out) {
+    files::removeAbandonedSessionFolders(unfinishedIn(out));
+}
+
+StudyResults::StudyResults(const fs::path &out, const std::string &key)
+    : m_place(out / key), m_aside(unfinishedIn(out), files::SessionFolder::Parent::goes),
       m_folder(m_aside.path() / "results") {
     std::error_code failed;
     fs::create_directory(m_folder, failed);

@@ -10,12 +10,12 @@
 namespace pellucid::batch {
 
 /// The results of one study, which get their folder when all of them are there. Until then, and if
-/// the program is killed, the results of an earlier run stay; what was unfinished is removed by the
-/// next program that writes there. Several machines may share the folder.
+/// the program is killed, the results of an earlier run stay. Several machines may share the
+/// folder.
 class StudyResults {
 public:
     /// *Shape*: `key`: the name of the study's folder in `out`. *Throws* Error{output}.
-    StudyResults(std::filesystem::path out, std::string key);
+    StudyResults(const std::filesystem::path &out, const std::string &key);
 
     /// Where to write the results.
     const std::filesystem::path &folder() const { return m_folder; }
@@ -28,5 +28,8 @@ private:
     files::SessionFolder m_aside;
     std::filesystem::path m_folder;
 };
+
+/// Removes what killed programs of this machine have left unfinished in `out`.
+void removeUnfinished(const std::filesystem::path &out);
 
 } // namespace pellucid::batch

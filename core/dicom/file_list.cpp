@@ -164,4 +164,21 @@ void FileList::addFolder(const fs::path &folder) {
         addFile(path);
 }
 
+FileList listFiles(const std::vector<fs::path> &paths, const task::Progress &progress) {
+    FileList list(progress);
+    for (const fs::path &path : paths) {
+        try {
+            list.add(path);
+        } catch (const Error &error) {
+            // One bad path among several does not stop the scan; a full disk does.
+            if (paths.size() == 1 || error.code() == ErrorCode::output)
+                throw;
+            list.skipped.push_back({path, error.code() == ErrorCode::outOfMemory
+                                              ? task::Reason(because::needsTooMuchMemory)
+                                              : error.reason()});
+        }
+    }
+    return list;
+}
+
 } // namespace pellucid::dicom

@@ -40,4 +40,8 @@ private:
     std::set<std::filesystem::path> m_seen;
 };
 
+/// The files of all paths. One bad path among several is listed as skipped; the only one is
+/// refused. *Throws* as `FileList::add`. *Requires*: `progress` outlives the list.
+FileList listFiles(const std::vector<std::filesystem::path> &paths, const task::Progress &progress);
+
 } // namespace pellucid::dicom

@@ -344,21 +344,6 @@ private:
     std::vector<std::vector<SeriesFile>> m_series;
 };
 
-FileList listFiles(const std::vector<fs::path> &paths, const task::Progress &progress) {
-    FileList list(progress);
-    for (const fs::path &path : paths) {
-        try {
-            list.add(path);
-        } catch (const Error &error) {
-            // One bad path among several does not stop the scan; a full disk does.
-            if (paths.size() == 1 || error.code() == ErrorCode::output)
-                throw;
-            list.skipped.push_back({path, reasonOf(error)});
-        }
-    }
-    return list;
-}
-
 // Adds volume files and skipped files to the catalogue directly, sets segmentations aside, and
 // sorts all others into series.
 SeriesSorter sortFiles(const std::vector<fs::path> &paths, std::vector<FileContents> contents,

@@ -141,6 +141,16 @@ void JsonValue::refuse(const task::Reason &what) const {
                       m_pointer.empty() ? what : because::at(m_pointer, what));
 }
 
+void JsonValue::refuseWithin(const task::Reason &what) const {
+    // Its line is that of another text.
+    if (what.is(because::atLine) && !what.arguments()[1].reasons.empty())
+        refuseWithin(what.arguments()[1].reasons.front());
+    if (!what.is(because::at) || what.arguments()[1].reasons.empty())
+        refuse(what);
+    throw task::Error(task::ErrorCode::usage, because::at(m_pointer + what.arguments()[0].text,
+                                                          what.arguments()[1].reasons.front()));
+}
+
 std::string jsonPointer(const task::Reason &reason) {
     return reason.is(because::at) ? reason.arguments()[0].text : std::string();
 }

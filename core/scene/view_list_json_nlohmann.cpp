@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
-#include <set>
 #include <string>
 
 #include "core/files/json_lines_nlohmann.h"
 #include "core/scene/positioner_angles.h"
-#include "core/scene/projection_matrix.h"
+#include "core/scene/view_list_nlohmann.h"
 
 namespace pellucid::scene {
 
@@ -24,7 +23,11 @@ ProjectionMatrix matrixFrom(const JsonValue &in) {
     return matrix;
 }
 
+} // namespace
+
 ViewList::View viewFrom(const JsonValue &in) {
+    if (in.isObject())
+        in.requireOnly({"matrix", "primary_deg", "secondary_deg", "roll_deg"});
     if (!in.isObject()) {
         const std::string text = in.text();
         return {in.checked([&] { return orientationOf(positionerAnglesFromText(text)); }), {}};
@@ -40,40 +43,38 @@ ViewList::View viewFrom(const JsonValue &in) {
     return {viewOrientation(StandardView::front, angles), {}};
 }
 
-} // namespace
+ViewList viewListFrom(const JsonValue &in) {
+    in.requireOnly({"views", "size", "pixel_mm"});
+    ViewList list;
+    if (const JsonValue size = in["size"])
+        list.size = size.wholeNumbers<2>(1, largestImageSize);
+    if (const JsonValue pixel = in["pixel_mm"]) {
+        list.pixelMm = pixel.number();
+        if (!(*list.pixelMm > 0.0))
+            pixel.refuse(because::pixelMustBePositive);
+    }
+    std::optional<double> pixelMm;
+    for (const JsonValue &each : in.at("views").elements()) {
+        list.views.push_back(viewFrom(each));
+        if (!list.views.back().matrix)
+            continue;
+        // The pictures of all views are one array.
+        constexpr double rounding = 1e-4;
+        const double here = pixelOf(*list.views.back().matrix);
+        if (!pixelMm)
+            pixelMm = here;
+        if (std::abs(here - *pixelMm) > rounding * *pixelMm)
+            each.refuse(because::pixelsOfViewsDiffer);
+        if (!list.size)
+            in.refuse(because::matricesNeedASize);
+    }
+    if (list.views.empty())
+        in["views"].refuse(because::mustNotBeEmpty);
+    return list;
+}
 
 ViewList viewListFromJson(const std::string &text) {
-    return files::readJson(text, [](const JsonValue &in) {
-        in.requireOnly({"views", "size", "pixel_mm"});
-        ViewList list;
-        if (const JsonValue size = in["size"])
-            list.size = size.wholeNumbers<2>(1, largestImageSize);
-        if (const JsonValue pixel = in["pixel_mm"]) {
-            list.pixelMm = pixel.number();
-            if (!(*list.pixelMm > 0.0))
-                pixel.refuse(because::pixelMustBePositive);
-        }
-        std::optional<double> pixelMm;
-        for (const JsonValue &each : in.at("views").elements()) {
-            if (each.isObject())
-                each.requireOnly({"matrix", "primary_deg", "secondary_deg", "roll_deg"});
-            list.views.push_back(viewFrom(each));
-            if (!list.views.back().matrix)
-                continue;
-            // The pictures of all views are one array.
-            constexpr double rounding = 1e-4;
-            const double here = pixelOf(*list.views.back().matrix);
-            if (!pixelMm)
-                pixelMm = here;
-            if (std::abs(here - *pixelMm) > rounding * *pixelMm)
-                each.refuse(because::pixelsOfViewsDiffer);
-            if (!list.size)
-                in.refuse(because::matricesNeedASize);
-        }
-        if (list.views.empty())
-            in["views"].refuse(because::mustNotBeEmpty);
-        return list;
-    });
+    return files::readJson(text, viewListFrom);
 }
 
 } // namespace pellucid::scene

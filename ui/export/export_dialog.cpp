@@ -23,6 +23,7 @@
 #include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/export/capture_labels.h"
+#include "ui/export/recipe_file.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/jobs/job_strip.h"
 #include "ui/language/reasons.h"
@@ -110,6 +111,11 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     m_write = buttons->addButton(tr("Write"), QDialogButtonBox::AcceptRole);
     m_write->setObjectName("exportWriteButton");
     m_close = buttons->addButton(QDialogButtonBox::Cancel);
+    m_recipe = buttons->addButton(tr("Save as recipe..."), QDialogButtonBox::ActionRole);
+    m_recipe->setObjectName("saveRecipeButton");
+    m_recipe->setToolTip(tr("A file for pellucid-cli batch, which makes the same picture of many "
+                            "studies"));
+    connect(m_recipe, &QPushButton::clicked, this, &ExportDialog::saveRecipe);
     form->addRow(new JobStrip(jobs, "export"));
     form->addRow(buttons);
     connect(&servers, &ServerBook::changed, this, &ExportDialog::offerServers);
@@ -185,6 +191,7 @@ void ExportDialog::showChosen() {
     auto why = obstacle(what, m_panes, m_document);
     if (!why && isSent && !what.isCapture())
         why = task::because::onlyCapturesAreSent;
+    m_recipe->setEnabled(!obstacleToRecipe(what, m_panes, m_document));
     form()->setRowVisible(m_where, !isSent);
     m_write->setText(isSent ? tr("Send") : tr("Write"));
     if (m_jobs.isRunning()) // the choice is made
@@ -216,6 +223,20 @@ void ExportDialog::browse() {
         return;
     m_path->setText(path);
     m_confirmed = path; // the file dialog has asked
+}
+
+void ExportDialog::saveRecipe() {
+    const QString path =
+        askForSavePath(this, tr("Save as recipe"), QDir(exportFolder()).filePath("recipe.json"),
+                       tr("Recipe (*.json)"));
+    if (path.isEmpty())
+        return;
+    try {
+        writeRecipe(path, chosen(), m_panes, m_document);
+        showMessage(tr("Saved to %1").arg(path), "muted");
+    } catch (const task::Error &error) {
+        showMessage(translated(error.reason()), "warning");
+    }
 }
 
 bool ExportDialog::mayReplace(const QString &path) {

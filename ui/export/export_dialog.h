@@ -50,6 +50,7 @@ private:
     void chooseCapture();
     void showChosen();
     void browse();
+    void saveRecipe();
     void write();
     void writeTo(const QString &path);
     void send(const archive::Server &server, const PictureExport &what);
@@ -77,7 +78,7 @@ private:
     bool m_isWorking = false;
     QString m_confirmed; ///< a path that the file dialog has asked about
     QString m_sentTo;    ///< the server that has just received it
-    QPushButton *m_write = nullptr, *m_close = nullptr;
+    QPushButton *m_write = nullptr, *m_close = nullptr, *m_recipe = nullptr;
 };
 
 } // namespace pellucid::ui

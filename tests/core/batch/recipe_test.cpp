@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/batch/recipe.h"
+
+#include <gtest/gtest.h>
+
+#include "core/presets/preset_library.h"
+#include "core/task/error.h"
+#include "tests/support/files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid::batch {
+
+namespace {
+
+Recipe read(const std::string &text) {
+    return recipeFromJson(text, {});
+}
+
+// Why a recipe is refused.
+std::string faultOf(const std::string &text) {
+    try {
+        read(text);
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.code(), task::ErrorCode::unusable);
+        return error.reason().english();
+    }
+    return "it is read";
+}
+
+volume::Volume volumeOf(volume::GridSize size, glm::dvec3 spacingMm) {
+    return {volume::Lattice::centred(size, spacingMm),
+            std::vector<std::int16_t>(size.count(), std::int16_t(40)),
+            volume::ValueUnit::hounsfield};
+}
+
+dicom::VolumeEntry stack(int slices, double distanceMm) {
+    dicom::VolumeEntry entry;
+    entry.geometry.lattice = volume::Lattice::centred({8, 8, slices}, {1.0, 1.0, distanceMm});
+    return entry;
+}
+
+} // namespace
+
+TEST(Recipe, TheSmallestMakesTheValuesOfTheFront) {
+    const Recipe recipe = read(R"({"recipe": 1, "outputs": [{"view": "front", "format": "npy"}]})");
+    ASSERT_EQ(recipe.outputs.size(), 1U);
+    const Output &output = recipe.outputs.front();
+    EXPECT_EQ(output.format, Format::npy);
+    EXPECT_EQ(filesOf(output), std::vector<std::string>{"front.npy"});
+    const volume::Volume volume = volumeOf({20, 30, 40}, {1.0, 1.0, 2.0});
+    const scene::Scene scene = sceneOf(output, volume);
+    EXPECT_EQ(scene.camera, scene::defaultCamera(volume.lattice()));
+    EXPECT_EQ(scene.tolerance, scene::Scene().tolerance);
+}
+
+TEST(Recipe, FaultsAreNamedWithTheirLines) {
+    const std::pair<const char *, const char *> faults[] = {
+        {"{\"recipe\": 1,\n \"outputs\": [\n", "line 3"},
+        {"{\"recipe\": 2, \"outputs\": [{}]}", "line 1: /recipe: is not 1"},
+        {"{\"outputs\": [{}]}", "has no recipe"},
+        {"{\"recipe\": 1, \"outputs\": []}", "/outputs: must not be empty"},
+        {"{\"recipe\": 1,\n\"outputs\": [{},\n{\"veiw\": \"front\"}]}", "line 3: /outputs/1/veiw"},
+        {"{\"recipe\": 1, \"outputs\": [{\"view\": \"fornt\"}]}", "/outputs/0/view"},
+        {"{\"recipe\": 1, \"outputs\": [{\"format\": \"gif\"}]}", "use one of png, png16, npy"},
+        {"{\"recipe\": 1, \"outputs\": [{\"format\": \"mp4\"}]}", "needs a turntable"},
+        {"{\"recipe\": 1, \"outputs\": [{\"size\": [0, 5]}]}", "whole number from 1 to 16384"},
+        {"{\"recipe\": 1, \"outputs\": [{\"size\": 1.5}]}", "whole number"},
+        {"{\"recipe\": 1, \"outputs\": [{\"pixel_mm\": 0}]}", "must be positive"},
+        {"{\"recipe\": 1, \"outputs\": [{\"tolerance\": \"best\"}]}", "use one of draft"},
+        {"{\"recipe\": 1, \"outputs\": [{\"turntable\": 1}]}", "from 2 to 3600"},
+        {"{\"recipe\": 1, \"outputs\": [{\"name\": \"../x\"}]}", "/outputs/0/name"},
+        {"{\"recipe\": 1, \"outputs\": [{\"name\": \"done\"}]}", "another output"},
+        {"{\"recipe\": 1, \"outputs\": [{}, {}]}", "the name 'picture'"},
+        {"{\"recipe\": 1, \"outputs\": [{\"look\": \"nothing like this\"}]}", "/outputs/0/look"},
+        {"{\"recipe\": 1, \"outputs\": [{\"scene\": \"missing.json\"}]}", "/outputs/0/scene"},
+        {"{\"recipe\": 1, \"outputs\": [{\"view\": \"left\", \"views\": [\"AP\"]}]}",
+         "more than one"},
+        {"{\"recipe\": 1, \"outputs\": [{\"views\": []}]}", "/outputs/0/views"},
+        {"{\"recipe\": 1, \"series\": {\"slice_mm\": [3, 1]}, \"outputs\": [{}]}",
+         "/series/slice_mm"},
+        {"{\"recipe\": 1, \"series\": {\"modality\": 5}, \"outputs\": [{}]}", "must be text"}};
+    for (const auto &[text, part] : faults)
+        EXPECT_NE(faultOf(text).find(part), std::string::npos) << text << "\n" << faultOf(text);
+}
+
+// What is written differently and means the same has the same digest; what a name stands for
+// belongs to it.
+TEST(Recipe, TheDigestIsOfTheContent) {
+    const std::string digest = read(R"({"recipe": 1, "outputs": [{"view": "left"}]})").digest;
+    EXPECT_EQ(read("{ \"outputs\":[ {\"view\":\"left\"} ],\n\n\"recipe\":1}").digest, digest);
+    EXPECT_NE(read(R"({"recipe": 1, "outputs": [{"view": "right"}]})").digest, digest);
+    const test::TemporaryFolder folder;
+    presets::Preset preset;
+    preset.name = "Mine";
+    preset.look.transferFunction.weights = {0.0, 1.0};
+    presets::writePreset(folder / "mine.json", preset);
+    test::writeText(folder / "recipe.json",
+                    R"({"recipe": 1, "outputs": [{"look": "mine.json", "view": "left"}]})");
+    const std::string before = readRecipe(folder / "recipe.json").digest;
+    EXPECT_EQ(readRecipe(folder / "recipe.json").digest, before);
+    preset.look.transferFunction.weights = {0.0, 0.9};
+    presets::writePreset(folder / "mine.json", preset);
+    EXPECT_NE(readRecipe(folder / "recipe.json").digest, before);
+}
+
+TEST(Recipe, ViewsTurnAndFitTheVolume) {
+    const Recipe recipe = read(R"({"recipe": 1, "outputs": [
+        {"view": "LAO30,CRA20", "size": [200, 100]},
+        {"turntable": 4, "size": 64},
+        {"name": "fine", "turntable": 3, "format": "npy", "pixel_mm": 0.5},
+        {"name": "listed", "views": ["AP", {"primary_deg": 90}], "size": 32}]})");
+    const volume::Volume volume = volumeOf({20, 30, 40}, {1.0, 1.0, 2.0});
+    const double across = 2.0 * volume.lattice().radiusMm();
+    const scene::Scene oblique = sceneOf(recipe.outputs[0], volume);
+    EXPECT_EQ(oblique.camera.width, 200);
+    EXPECT_NEAR(oblique.camera.pixelMm, across / 100.0, 1e-12); // the smaller side
+    const std::vector<std::string> frames{"turntable_0000.png", "turntable_0001.png",
+                                          "turntable_0002.png", "turntable_0003.png"};
+    EXPECT_EQ(filesOf(recipe.outputs[1]), frames);
+    const auto cameras =
+        camerasOf(recipe.outputs[1], sceneOf(recipe.outputs[1], volume), volume.lattice());
+    ASSERT_EQ(cameras.size(), 4U);
+    const glm::dquat back = scene::viewOrientation(scene::StandardView::back);
+    EXPECT_NEAR(std::abs(glm::dot(cameras[2].orientation, back)), 1.0, 1e-12);
+    EXPECT_EQ(filesOf(recipe.outputs[2]), std::vector<std::string>{"fine.npy"});
+    const scene::Scene fine = sceneOf(recipe.outputs[2], volume);
+    EXPECT_EQ(fine.camera.pixelMm, 0.5);
+    EXPECT_GE(fine.camera.width * 0.5, across);
+    EXPECT_EQ(recipe.outputs[3].views.size(), 2U);
+}
+
+// The window writes recipes that the command line reads.
+TEST(Recipe, OfASceneMakesItsLookOfOtherStudies) {
+    scene::Scene scene;
+    scene.camera.orientation = scene::viewOrientation(scene::StandardView::left, {10, 5, 0});
+    scene.camera.width = 300;
+    scene.camera.height = 200;
+    scene.camera.panMm = {10.0, 5.0};
+    scene.tolerance = 1e-4;
+    scene.tone.exposure = scene::Exposure();
+    const auto library = presets::PresetLibrary({});
+    const presets::Preset look = library.get("Bone over soft tissue").preset;
+    const Recipe recipe = read(recipeOf(scene, look, Format::captureLoop, 36, true));
+    ASSERT_EQ(recipe.outputs.size(), 1U);
+    const Output &output = recipe.outputs.front();
+    EXPECT_EQ(output.format, Format::captureLoop);
+    EXPECT_EQ(output.views.size(), 36U);
+    EXPECT_TRUE(output.isDeidentified);
+    const scene::Scene made = sceneOf(output, volumeOf({20, 30, 40}, {1.0, 1.0, 2.0}));
+    EXPECT_NEAR(std::abs(glm::dot(made.camera.orientation, scene.camera.orientation)), 1.0, 1e-12);
+    EXPECT_EQ(made.look.classes, look.look.classes);
+    EXPECT_EQ(made.tolerance, 1e-4);
+    EXPECT_FALSE(made.tone.exposure);
+    EXPECT_EQ(made.camera.panMm, glm::dvec2(0.0));
+    EXPECT_EQ(made.camera.width, 300);
+}
+
+TEST(Recipe, ChoosesTheSeriesThatItAsksFor) {
+    dicom::Patient patient;
+    dicom::Study study;
+    const auto add = [&](const char *description, const char *modality, int slices, double mm) {
+        dicom::Series series;
+        series.uid = description;
+        series.description = description;
+        series.modality = modality;
+        series.volumes = {stack(slices, mm)};
+        study.series.push_back(series);
+    };
+    add("Scout", "CT", 3, 5.0);
+    add("Thin chest", "CT", 300, 0.8);
+    add("Thick chest", "CT", 60, 5.0);
+    add("T1", "MR", 400, 1.0);
+    const auto chosen = [&](const SeriesChoice &choice) {
+        return choose(choice, patient, study).series->uid;
+    };
+    EXPECT_EQ(chosen({}), "T1");
+    EXPECT_EQ(chosen({.modalities = {"CT"}}), "Thin chest");
+    EXPECT_EQ(chosen({.modalities = {"CT"}, .sliceMm = {{3.0, 6.0}}}), "Thick chest");
+    EXPECT_EQ(chosen({.description = "*CHEST"}), "Thin chest");
+    EXPECT_EQ(chosen({.description = "th?ck*"}), "Thick chest");
+    EXPECT_THROW(chosen({.modalities = {"PT"}}), task::Error);
+    EXPECT_THROW(chosen({.leastSlices = 500}), task::Error);
+    // The first of equals, whatever the order of the files: that with the smaller UID.
+    add("Also thin chest", "CT", 300, 0.8);
+    EXPECT_EQ(chosen({.modalities = {"CT"}}), "Also thin chest");
+}
+
+} // namespace pellucid::batch
