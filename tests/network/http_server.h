@@ -60,7 +60,7 @@ inline std::string urlDecoded(const std::string &text) {
 }
 
 // The fields of a query or a form.
-Fields fieldsOf(const std::string &text) {
+inline Fields fieldsOf(const std::string &text) {
     Fields fields;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find('&', at), text.size());
@@ -80,6 +80,21 @@ inline void sendAll(int socket, const std::string &bytes) {
             return;
         sent += std::size_t(now);
     }
+}
+
+// The answer of the page at this address, which the server ends by closing the connection.
+inline std::string visit(const std::string &url) {
+    const std::size_t host = url.find("://") + 3, path = url.find('/', host);
+    const int socket = connectTo(std::stoi(url.substr(url.find(':', host) + 1)));
+    if (socket < 0)
+        return "no connection";
+    sendAll(socket, "GET " + url.substr(path) + " HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+    std::string answer;
+    std::array<char, 4096> buffer{};
+    for (ssize_t got = 0; (got = ::recv(socket, buffer.data(), buffer.size(), 0)) > 0;)
+        answer.append(buffer.data(), std::size_t(got));
+    ::close(socket);
+    return answer;
 }
 
 // Answers requests on 127.0.0.1, each connection in a thread of its own.

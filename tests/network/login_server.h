@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <poll.h>
 #include <set>
 #include <stop_token>
@@ -26,7 +27,6 @@
 #include "core/archive/pkce.h"
 #include "core/exchange/query.h"
 #include "tests/network/http_server.h"
-#include "tests/network/pacs.h"
 #include "tests/support/dicom_writer.h"
 
 /// A login server (OAuth 2.0), and a DICOMweb server that accepts its tokens.
@@ -143,21 +143,21 @@ private:
     HttpServer m_http;
 };
 
-const std::string study = "1.2.826.0.1.3680043.8.498.77", series = study + ".1";
+inline const std::string webStudy = "1.2.826.0.1.3680043.8.498.77", webSeries = webStudy + ".1";
 inline constexpr int objects = 40;
 
 inline std::string instance(int n) {
-    return series + "." + std::to_string(100 + n); // all have the same length
+    return webSeries + "." + std::to_string(100 + n); // all have the same length
 }
 
-DicomWriter object(const std::string &uid) {
+inline DicomWriter object(const std::string &uid) {
     DicomWriter writer;
     writer.put({0x0008, 0x0016}, "UI", "1.2.840.10008.5.1.4.1.1.7");
     writer.put({0x0008, 0x0018}, "UI", uid);
     writer.put({0x0008, 0x0060}, "CS", "OT");
     writer.put({0x0010, 0x0010}, "PN", "Test^Login");
-    writer.put({0x0020, 0x000d}, "UI", study);
-    writer.put({0x0020, 0x000e}, "UI", series);
+    writer.put({0x0020, 0x000d}, "UI", webStudy);
+    writer.put({0x0020, 0x000e}, "UI", webSeries);
     return writer;
 }
 
@@ -206,7 +206,8 @@ private:
             ++m_refusals;
             return {401, "text/plain", "", ""};
         }
-        const std::string path = request.path(), one = "/studies/" + study + "/series/" + series;
+        const std::string path = request.path(),
+                          one = "/studies/" + webStudy + "/series/" + webSeries;
         if (path == "/studies" && request.method == "POST")
             return store(request.body);
         if (path.starts_with(one + "/instances/"))
@@ -215,9 +216,9 @@ private:
             return {204, "application/dicom+json", "", ""};
         const std::string type = "application/dicom+json";
         if (path == "/studies")
-            return {200, type, "[{" + uidElement("0020000D", study) + "}]", ""};
-        if (path == "/studies/" + study + "/series")
-            return {200, type, "[{" + uidElement("0020000E", series) + "}]", ""};
+            return {200, type, "[{" + uidElement("0020000D", webStudy) + "}]", ""};
+        if (path == "/studies/" + webStudy + "/series")
+            return {200, type, "[{" + uidElement("0020000E", webSeries) + "}]", ""};
         if (path != one + "/instances")
             return {404, "text/plain", "", ""};
         std::string list;

@@ -41,21 +41,6 @@ namespace because = task::because;
 
 namespace {
 
-// The answer of the page at this address.
-std::string visit(const std::string &url) {
-    const std::size_t host = url.find("://") + 3, path = url.find('/', host);
-    const int socket = connectTo(std::stoi(url.substr(url.find(':', host) + 1)));
-    if (socket < 0)
-        return "no connection";
-    sendAll(socket, "GET " + url.substr(path) + " HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
-    std::string answer;
-    std::array<char, 4096> buffer{};
-    for (ssize_t got = 0; (got = ::recv(socket, buffer.data(), buffer.size(), 0)) > 0;)
-        answer.append(buffer.data(), std::size_t(got));
-    ::close(socket);
-    return answer;
-}
-
 // What the program may show, without what it must not.
 void expectNoSecret(const std::string &text) {
     for (const char *const secret : {"access-token", "refresh-token", "the-code"})
@@ -240,7 +225,7 @@ TEST_F(OAuth, ATokenThatIsAboutToExpireIsRenewedBeforeItIsUsed) {
 TEST_F(OAuth, ATokenThatExpiresIsRenewedInTheMiddleAndNothingIsLost) {
     logIn();
     m_web.expireEvery(7);
-    const archive::RetrievalReport report = get(m_server, study);
+    const archive::RetrievalReport report = get(m_server, webStudy);
     EXPECT_TRUE(report.isComplete()) << report.lacking.front().reason.english();
     EXPECT_EQ(report.state.received, std::size_t(objects));
     EXPECT_EQ(report.unwanted, 0U);
@@ -277,7 +262,7 @@ TEST_F(OAuth, ARefusedRefreshTokenMeansANewLoginAndWhatHasArrivedStays) {
     m_server.connections = 2;
     m_web.expireEvery(10);
     m_login.refuseToRenew();
-    EXPECT_EQ(reasonOf([this] { get(m_server, study); }), english(because::loginHasExpired));
+    EXPECT_EQ(reasonOf([this] { get(m_server, webStudy); }), english(because::loginHasExpired));
     EXPECT_FALSE(m_server.login->isLoggedIn());
     EXPECT_EQ(m_kept.back(), ""); // the keychain forgets it
     const std::size_t arrived = filesIn(m_folder / "got").size();
@@ -292,7 +277,7 @@ TEST_F(OAuth, ARefusedRefreshTokenMeansANewLoginAndWhatHasArrivedStays) {
     // After a new login, only the rest comes.
     m_web.expireEvery(0);
     logIn();
-    const archive::RetrievalReport rest = get(m_server, study);
+    const archive::RetrievalReport rest = get(m_server, webStudy);
     EXPECT_TRUE(rest.isComplete());
     EXPECT_EQ(rest.state.present, arrived);
 }
@@ -419,7 +404,7 @@ TEST_F(OAuth, TheCommandLineLogsIn) {
     EXPECT_EQ(added.exitCode, 0) << added.output;
     const Result found = runWithBrowser("find web");
     EXPECT_EQ(found.exitCode, 0) << found.output;
-    EXPECT_NE(found.output.find(study), std::string::npos) << found.output;
+    EXPECT_NE(found.output.find(webStudy), std::string::npos) << found.output;
     EXPECT_EQ(runWithBrowser("echo web").exitCode, 0);
     expectNoSecret(found.output);
     for (const fs::path &file : filesIn(m_folder.path()))

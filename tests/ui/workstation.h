@@ -18,6 +18,7 @@
 #include "core/phantom/phantom.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/ui/hand.h"
+#include "tests/ui/patience.h"
 #include "tests/ui/pictures.h"
 #include "ui/views/projection_view.h"
 #include "ui/window/application.h"
@@ -25,12 +26,6 @@
 #include "ui/window/workstation.h"
 
 namespace pellucid::test {
-
-#ifdef PELLUCID_SANITIZED
-constexpr int patienceMs = 240000;
-#else
-constexpr int patienceMs = 60000;
-#endif
 
 /// The folder of the real series; empty if they are absent.
 inline QString testData() {
@@ -49,10 +44,11 @@ inline bool activate(QWidget &window) {
         patienceMs);
 }
 
-/// Keeps settings, presets, library and caches of a test apart from the user's.
+/// Keeps settings, presets, library, caches and secrets of a test apart from the user's.
 inline void keepToFolder(const test::TemporaryFolder &folder) {
     QStandardPaths::setTestModeEnabled(true);
     QSettings().clear();
+    qputenv("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nonexistent"); // where the keychain is
     qputenv("XDG_DATA_HOME", QByteArray::fromStdString((folder / "data").string()));
     // The tests share one plan of FFTW, as the programs do, and so compute the same bits.
     qputenv("XDG_CACHE_HOME", QByteArray::fromStdString((folder / "cache").string()));
