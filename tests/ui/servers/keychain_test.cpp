@@ -88,6 +88,34 @@ private slots:
             restart();
             QCOMPARE(secretOf("a"), QString("none"));
         }
+        // Nor does it stay where nobody would remove it.
+        book().remove("a");
+        expectItems(0);
+    }
+
+    void aRefusedSecretIsNotFoundAgain() {
+        book().put(withPassword("a", 4711, "open barley"));
+        restart();
+        QCOMPARE(secretOf("a"), QString("open barley"));
+        book().forgetSecret("a");
+        QCOMPARE(secretOf("a"), QString("none"));
+        restart();
+        QCOMPARE(secretOf("a"), QString("none"));
+    }
+
+    // What the user has entered just before the program ends, is kept.
+    void aBookMayEndWhileTheKeychainWorks() {
+        book().put(withPassword("a", 4711, "open sesame"));
+        restartAtOnce();
+        QCOMPARE(secretOf("a"), QString("open sesame"));
+        restartAtOnce();
+        const auto answer = ask({"a"}, nullptr);
+        restartAtOnce();
+        waitForKeychain();
+        QVERIFY(!answer->servers.has_value());
+        book().remove("a");
+        restartAtOnce();
+        expectItems(0);
     }
 
     // Only the token that renews a login is kept.

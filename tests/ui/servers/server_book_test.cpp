@@ -7,7 +7,13 @@
 #include <string>
 #include <utility>
 
+#include <QDialogButtonBox>
+#include <QInputDialog>
+#include <QLineEdit>
+#include <QPushButton>
 #include <QSignalSpy>
+
+#include "tests/support/files.h"
 
 namespace pellucid {
 
@@ -19,6 +25,56 @@ class ServerBookTest : public ServerBooks {
 private slots:
     void init() { startAnew(); }
     void cleanup() { waitForKeychain(); }
+
+    void aSecretLastsForTheRun() {
+        book().put(withPassword("a", 4711, "open sesame"));
+        QCOMPARE(secretOf("a"), QString("open sesame"));
+        QVERIFY(!readText(m_folder / "data/pellucid/servers.json").empty());
+        QVERIFY(readText(m_folder / "data/pellucid/servers.json").find("sesame") ==
+                std::string::npos);
+        restart();
+        QCOMPARE(book().names(), QStringList{"a"});
+        QCOMPARE(secretOf("a"), QString("none"));
+        const auto answer = ask({"a"}, m_asking.get());
+        enter("open sesame");
+        QTRY_VERIFY_WITH_TIMEOUT(answer->servers.has_value(), patienceMs);
+        QCOMPARE(answer->servers->size(), std::size_t(1));
+        QCOMPARE(answer->servers->at(0).peer.secret, std::string("open sesame"));
+        QCOMPARE(secretOf("a"), QString("open sesame")); // without asking
+    }
+
+    // Nobody enters the token of one server for another.
+    void theQuestionNamesTheServerAndWhatIsAskedFor() {
+        book().put(server("first", 4711, Authentication::basic));
+        book().put(server("second", 4712, Authentication::bearer));
+        book().put(withKey("third", ""));
+        const auto answer = ask({"first", "second", "third"}, m_asking.get());
+        QCOMPARE(enter("a"), QString("Password of ann at first"));
+        QCOMPARE(enter("b"), QString("Token for second"));
+        QCOMPARE(enter("c"), QString("Password of the private key for third"));
+        QTRY_VERIFY_WITH_TIMEOUT(answer->servers.has_value(), patienceMs);
+        QCOMPARE(answer->servers->size(), std::size_t(3));
+        QCOMPARE(answer->servers->at(0).peer.secret, std::string("a"));
+        QCOMPARE(answer->servers->at(1).peer.secret, std::string("b"));
+        QCOMPARE(answer->servers->at(2).peer.keyPassword, std::string("c"));
+    }
+
+    void aServerWhoseSecretIsNotEnteredIsLeftOut() {
+        book().put(server("first", 4711, Authentication::basic));
+        book().put(server("second", 4712, Authentication::basic));
+        book().put(server("third", 4713, Authentication::none));
+        const auto answer = ask({"first", "second", "third"}, m_asking.get());
+        QDialog *const dialog = question("secretDialog");
+        QVERIFY(dialog != nullptr);
+        QTest::keyClick(dialog, Qt::Key_Escape);
+        QVERIFY(!dialog->isVisible());
+        enter("b");
+        QTRY_VERIFY_WITH_TIMEOUT(answer->servers.has_value(), patienceMs);
+        QCOMPARE(namesOf(*answer->servers), (QStringList{"second", "third"}));
+        // Without a user, nobody is asked.
+        restart();
+        QCOMPARE(namesOf(known({"first", "second", "third"})), QStringList{"third"});
+    }
 
     // The window that asks is closed.
     void aQuestionThatDisappearsLeavesTheServerOut() {
@@ -65,6 +121,16 @@ private slots:
         book().put(withPassword("a", 4711, ""));
         book().put(withKey("b", ""));
         QVERIFY(known({"a", "b"}).empty());
+    }
+
+    void aRefusedSecretIsAskedForAgain() {
+        book().put(withPassword("a", 4711, "open barley"));
+        book().forgetSecret("a");
+        const auto answer = ask({"a"}, m_asking.get());
+        enter("open sesame");
+        QTRY_VERIFY_WITH_TIMEOUT(answer->servers.has_value(), patienceMs);
+        QCOMPARE(answer->servers->size(), std::size_t(1));
+        QCOMPARE(answer->servers->at(0).peer.secret, std::string("open sesame"));
     }
 
     void aLoginLastsForTheRun() {
@@ -177,6 +243,20 @@ private:
         for (const archive::Server &complete : *found)
             secrets << QString::fromStdString(complete.peer.secret);
         return secrets;
+    }
+    // Answers the question for a secret. Returns the question.
+    QString enter(const char *secret) const {
+        auto *const dialog = qobject_cast<QInputDialog *>(question("secretDialog"));
+        if (dialog == nullptr)
+            return "no question";
+        const QString text = dialog->labelText();
+        auto *const edit = dialog->findChild<QLineEdit *>();
+        if (edit->echoMode() != QLineEdit::Password)
+            return "others can read the secret";
+        QTest::keyClicks(edit, secret);
+        QTest::mouseClick(dialog->findChild<QDialogButtonBox *>()->button(QDialogButtonBox::Ok),
+                          Qt::LeftButton);
+        return text;
     }
 };
 
