@@ -91,6 +91,11 @@ private:
         if (out.extension() != ".npy")
             throw Error(ErrorCode::usage,
                         because::inWords("-o: the pictures of --matrix are one array, .npy"));
+        std::error_code unknown;
+        if (fs::equivalent(geometryPath(out), m_options.views, unknown))
+            throw Error(ErrorCode::usage,
+                        because::inWords("-o: the description of the views would replace " +
+                                         m_options.views));
         const std::string text = files::readText(m_options.views, files::maxSceneBytes);
         try {
             m_views = scene::viewListFromJson(text);

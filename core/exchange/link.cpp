@@ -86,6 +86,7 @@ void Link::echo(const task::Progress &progress, const StepObserver &observe) {
 
 QueryEnd Link::find(const Query &query, const std::function<void(Attributes)> &match,
                     const task::Progress &progress) {
+    m_isAtWork = true;
     send({Kind::find, 0, 0, pack(query)});
     return unpackQueryEnd(converse(progress, nullptr, match, {}, Kind::done).body);
 }
@@ -99,11 +100,13 @@ RetrievalEnd Link::retrieve(const Retrieval &retrieval, Receiver &receiver,
         const auto count = std::min(uidsAtOnce, retrieval.instanceUids.size() - n);
         send({Kind::uids, 0, 0, pack(std::vector(from, from + std::ptrdiff_t(count)))});
     }
+    m_isAtWork = true;
     send({Kind::retrieve, 0, 0, pack(request)});
     return unpackRetrievalEnd(converse(progress, &receiver, {}, {}, Kind::done).body);
 }
 
 void Link::store(int file, std::uint64_t bytes, const task::Progress &progress) {
+    m_isAtWork = true;
     send({Kind::store, 0, bytes, {}}, file);
     converse(progress, nullptr, {}, {}, Kind::done);
 }
@@ -199,6 +202,10 @@ void Link::take(const Packet &packet, Receiver &receiver) {
 // Lets the server end the request, then closes the connection.
 void Link::requestCancel() {
     m_isUsable = false;
+    if (!m_isAtWork) { // the server has nothing to end
+        m_process = helper::Process();
+        return;
+    }
     exchange::send(m_process.socket(), {Kind::cancel, 0, 0, {}});
     const auto end =
         std::chrono::steady_clock::now() + std::chrono::duration<double>(cancelSeconds);

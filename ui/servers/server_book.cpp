@@ -25,8 +25,8 @@ const QString service = "Pellucid";
 // With its address: the secret of one server is never sent to another one of the same name.
 QString secretKey(const archive::Server &server) {
     return QString("%1/secret/%2:%3")
-        .arg(QString::fromStdString(server.name), QString::fromStdString(server.peer.host))
-        .arg(server.peer.port);
+        .arg(QString::fromStdString(server.name), QString::fromStdString(server.peer.host),
+             QString::number(server.peer.port));
 }
 
 // With the addresses of both servers: a token goes to the login server that gave it.
@@ -111,6 +111,12 @@ void ServerBook::put(const archive::Server &server) {
     for (const archive::Server &former : m_servers)
         if (former.name == server.name && hasLogin(former))
             replaceLogin(former, server);
+    // Nobody would find or remove it later.
+    for (const archive::Server &former : m_servers)
+        if (former.name == server.name && secretKey(former) != secretKey(server)) {
+            m_known.remove(secretKey(former));
+            forget(secretKey(former));
+        }
     const auto keepText = [&](const QString &key, const std::string &secret) {
         if (secret.empty())
             return;
@@ -141,16 +147,17 @@ void ServerBook::remove(const QString &name) {
     emit changed();
 }
 
-// Jobs of the keychain delete themselves.
+// Jobs of the keychain delete themselves at their end, and may outlive the book: the library also
+// calls a job that has been destroyed.
 void ServerBook::keep(const QString &key, const QString &secret) {
-    auto *job = new QKeychain::WritePasswordJob(service, this);
+    auto *job = new QKeychain::WritePasswordJob(service);
     job->setKey(key);
     job->setTextData(secret);
     job->start();
 }
 
 void ServerBook::forget(const QString &key) {
-    auto *job = new QKeychain::DeletePasswordJob(service, this);
+    auto *job = new QKeychain::DeletePasswordJob(service);
     job->setKey(key);
     job->start();
 }
@@ -228,7 +235,7 @@ void ServerBook::fetchNext(const std::shared_ptr<Pending> &pending) {
         } else if (const auto known = m_known.constFind(need.key); known != m_known.constEnd()) {
             pending->set(*known);
         } else {
-            auto *job = new QKeychain::ReadPasswordJob(service, this);
+            auto *job = new QKeychain::ReadPasswordJob(service);
             job->setKey(need.key);
             connect(
                 job, &QKeychain::Job::finished, this,
@@ -258,6 +265,7 @@ void ServerBook::forgetSecret(const QString &name) {
     for (const archive::Server &server : m_servers)
         if (QString::fromStdString(server.name) == name) {
             m_known.remove(secretKey(server));
+            forget(secretKey(server));
             if (hasLogin(server))
                 forgetLogin(server);
         }
@@ -371,10 +379,10 @@ void ServerBook::ask(const std::shared_ptr<Pending> &pending, const QString &key
     dialog->setWindowTitle(tr("Server"));
     dialog->setLabelText(question);
     dialog->setTextEchoMode(QLineEdit::Password);
-    connect(dialog, &QInputDialog::textValueSelected, this, [this, key](const QString &text) {
-        m_known[key] = text; // for this run
-    });
-    whenEnded(dialog, [this, pending, key](bool) {
+    // Not by textValueSelected(), which comes after finished().
+    whenEnded(dialog, [this, pending, key, dialog](bool isAccepted) {
+        if (isAccepted)
+            m_known[key] = dialog->textValue(); // for this run
         if (!m_known.contains(key))
             pending->leaveOut();
         fetchNext(pending);

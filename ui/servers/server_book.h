@@ -13,6 +13,7 @@
 #include "core/archive/login.h"
 #include "core/task/reason.h"
 
+class QDialog;
 class QWidget;
 
 namespace pellucid::ui {

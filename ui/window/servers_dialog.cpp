@@ -391,33 +391,13 @@ void ServersDialog::test() {
                 }
             });
     };
-    if (server.peer.authentication == Authentication::oauth) {
-        m_book.withSecrets(
-            std::vector<Server>{server}, this,
-            [self = QPointer<ServersDialog>(this), run](const std::vector<Server> &complete) {
-                if (self != nullptr && !complete.empty())
-                    run(complete.front());
-            });
-        return;
-    }
-    // A saved server's secret need not be typed again.
-    const bool lacksSecret = server.peer.authentication != Authentication::none &&
-                             server.peer.secret.empty() &&
-                             m_book.names().contains(shown(server.name));
-    if (!lacksSecret) {
-        run(server);
-        return;
-    }
-    m_book.withSecrets({shown(server.name)}, this,
-                       [self = QPointer<ServersDialog>(this), server,
-                        run](const std::vector<Server> &saved) mutable {
-                           if (self == nullptr || saved.empty()) // closed meanwhile
-                               return;
-                           server.peer.secret = saved.front().peer.secret;
-                           if (server.peer.keyPassword.empty())
-                               server.peer.keyPassword = saved.front().peer.keyPassword;
-                           run(server);
-                       });
+    // A saved server's secret need not be typed again; the address is that of the secret.
+    m_book.withSecrets(
+        std::vector<Server>{server}, this,
+        [self = QPointer<ServersDialog>(this), run](const std::vector<Server> &complete) {
+            if (self != nullptr && !complete.empty()) // it may be closed meanwhile
+                run(complete.front());
+        });
 }
 
 void ServersDialog::report(const QString &text, const char *role) {
