@@ -251,10 +251,10 @@ TEST_F(Batch, MatricesSayWhereAPointIs) {
     const auto field = classify::densityField(volume, classify::defaultFieldWindow(volume));
     glm::dvec3 middle(0.0);
     double mass = 0.0;
-    const volume::GridSize n = field.values.lattice().size();
-    for (int k = 0; k < n.k; ++k)
-        for (int j = 0; j < n.j; ++j)
-            for (int i = 0; i < n.i; ++i) {
+    const volume::GridSize size = field.values.lattice().size();
+    for (int k = 0; k < size.k; ++k)
+        for (int j = 0; j < size.j; ++j)
+            for (int i = 0; i < size.i; ++i) {
                 const double value = field.values.value({i, j, k});
                 mass += value;
                 middle += value * field.values.lattice().patient(volume::VoxelIndex{i, j, k}).mm;
