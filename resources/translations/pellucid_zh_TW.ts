@@ -822,20 +822,12 @@
         <translation>記憶體不足以容納場的梯度</translation>
     </message>
     <message>
-        <source>declares %1 frames, more than the file can hold</source>
-        <translation>宣告 %1 個影格，超過檔案所能容納</translation>
-    </message>
-    <message>
         <source>tilted by %1 degrees; shown on its own slanted grid</source>
         <translation>傾斜 %1 度；依其自身格點顯示</translation>
     </message>
     <message>
         <source>the step &apos;%2&apos; has no parameter &apos;%1&apos;; it has %3</source>
         <translation>「%1」不是步驟「%2」的參數，其參數為 %3</translation>
-    </message>
-    <message>
-        <source>has %1 bits per sample; 8 and 16 are supported</source>
-        <translation>每個取樣 %1 位元；支援 8 與 16 位元</translation>
     </message>
     <message>
         <source>the graphics card does not have enough memory for %1</source>
@@ -876,10 +868,6 @@
     <message>
         <source>there is no folder for the user&apos;s presets</source>
         <translation>沒有使用者預設集的資料夾</translation>
-    </message>
-    <message>
-        <source>contains %1 compressed frames, but declares %2</source>
-        <translation>含有 %1 個壓縮影格，但宣告 %2 個</translation>
     </message>
     <message>
         <source>not enough memory for a volume of %1 x %2 x %3</source>
@@ -1642,18 +1630,6 @@
         <translation>遊程編碼影格的位移有誤</translation>
     </message>
     <message>
-        <source>a run-length frame has %1 segments instead of %2</source>
-        <translation>遊程編碼影格有 %1 個區段，應為 %2 個</translation>
-    </message>
-    <message>
-        <source>a run-length segment decodes to %1 bytes instead of %2</source>
-        <translation>遊程編碼區段解出 %1 位元組，應為 %2</translation>
-    </message>
-    <message>
-        <source>a run-length segment has %1 bytes more than its image needs</source>
-        <translation>遊程編碼區段比影像多出 %1 位元組</translation>
-    </message>
-    <message>
         <source>JPEG XL: %1</source>
         <translation>JPEG XL：%1</translation>
     </message>
@@ -1940,10 +1916,6 @@
     <message>
         <source>the study library is damaged: %1</source>
         <translation>檢查資料庫已損壞：%1</translation>
-    </message>
-    <message>
-        <source>the study library was damaged: %1 series were recovered, %2 were lost; the old file is kept under this name</source>
-        <translation>檢查資料庫已損壞：讀回 %1 個序列，遺失 %2 個；舊檔案以此名稱保留</translation>
     </message>
     <message>
         <source>the study library was damaged and nothing could be recovered; the old file is kept under this name</source>
@@ -2702,10 +2674,6 @@
         <translation>類別「%1」的步驟組合了超過 %2 個類別</translation>
     </message>
     <message>
-        <source>there are %1 points; %2 to %3 are allowed</source>
-        <translation>有 %1 個點；允許 %2 至 %3 個</translation>
-    </message>
-    <message>
         <source>a point is not finite</source>
         <translation>有一個點不是有限的數</translation>
     </message>
@@ -3086,14 +3054,6 @@
         <translation>沒有傳輸 %1</translation>
     </message>
     <message>
-        <source>%1 objects were not received: %2</source>
-        <translation>%1 個物件未收到：%2</translation>
-    </message>
-    <message>
-        <source>%1 files were not sent: %2</source>
-        <translation>%1 個檔案未傳送：%2</translation>
-    </message>
-    <message>
         <source>not all servers answered</source>
         <translation>並非所有伺服器皆有回應</translation>
     </message>
@@ -3232,6 +3192,138 @@
     <message>
         <source>the other side sent data in a different presentation context from its command</source>
         <translation>對方所送資料的呈現環境與其命令不同</translation>
+    </message>
+    <message>
+        <source>%1; it may accept the file uncompressed: tick &apos;Uncompress what it does not accept&apos; for this server (on the command line: server add with --uncompress)</source>
+        <translation>%1；伺服器可能接受解壓縮的檔案：請為此伺服器勾選「將其不接受者解壓縮」（命令列：server add 加 --uncompress）</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a day of the calendar</source>
+        <translation>「%1」不是日曆上的日期</translation>
+    </message>
+    <message>
+        <source>the range of dates &apos;%1&apos; ends before it begins</source>
+        <translation>日期範圍「%1」的結束早於開始</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; cannot be searched for: it is not encoded in UTF-8</source>
+        <translation>無法搜尋「%1」：其編碼不是 UTF-8</translation>
+    </message>
+    <message>
+        <source>%1 does not apply to a search at the level &apos;%2&apos;</source>
+        <translation>%1 不適用於層級「%2」的搜尋</translation>
+    </message>
+    <message>
+        <source>the server only sends to other computers (C-MOVE), and this program receives on port %1 with other TLS settings: switch TLS on for both or for neither, or let the receiver use another port</source>
+        <translation>伺服器只會傳送至其他電腦（C-MOVE），而本程式以不同的 TLS 設定在連接埠 %1 接收：請兩者皆開啟或皆關閉 TLS，或讓接收使用其他連接埠</translation>
+    </message>
+    <message>
+        <source>port %1 is in use, perhaps by another receiver of Pellucid; close that one, or choose another port and register it at the server (on the command line: --port)</source>
+        <translation>連接埠 %1 使用中，可能由 Pellucid 的另一個接收器使用；請關閉該接收器，或選擇其他連接埠並在伺服器登錄（命令列：--port）</translation>
+    </message>
+    <message>
+        <source>%1 not received: %2</source>
+        <translation>未收到 %1 個：%2</translation>
+    </message>
+    <message>
+        <source>%1 not sent: %2</source>
+        <translation>未傳送 %1 個：%2</translation>
+    </message>
+    <message>
+        <source>declares more frames than the file can hold: %1</source>
+        <translation>宣告的影格數多於檔案所能容納：%1</translation>
+    </message>
+    <message>
+        <source>has %1-bit samples; 8 and 16 bits are supported</source>
+        <translation>樣本為 %1 位元；支援 8 與 16 位元</translation>
+    </message>
+    <message>
+        <source>has a wrong number of compressed frames: %1 instead of %2</source>
+        <translation>壓縮影格數錯誤：%1，應為 %2</translation>
+    </message>
+    <message>
+        <source>a run-length frame has a wrong number of segments: %1 instead of %2</source>
+        <translation>游程編碼影格的區段數錯誤：%1，應為 %2</translation>
+    </message>
+    <message>
+        <source>a run-length segment decodes to a wrong number of bytes: %1 instead of %2</source>
+        <translation>游程編碼區段解碼後的位元組數錯誤：%1，應為 %2</translation>
+    </message>
+    <message>
+        <source>a run-length segment has more bytes than its image needs: %1</source>
+        <translation>游程編碼區段的位元組多於影像所需：%1</translation>
+    </message>
+    <message>
+        <source>the number of points is %1, not between %2 and %3</source>
+        <translation>點數為 %1，不在 %2 與 %3 之間</translation>
+    </message>
+    <message>
+        <source>is not the matrix of a parallel projection: the third row must be 0, 0, 0 and a number other than 0</source>
+        <translation>不是平行投影的矩陣：第三列須為 0、0、0 與一個非 0 的數</translation>
+    </message>
+    <message>
+        <source>does not project on square pixels: the first three numbers of the first two rows must be perpendicular and of the same length</source>
+        <translation>不是投影至方形像素：前兩列的前三個數須互相垂直且長度相同</translation>
+    </message>
+    <message>
+        <source>has pixels of another size than the matrices before</source>
+        <translation>像素大小與先前的矩陣不同</translation>
+    </message>
+    <message>
+        <source>needs a size, because a matrix does not tell where its picture ends</source>
+        <translation>需要大小，因為矩陣不說明影像的範圍</translation>
+    </message>
+    <message>
+        <source>must be three rows of four numbers</source>
+        <translation>須為三列、每列四個數</translation>
+    </message>
+    <message>
+        <source>must be a whole number from %1 to %2</source>
+        <translation>須為 %1 至 %2 的整數</translation>
+    </message>
+    <message>
+        <source>must not be empty</source>
+        <translation>不可為空</translation>
+    </message>
+    <message>
+        <source>must be a name of 1 to %1 letters, digits, &apos;-&apos;, &apos;_&apos;, &apos;.&apos; and &apos;,&apos;</source>
+        <translation>須為 1 至 %1 個字母、數字、「-」、「_」、「.」與「,」組成的名稱</translation>
+    </message>
+    <message>
+        <source>needs a turntable or several views</source>
+        <translation>需要環繞一周或多個視角</translation>
+    </message>
+    <message>
+        <source>has more than one of view, views and turntable; only view and turntable go together</source>
+        <translation>view、views 與 turntable 給定多於一個；只有 view 與 turntable 可以並用</translation>
+    </message>
+    <message>
+        <source>the name &apos;%1&apos; is that of another output</source>
+        <translation>名稱「%1」已屬於另一個輸出</translation>
+    </message>
+    <message>
+        <source>is a matrix, which belongs to &apos;views&apos;</source>
+        <translation>是矩陣，應置於「views」</translation>
+    </message>
+    <message>
+        <source>recipes make projections; choose the projection</source>
+        <translation>配方產生投影；請選擇投影</translation>
+    </message>
+    <message>
+        <source>recipes cannot subtract volumes yet</source>
+        <translation>配方尚不能相減體積</translation>
+    </message>
+    <message>
+        <source>no series of the study is one that the recipe asks for</source>
+        <translation>檢查中沒有配方所要求的序列</translation>
+    </message>
+    <message>
+        <source>the study library was damaged; series recovered: %1, lost: %2; the old file is kept under this name</source>
+        <translation>檢查庫已損毀；復原的序列：%1，遺失：%2；舊檔以此名稱保留</translation>
+    </message>
+    <message>
+        <source>must be a list of length %1</source>
+        <translation>須為長度 %1 的清單</translation>
     </message>
 </context>
 <context>
@@ -4231,6 +4323,10 @@ Open it beside?</source>
         <source>Open</source>
         <translation>開啟</translation>
     </message>
+    <message>
+        <source>%1: more than listed</source>
+        <translation>%1：尚有未列出者</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::EarlierStudies</name>
@@ -4400,6 +4496,34 @@ Open it beside?</source>
     <message>
         <source>Another export is running</source>
         <translation>另一個匯出正在執行</translation>
+    </message>
+    <message>
+        <source>Save as recipe...</source>
+        <translation>儲存為配方...</translation>
+    </message>
+    <message>
+        <source>A file for pellucid-cli batch, which makes the same picture of many studies</source>
+        <translation>供 pellucid-cli batch 使用的檔案，可對許多檢查產生相同的影像</translation>
+    </message>
+    <message>
+        <source>Save as recipe</source>
+        <translation>儲存為配方</translation>
+    </message>
+    <message>
+        <source>Recipe (*.json)</source>
+        <translation>配方 (*.json)</translation>
+    </message>
+    <message>
+        <source>Saved to %1</source>
+        <translation>已儲存至 %1</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>關閉</translation>
+    </message>
+    <message>
+        <source>%1 has received it</source>
+        <translation>%1 已收到</translation>
     </message>
 </context>
 <context>

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
 #include "core/presets/preset_library.h"
 #include "core/task/error.h"
 #include "tests/support/files.h"
@@ -153,6 +158,35 @@ TEST(Recipe, OfASceneMakesItsLookOfOtherStudies) {
     EXPECT_FALSE(made.tone.exposure);
     EXPECT_EQ(made.camera.panMm, glm::dvec2(0.0));
     EXPECT_EQ(made.camera.width, 300);
+}
+
+// The schema that editors use knows the names that the reader knows.
+TEST(Recipe, TheSchemaIsThatOfTheReader) {
+    const nlohmann::json schema =
+        nlohmann::json::parse(test::readText(PELLUCID_SOURCE "/resources/recipe.schema.json"));
+    const auto namesOf = [](const nlohmann::json &object) {
+        std::set<std::string> names;
+        for (const auto &[name, value] : object["properties"].items())
+            names.insert(name);
+        return names;
+    };
+    // "...: unknown value 'x': use one of a, b, c".
+    const auto namesIn = [](const std::string &fault) {
+        const std::string start = "use one of ";
+        std::istringstream list(fault.substr(fault.find(start) + start.size()));
+        std::set<std::string> names;
+        for (std::string name; std::getline(list >> std::ws, name, ',');)
+            names.insert(name);
+        return names;
+    };
+    EXPECT_EQ(namesIn(faultOf(R"({"recipe": 1, "x": 1, "outputs": [{}]})")), namesOf(schema));
+    EXPECT_EQ(namesIn(faultOf(R"({"recipe": 1, "outputs": [{"x": 1}]})")),
+              namesOf(schema["properties"]["outputs"]["items"]));
+    EXPECT_EQ(namesIn(faultOf(R"({"recipe": 1, "series": {"x": 1}, "outputs": [{}]})")),
+              namesOf(schema["properties"]["series"]));
+    const auto formats = schema["properties"]["outputs"]["items"]["properties"]["format"]["enum"]
+                             .get<std::set<std::string>>();
+    EXPECT_EQ(namesIn(faultOf(R"({"recipe": 1, "outputs": [{"format": "x"}]})")), formats);
 }
 
 TEST(Recipe, ChoosesTheSeriesThatItAsksFor) {
