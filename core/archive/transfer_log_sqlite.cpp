@@ -89,29 +89,6 @@ std::vector<std::string> split(const std::string &text) {
     return uids;
 }
 
-constexpr const char *columns = "id, server, study, series, title, folder, state, total, received, "
-                                "bytes, seconds, reason, created, later, process";
-
-Transfer transferOf(const Statement &row) {
-    Transfer transfer;
-    transfer.id = row.number(0);
-    transfer.server = row.text(1);
-    transfer.wanted = {row.text(2), split(row.text(3))};
-    transfer.title = row.text(4);
-    transfer.folder = row.text(5);
-    transfer.state = TransferState(row.number(6));
-    transfer.total = std::size_t(row.number(7));
-    transfer.received = std::size_t(row.number(8));
-    transfer.bytes = std::uint64_t(row.number(9));
-    transfer.seconds = row.real(10);
-    transfer.reason = row.text(11);
-    transfer.created = row.text(12);
-    transfer.isForLater = row.number(13) != 0;
-    if (transfer.state == TransferState::running && !isRunning(row.text(14)))
-        transfer.state = TransferState::waiting;
-    return transfer;
-}
-
 // Distinguishes a process from later ones with the same number: number, start and boot. Empty if
 // there is none.
 std::string identityOf(long process) {
@@ -133,6 +110,29 @@ std::string identityOf(long process) {
 
 bool isRunning(const std::string &process) {
     return !process.empty() && identityOf(std::strtol(process.c_str(), nullptr, 10)) == process;
+}
+
+constexpr const char *columns = "id, server, study, series, title, folder, state, total, received, "
+                                "bytes, seconds, reason, created, later, process";
+
+Transfer transferOf(const Statement &row) {
+    Transfer transfer;
+    transfer.id = row.number(0);
+    transfer.server = row.text(1);
+    transfer.wanted = {row.text(2), split(row.text(3))};
+    transfer.title = row.text(4);
+    transfer.folder = row.text(5);
+    transfer.state = TransferState(row.number(6));
+    transfer.total = std::size_t(row.number(7));
+    transfer.received = std::size_t(row.number(8));
+    transfer.bytes = std::uint64_t(row.number(9));
+    transfer.seconds = row.real(10);
+    transfer.reason = row.text(11);
+    transfer.created = row.text(12);
+    transfer.isForLater = row.number(13) != 0;
+    if (transfer.state == TransferState::running && !isRunning(row.text(14)))
+        transfer.state = TransferState::waiting;
+    return transfer;
 }
 
 } // namespace

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
-#include <iterator>
 #include <poll.h>
 #include <spawn.h>
 #include <sstream>
@@ -127,10 +126,8 @@ void VideoFile::fail() {
     for (int tries = 0; !ended() && tries < 10; ++tries)
         std::this_thread::sleep_for(std::chrono::milliseconds(waitMs));
     std::ifstream file(m_messages);
-    std::istringstream words(
-        std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()));
     std::string message;
-    for (std::string word; words >> word;)
+    for (std::string word; file >> word;)
         message += (message.empty() ? "" : " ") + word;
     throw task::Error(task::ErrorCode::output,
                       message.empty() ? task::Reason(because::ffmpegEndedEarly)
@@ -162,7 +159,7 @@ void VideoFile::finish(const task::Progress &progress) {
     }
     if (!*isGood)
         fail();
-    rename(m_unfinished, m_path);
+    files::rename(m_unfinished, m_path);
 }
 
 } // namespace pellucid::files
