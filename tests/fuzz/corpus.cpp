@@ -4,6 +4,7 @@
 #include <archive.h>
 #include <archive_entry.h>
 
+#include "core/batch/recipe.h"
 #include "core/decoder/message.h"
 #include "core/dicom/write_capture.h"
 #include "core/dicom/write_series.h"
@@ -133,6 +134,26 @@ void writePresets(const fs::path &folder) {
             writeText(folder / entry.preset.name, presets::toJson(entry.preset));
 }
 
+void writeRecipes(const fs::path &folder) {
+    writeText(folder / "smallest",
+              R"({"recipe": 1, "outputs": [{"view": "front", "format": "npy"}]})");
+    writeText(folder / "views", R"({"recipe": 1, "series": {"modality": ["CT", "MR"],
+        "slice_mm": [0.5, 3], "description": "*a?", "least_slices": 9}, "outputs": [
+        {"name": "a", "views": {"size": [9, 8], "views": ["RAO30", {"primary_deg": 5}]}},
+        {"name": "b", "turntable": 7, "view": "LAO30,CRA20", "format": "mp4", "size": 12},
+        {"name": "c", "look": "Bone", "tolerance": "fine", "pixel_mm": 0.5, "deidentify": true,
+         "format": "dicom"}]})");
+    const auto library = presets::PresetLibrary({});
+    writeText(folder / "scene", batch::recipeOf({}, library.get("Bone").preset,
+                                                batch::Format::captureLoop, 12, false));
+}
+
+void writeViewLists(const fs::path &folder) {
+    writeText(folder / "list", R"({"size": [64, 48], "pixel_mm": 0.5, "views": ["RAO30,CRA20",
+        {"primary_deg": -30, "secondary_deg": 20, "roll_deg": 7},
+        {"matrix": [[2, 0, 0, 10], [0, 0, -2, 20], [0, 0, 0, 1]]}]})");
+}
+
 void writeScenes(const fs::path &folder) {
     scene::Scene scene;
     writeText(folder / "plain", scene::toJson(scene));
@@ -211,6 +232,10 @@ void writeCorpus(const std::string &target, const fs::path &folder) {
                               smallVolume(), encoding);
     else if (target == "preset")
         writePresets(folder);
+    else if (target == "recipe")
+        writeRecipes(folder);
+    else if (target == "view_list")
+        writeViewLists(folder);
     else if (target == "scene")
         writeScenes(folder);
     else if (target == "measurements")

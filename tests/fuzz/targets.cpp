@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 
 #include <QCoreApplication>
 
+#include "core/batch/recipe.h"
 #include "core/decoder/message.h"
 #include "core/dicom/group_series.h"
 #include "core/fourier/spectrum.h"
@@ -170,6 +172,33 @@ void scene(Bytes bytes) {
     });
 }
 
+void recipe(Bytes bytes) {
+    refusing([&] {
+        const batch::Recipe read = batch::recipeFromJson(textOf(bytes), {});
+        check(read.digest == batch::recipeFromJson(textOf(bytes), {}).digest);
+        for (const batch::Output &output : read.outputs)
+            check(!batch::filesOf(output).empty() && !output.views.empty());
+        check(batch::explained(read).size() == read.outputs.size() + 1);
+    });
+}
+
+void viewList(Bytes bytes) {
+    refusing([&] {
+        const scene::ViewList list = scene::viewListFromJson(textOf(bytes));
+        scene::Camera base;
+        if (list.size)
+            base.width = (*list.size)[0], base.height = (*list.size)[1];
+        const auto lattice = volume::Lattice::centred({4, 5, 6}, {1.0, 1.0, 2.0});
+        for (const scene::ViewList::View &view : list.views) {
+            // What is accepted is a rotation, and its matrix is understood.
+            const scene::Camera camera = scene::cameraOf(view, base, lattice);
+            check(std::abs(glm::length(camera.orientation) - 1.0) < 1e-9);
+            check(camera.pixelMm > 0.0 && std::isfinite(camera.pixelMm));
+            scene::pixelOf(scene::projectionMatrix(camera, lattice));
+        }
+    });
+}
+
 void measurements(Bytes bytes) {
     refusing([&] { measure::toJson(measure::measurementsFromJson(textOf(bytes))); });
 }
@@ -231,6 +260,8 @@ const std::vector<NamedTarget> &targets() {
                                               {"nrrd", nrrd},
                                               {"preset", preset},
                                               {"scene", scene},
+                                              {"recipe", recipe},
+                                              {"view_list", viewList},
                                               {"measurements", measurements},
                                               {"slicer_preset", slicerPreset},
                                               {"slicer_preset_json", slicerPresetJson},

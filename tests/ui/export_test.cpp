@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Exports: pictures in every format, captures, turntables.
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/workstation.h"
 
 #include <QCheckBox>
@@ -15,6 +16,7 @@
 #include <QStatusBar>
 #include <QTimer>
 
+#include "core/batch/recipe.h"
 #include "core/decoder/read_volume_file.h"
 #include "core/files/video_file.h"
 #include "tests/support/files.h"
@@ -64,6 +66,36 @@ private slots:
         QCOMPARE(values.lattice().size(), (volume::GridSize{image.width, image.height, 1}));
         QCOMPARE(float(values.value({100, 200, 0})),
                  image.samples[200 * std::size_t(image.width) + 100]);
+    }
+
+    // What is exported of this study can be made of others on the command line.
+    void anExportIsSavedAsARecipe() {
+        find<QAction>("exportPictureAction")->trigger();
+        auto *const save = find<QPushButton>("saveRecipeButton");
+        find<QComboBox>("exportPaneBox")->setCurrentText("Coronal");
+        QVERIFY(!save->isEnabled()); // recipes make projections
+        find<QComboBox>("exportPaneBox")->setCurrentText("Projection");
+        find<QComboBox>("exportFormatBox")->setCurrentIndex(7);
+        find<QSpinBox>("exportFramesBox")->setValue(9);
+        find<QComboBox>("exportScaleBox")->setCurrentIndex(1);
+        QVERIFY(save->isEnabled());
+        const fs::path path = m_folder / "made.json";
+        answerFileDialog(this, QString::fromStdString(path.string()));
+        QTest::mouseClick(save, Qt::LeftButton);
+        QVERIFY(find<QLabel>("exportMessage")->text().contains("made.json"));
+        const batch::Recipe recipe = batch::readRecipe(path);
+        QCOMPARE(recipe.outputs.size(), std::size_t(1));
+        const batch::Output &output = recipe.outputs.front();
+        QVERIFY(output.format == batch::Format::captureLoop);
+        QCOMPARE(output.views.size(), std::size_t(9));
+        const scene::Scene made = batch::sceneOf(output, *document().volume());
+        QVERIFY(made.look == document().scene().look);
+        QVERIFY(made.shading == document().scene().shading);
+        QCOMPARE(made.tolerance, document().scene().tolerance);
+        QCOMPARE(made.camera.width, 2 * document().scene().camera.width);
+        const glm::dquat &shown = document().scene().camera.orientation;
+        QVERIFY(std::abs(glm::dot(made.camera.orientation, shown)) > 1.0 - 1e-9);
+        find<QDialog>("exportDialog")->close();
     }
 
     void aFailedExportIsReported() {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Segmentations in the window: opened, listed, searched, shown and hidden together, kept.
+#include "tests/ui/file_dialog.h"
 #include "tests/ui/workstation.h"
 
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
@@ -176,7 +176,7 @@ private slots:
         const std::size_t classes = document().scene().look.classes.size();
         for (const char *name : {"own.dcm", "own.nrrd"}) {
             const QString path = QString::fromStdString((m_folder / name).string());
-            answerFileDialog(path);
+            answerFileDialog(this, path);
             find<QAction>("saveSegmentsAction")->trigger();
             QTRY_VERIFY_WITH_TIMEOUT(!bench().exports.isRunning(), patienceMs);
             for (const dicom::Skipped &problem : document().problems())
@@ -197,20 +197,6 @@ private slots:
     }
 
 private:
-    // Enters a path once the dialog is open.
-    void answerFileDialog(const QString &path) {
-        auto *waiting = new QTimer(this);
-        waiting->start(20);
-        connect(waiting, &QTimer::timeout, this, [path, waiting] {
-            auto *const dialog = qobject_cast<QFileDialog *>(QApplication::activeModalWidget());
-            if (dialog == nullptr)
-                return;
-            waiting->stop();
-            waiting->deleteLater();
-            dialog->findChild<QLineEdit *>("fileNameEdit")->setText(path);
-            QMetaObject::invokeMethod(dialog, "accept");
-        });
-    }
     // Blocks of the head, as a segmentation of its study or of another one.
     QString writeBlocks(const std::string &name, int count, const std::string &study = "") {
         const volume::Volume &volume = *document().volume();
