@@ -44,7 +44,7 @@ using task::Error;
 using task::ErrorCode;
 
 struct Options {
-    std::string recipe, from, out, sendTo, shard, engine = "auto";
+    std::string recipe, from, out, sendTo, shard;
     std::vector<std::string> paths, terms;
     int jobs = 2, threads = 0;
     std::uint64_t memory = 0;
@@ -123,8 +123,8 @@ public:
         if (m_options.threads > 0)
             threads.emplace(tbb::global_control::max_allowed_parallelism,
                             std::size_t(m_options.threads));
-        constexpr int several = 1000; // pictures
-        m_card = chooseCard(m_options.engine, several);
+        // A graphics card rounds differently, and has one picture at a time.
+        m_card = chooseCard("cpu", 1);
         if (!m_options.sendTo.empty())
             m_receiver = serverNamed(m_options.sendTo, m_context);
         openSource();
@@ -162,7 +162,8 @@ private:
 
     void openSource() {
         if (m_options.from.empty()) {
-            m_source = batchOfFiles({m_options.paths.begin(), m_options.paths.end()}, m_context);
+            m_source =
+                batchOfFiles({m_options.paths.begin(), m_options.paths.end()}, m_out, m_context);
             return;
         }
         const archive::SearchTerms terms = termsFrom(m_options.terms);
@@ -368,9 +369,6 @@ void addBatchCommand(CLI::App &app, const Context &context) {
     c->add_option("--shard", o->shard, "I/N: only part I, from 0, of the studies in N parts");
     c->add_flag("--resume", o->resumes,
                 "Skip the studies whose results are there, made by this recipe of the same files");
-    c->add_option("--engine", o->engine,
-                  "Engine that renders the images; default: auto, the GPU if there is one")
-        ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     c->add_option("--threads", o->threads, "Maximum number of threads; default: all processors")
         ->check(CLI::Range(1, 1024));
     c->add_option("--memory", o->memory,

@@ -7,6 +7,7 @@
 
 #include "app/cli/servers.h"
 #include "core/archive/retrieval.h"
+#include "core/dicom/file_list.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/study_index.h"
 #include "core/files/session_folder.h"
@@ -58,12 +59,13 @@ const dicom::Study &studyOf(const dicom::Catalogue &catalogue, const std::string
 
 class FileSource : public BatchSource {
 public:
-    FileSource(std::vector<fs::path> paths, const Context &context)
-        : m_paths(std::move(paths)), m_context(context) {}
+    FileSource(std::vector<fs::path> paths, fs::path except, const Context &context)
+        : m_paths(std::move(paths)), m_except(std::move(except)), m_context(context) {}
 
     std::vector<BatchItem> list() override {
         m_index = dicom::indexStudies(m_paths, task::Progress(m_context.stop));
         m_names.unpacked = m_index.unpacked;
+        leaveOutResults();
         std::vector<BatchItem> items;
         for (std::size_t n = 0; n < m_index.studies.size(); ++n) {
             const dicom::IndexedStudy &study = m_index.studies[n];
@@ -97,7 +99,22 @@ public:
     std::size_t unusedFiles() const override { return m_index.skipped.size(); }
 
 private:
+    // They would be inputs of the next run.
+    void leaveOutResults() {
+        const std::string folder = dicom::resolved(m_except).string() + "/";
+        const auto isResult = [&](const fs::path &path) {
+            return dicom::resolved(path).string().starts_with(folder);
+        };
+        for (dicom::IndexedStudy &study : m_index.studies)
+            std::erase_if(study.files, isResult);
+        std::erase_if(m_index.studies,
+                      [](const dicom::IndexedStudy &study) { return study.files.empty(); });
+        std::erase_if(m_index.skipped,
+                      [&](const dicom::Skipped &skipped) { return isResult(skipped.path); });
+    }
+
     std::vector<fs::path> m_paths;
+    fs::path m_except;
     Context m_context;
     dicom::StudyIndex m_index;
     dicom::Catalogue m_names; ///< of files in archives
@@ -188,8 +205,8 @@ private:
 } // namespace
 
 std::unique_ptr<BatchSource> batchOfFiles(const std::vector<fs::path> &paths,
-                                          const Context &context) {
-    return std::make_unique<FileSource>(paths, context);
+                                          const fs::path &except, const Context &context) {
+    return std::make_unique<FileSource>(paths, except, context);
 }
 
 std::unique_ptr<BatchSource> batchOfServer(const archive::Server &server,

@@ -38,7 +38,9 @@ public:
     virtual std::size_t unusedFiles() const { return 0; }
 };
 
+/// What is in `except`, the folder of the results, is left out.
 std::unique_ptr<BatchSource> batchOfFiles(const std::vector<std::filesystem::path> &paths,
+                                          const std::filesystem::path &except,
                                           const Context &context);
 std::unique_ptr<BatchSource> batchOfServer(const archive::Server &server,
                                            const archive::SearchTerms &terms,

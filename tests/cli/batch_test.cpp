@@ -138,6 +138,11 @@ TEST_F(Batch, SkipsWhatIsDoneAndUnchanged) {
     EXPECT_EQ(report("--resume")["done"], 3);
     EXPECT_EQ(report("--resume")["skipped"], 3);
     EXPECT_EQ(report("")["done"], 3); // made anew
+    // Results among the inputs are none themselves.
+    const auto within = cli("batch " + quoted(made) + " " + quoted(folder.path()) + " --out " +
+                            quoted(folder / "out") + " --resume --json");
+    EXPECT_EQ(within.exitCode, 0) << within.error;
+    EXPECT_EQ(json::parse(within.out)["skipped"], 3) << within.out;
     // A study that has changed is made again, and so is one whose results have.
     const fs::path file = fs::directory_iterator(in / "1")->path();
     fs::last_write_time(file, fs::last_write_time(file) + 1s);
