@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <list>
+#include <memory>
+#include <mutex>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -43,22 +46,76 @@ Vector energyByPosition(std::span<const double> energy) {
     return e;
 }
 
-// The responses of the pieces of a basis to a sample at a position x.
+// What the pieces of a basis make of a sample at a position x.
+struct Transforms {
+    Vector direct;               ///< b_0
+    std::vector<Vector> aliases; ///< b_m
+    /// Real and imaginary part of a frequency on the grid, for each offset.
+    std::vector<std::pair<Vector, Vector>> onGrid;
+};
+
+Real positionOf(int i, double padding) {
+    return (i + Real(0.5)) / positions / (2 * Real(padding));
+}
+
+Transforms transformsAt(Real x, int width, const PiecewiseBasis &basis) {
+    constexpr int farthest = 5;
+    Transforms t{basis.transforms(x), {}, {}};
+    for (int m = -farthest; m <= farthest; ++m)
+        if (m != 0)
+            t.aliases.push_back(basis.transforms(x + m));
+    for (const Real c : offsetsOnGrid(width))
+        t.onGrid.push_back(basis.transformsAt(c, x));
+    return t;
+}
+
+using Table = std::shared_ptr<const std::vector<Transforms>>;
+
+// The transforms at all positions. They do not depend on the field, so that volumes of one size
+// share them: sines and cosines in extended precision take most of the time of a fit.
+Table tableOf(int width, const PiecewiseBasis &basis, double padding) {
+    constexpr std::size_t mostKept = 48; // half a megabyte or less each
+    using Key = std::pair<int, double>;
+    static std::mutex mutex;
+    static std::list<std::pair<Key, Table>> kept; // the last used first
+    const Key key{width, padding};
+    const auto take = [&]() -> Table {
+        const std::lock_guard lock(mutex);
+        const auto known = std::find_if(kept.begin(), kept.end(),
+                                        [&](const auto &one) { return one.first == key; });
+        if (known == kept.end())
+            return nullptr;
+        kept.splice(kept.begin(), kept, known);
+        return known->second;
+    };
+    if (Table known = take())
+        return known;
+    std::vector<Transforms> made(positions);
+    tbb::parallel_for(0, positions, [&](int i) {
+        made[std::size_t(i)] = transformsAt(positionOf(i, padding), width, basis);
+    });
+    const auto table = std::make_shared<const std::vector<Transforms>>(std::move(made));
+    if (!take()) { // another thread may have been faster
+        const std::lock_guard lock(mutex);
+        kept.emplace_front(key, table);
+        if (kept.size() > mostKept)
+            kept.pop_back();
+    }
+    return table;
+}
+
+// The responses of the pieces of a basis to a sample at a position.
 struct Responses {
     Vector direct;               ///< b_0
     std::vector<Vector> aliases; ///< b_m, and their sums for a frequency on the grid
     std::vector<Vector> squares; ///< the upper half of sum_m b_m b_m^T
 };
 
-Responses responsesAt(Real x, int width, const PiecewiseBasis &kernel) {
-    constexpr int farthest = 5;
-    const std::size_t count = kernel.count();
-    Responses r{kernel.transforms(x), {}, std::vector<Vector>(count, Vector(count, 0))};
-    for (int m = -farthest; m <= farthest; ++m)
-        if (m != 0)
-            r.aliases.push_back(kernel.transforms(x + m));
-    for (const Real c : offsetsOnGrid(width)) {
-        auto [real, imaginary] = kernel.transformsAt(c, x);
+Responses responsesOf(const Transforms &transforms) {
+    const std::size_t count = transforms.direct.size();
+    Responses r{transforms.direct, transforms.aliases,
+                std::vector<Vector>(count, Vector(count, 0))};
+    for (auto [real, imaginary] : transforms.onGrid) {
         for (std::size_t p = 0; p < count; ++p)
             real[p] -= r.direct[p];
         r.aliases.push_back(std::move(real));
@@ -103,11 +160,10 @@ Vector leastAliasingCoefficients(int width, const PiecewiseBasis &kernel, double
     // Coefficients are at most 1, and the aliases change by the square of this.
     constexpr Real tolerance = 1e-8;
     const Vector e = energyByPosition(energy);
-    std::vector<Responses> responses(positions);
-    tbb::parallel_for(0, positions, [&](int i) {
-        const Real x = (i + Real(0.5)) / positions / (2 * Real(padding));
-        responses[i] = responsesAt(x, width, kernel);
-    });
+    const Table table = tableOf(width, kernel, padding);
+    std::vector<Responses> responses;
+    for (const Transforms &transforms : *table)
+        responses.push_back(responsesOf(transforms));
     Vector a(kernel.count(), 0), h(positions, 1), g(positions, 1);
     const Vector middle = kernel.transforms(0);
     for (int round = 0; round < rounds; ++round) {
@@ -137,17 +193,15 @@ Vector leastAliasingCoefficients(int width, const PiecewiseBasis &kernel, double
 // m are the aliases; S is the sum over the taps of a frequency on the grid.
 Vector narrowerCoefficients(int width, const PiecewiseBasis &basis, const Kernel &wide,
                             double padding) {
-    constexpr int farthest = 5;
+    const Table table = tableOf(width, basis, padding);
     BasisFit fit(basis.count());
     for (int i = 0; i < positions; ++i) {
-        const Real x = (i + Real(0.5)) / positions / (2 * Real(padding));
-        const Real h = wide.apodisation(double(x)), weight = 1 / (h * h);
-        fit.add(basis.transforms(x), h, weight);
-        for (int m = -farthest; m <= farthest; ++m)
-            if (m != 0)
-                fit.add(basis.transforms(x + m), 0, weight);
-        for (const Real c : offsetsOnGrid(width)) {
-            const auto [real, imaginary] = basis.transformsAt(c, x);
+        const Transforms &t = (*table)[std::size_t(i)];
+        const Real h = wide.apodisation(double(positionOf(i, padding))), weight = 1 / (h * h);
+        fit.add(t.direct, h, weight);
+        for (const Vector &alias : t.aliases)
+            fit.add(alias, 0, weight);
+        for (const auto &[real, imaginary] : t.onGrid) {
             fit.add(real, h, weight);
             fit.add(imaginary, 0, weight);
         }
