@@ -38,14 +38,17 @@ def is_program(path: pathlib.Path) -> bool:
         return file.read(4) == b"\x7fELF"
 
 
-def package_of(path: str) -> str | None:
-    """The package that a file belongs to. Libraries have moved since /lib became a link."""
-    for candidate in (path, os.path.realpath(path), path.removeprefix("/usr")):
-        try:
-            return output("dpkg-query", "-S", candidate).split(": ")[0].split(",")[0].split(":")[0]
-        except subprocess.CalledProcessError:
-            continue
-    return None
+def packages_of(paths: list[str]) -> dict[str, str]:
+    """The packages that files belong to. Libraries have moved since /lib became a link."""
+    candidates = {path: (path, os.path.realpath(path), path.removeprefix("/usr")) for path in paths}
+    # One call for all, because each reads the lists of all packages. It fails if a file belongs to none.
+    answer = subprocess.run(["dpkg-query", "-S", *sorted(set(sum(candidates.values(), ())))],
+                            capture_output=True, text=True).stdout
+    owners = {}
+    for line in answer.splitlines():
+        names, _, path = line.partition(": ")
+        owners[path] = names.split(",")[0].split(":")[0]
+    return {path: owners[name] for path, names in candidates.items() for name in reversed(names) if name in owners}
 
 
 def licences_of(package: str) -> tuple[list[str], pathlib.Path]:
@@ -78,16 +81,17 @@ def main() -> None:
         else:
             sys.exit(f"inventory: unknown origin of {name}")
     # Plugins are loaded at run time: no program is linked with them.
-    plugins = output("/usr/lib/qt6/bin/qtpaths", "--query", "QT_INSTALL_PLUGINS").strip()
-    for program in programs:
-        if tree / "plugins" in program.parents:
-            system[program.name] = f"{plugins}/{program.relative_to(tree / 'plugins')}"
+    if (tree / "plugins").is_dir():
+        plugins = output("/usr/lib/qt6/bin/qtpaths", "--query", "QT_INSTALL_PLUGINS").strip()
+        for program in programs:
+            if tree / "plugins" in program.parents:
+                system[program.name] = f"{plugins}/{program.relative_to(tree / 'plugins')}"
     by_package: dict[str, list[str]] = {}
+    owners = packages_of(list(system.values()))
     for name, path in sorted(system.items()):
-        package = package_of(path)
-        if package is None:
+        if path not in owners:
             sys.exit(f"inventory: {path} belongs to no package")
-        by_package.setdefault(package, []).append(name)
+        by_package.setdefault(owners[path], []).append(name)
     # Compiled in: header-only libraries, or mostly so.
     if (tree / "translations").is_dir():
         by_package.setdefault("qt6-translations-l10n", [])
