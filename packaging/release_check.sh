@@ -45,7 +45,9 @@ for program in "$tree"/bin/* "$tree"/libexec/pellucid/*; do
 done
 
 check "the licences of all that is inside"
-for list in build/package/inventory/pellucid.spdx.json build/package/bundle/share/doc/pellucid/pellucid.spdx.json; do
+sh "$packages"/pellucid-cli-*.run --quiet --noexec --target "$elsewhere/bundle"
+for list in build/package/inventory/pellucid.spdx.json build/package/bundle/share/doc/pellucid/pellucid.spdx.json \
+    "$elsewhere"/bundle/*/share/doc/pellucid.spdx.json; do
     python3 - "$list" <<'PYTHON'
 import json, os, pathlib, re, sys
 place = pathlib.Path(sys.argv[1])

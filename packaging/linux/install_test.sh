@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Tests the packages in bare systems: the .deb in a Debian without build tools, the self-extracting installer in the next
-# Debian as an ordinary user. Runs as root, takes some minutes and 3 GB below WORK, and leaves screenshots and a report
+# Debian as an ordinary user, the bundle of pellucid-cli in both. Runs as root, takes some minutes and 3 GB below WORK, and leaves screenshots and a report
 # in PACKAGES/../install-test.
 #   install_test.sh PACKAGES [WORK]
 set -euo pipefail
 packages=$(realpath "$1") work=${2:-/var/tmp/pellucid-install-test}
 out=$packages/../install-test
-deb=$(ls "$packages"/pellucid_*.deb) run=$(ls "$packages"/pellucid-*.run)
+deb=$(ls "$packages"/pellucid_*.deb) run=$(ls "$packages"/pellucid-[0-9]*.run) cli=$(ls "$packages"/pellucid-cli-*.run)
 ((EUID == 0)) || { echo "install_test: needs root for its chroots" >&2; exit 1; }
 mkdir -p "$work" "$out"
 out=$(realpath "$out")
@@ -150,7 +150,7 @@ nothing_is_left() { # WHAT BEFORE AFTER
 # What a desktop provides, and what inspects it.
 tools=(xvfb xauth x11-utils imagemagick fonts-dejavu-core procps sqlite3 desktop-file-utils shared-mime-info libglib2.0-bin)
 
-say "$(sha256sum "$deb" "$run" | sed 's#/.*/##')"
+say "$(sha256sum "$deb" "$run" "$cli" | sed 's#/.*/##')"
 say "== $(basename "$deb") in a bare Debian"
 system bookworm deb
 apt_install "${tools[@]}"
@@ -211,4 +211,19 @@ as_user rm -rf /home/tester/.cache/pellucid # root's uninstaller leaves users' f
 all_of_it >"$work/after"
 nothing_is_left "root" "$work/before" "$work/after"
 say "removed; nothing is left"
+# No package is installed here, as on the nodes of a cluster.
+for release in bookworm trixie; do
+    say "== $(basename "$cli") in a bare $release, as an ordinary user"
+    system $release "cli-$release"
+    cp "$cli" "$root/home/tester/cli.run"
+    as_user sh -c 'cd && sh cli.run --quiet programs' | tee -a "$report"
+    [[ $(as_user /home/tester/programs/pellucid-cli --version) == "pellucid-cli $expected" ]] || fail "$release: not $expected"
+    echo '{"recipe": 1, "outputs": [{"view": "front", "size": 128}, {"name": "turn", "format": "dicom", "turntable": 4, "size": 64}]}' \
+        >"$root/home/tester/recipe.json"
+    as_user sh -c 'cd && PATH=~/programs:$PATH && pellucid-cli phantom head --kind head --size 64x64x48 && pellucid-cli recipe check recipe.json &&
+        pellucid-cli batch recipe.json head --out results' >"$work/batch.log" 2>&1 || fail "$release: $(cat "$work/batch.log")"
+    made=$(cd "$root"/home/tester/results/* && echo *)
+    [[ $made == "done.json front.png turn"* ]] || fail "$release: there is only $made"
+    say "rendered in $release: $made"
+done
 say "all passed; the bare systems are kept in $work for the next run"
