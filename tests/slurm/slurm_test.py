@@ -285,7 +285,8 @@ def test(slurm, script, program, work):
     # who restarts the node can do it at once.
     slurm.start(node)
     wait_for("the restarted node", lambda: listens(slurm.port(node)))
-    output("scontrol", "requeue", job)
+    job_of_task = f"{array}_{killed}"  # the job of the last task alone would stand for the whole array
+    output("scontrol", "requeue", job_of_task)
     # The node refuses each start of the job that is not in a later second than the end of its first run.
     wait_for("the end of the first run", lambda: node in slurm.idle())
     time.sleep(1.1)
@@ -294,7 +295,7 @@ def test(slurm, script, program, work):
         state = slurm.tasks().get(killed, {"state": "ENDED"})
         if state["state"] == "PENDING":
             # On the same node: only programs there remove what it has left unfinished.
-            subprocess.run(["scontrol", "update", f"jobid={job}", f"reqnodelist={node}", "starttime=now"],
+            subprocess.run(["scontrol", "update", f"jobid={job_of_task}", f"reqnodelist={node}", "starttime=now"],
                            capture_output=True)
         return state["state"] in ("RUNNING", "ENDED")
 
