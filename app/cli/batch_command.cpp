@@ -73,7 +73,8 @@ archive::SearchTerms termsFrom(const std::vector<std::string> &texts) {
     archive::SearchTerms terms;
     const std::pair<const char *, std::string *> names[]{
         {"name", &terms.patientName},  {"id", &terms.patientId},   {"date", &terms.date},
-        {"modality", &terms.modality}, {"study", &terms.studyUid}, {"accession", &terms.accession}};
+        {"modality", &terms.modality}, {"study", &terms.studyUid}, {"accession", &terms.accession},
+        {"series", &terms.seriesUid}};
     for (const std::string &text : texts) {
         const auto equals = text.find('=');
         const auto *const known =
@@ -83,9 +84,11 @@ archive::SearchTerms termsFrom(const std::vector<std::string> &texts) {
             throw Error(ErrorCode::usage,
                         because::inWords("--find: '" + text +
                                          "' is not TERM=VALUE with one of the terms name, id, "
-                                         "date, modality, study and accession"));
+                                         "date, modality, study, series and accession"));
         *known->second = text.substr(equals + 1);
     }
+    if (!terms.seriesUid.empty()) // of one study, as servers need it
+        terms.level = exchange::Level::series;
     archive::queryOf(terms, 0); // makes sense
     return terms;
 }
@@ -355,7 +358,7 @@ void addBatchCommand(CLI::App &app, const Context &context) {
             ->excludes(paths);
     c->add_option("--find", o->terms,
                   "TERM=VALUE: which studies of the server: name, id, date, modality, study, "
-                  "accession; default: all")
+                  "accession; or, with study, the UID of one series of it: series; default: all")
         ->needs(from);
     c->add_option("--out", o->out,
                   "Folder for the results; each study gets a folder of its own there")

@@ -130,8 +130,11 @@ public:
     }
 
     std::vector<BatchItem> list() override {
+        archive::SearchTerms terms = m_terms;
+        terms.level = exchange::Level::study;
+        terms.seriesUid.clear();
         std::vector<BatchItem> items;
-        for (const archive::FoundEntry &entry : found(m_terms))
+        for (const archive::FoundEntry &entry : found(terms))
             items.push_back({entry.text(tag::studyUid)});
         std::sort(items.begin(), items.end(),
                   [](const BatchItem &a, const BatchItem &b) { return a.key < b.key; });
@@ -176,17 +179,19 @@ private:
         return std::move(result.entries);
     }
 
-    // The series of a modality that the recipe asks for: a study may have gigabytes of others.
+    // The series that is asked for, or those of a modality that the recipe asks for: a study may
+    // have gigabytes of others.
     archive::Wanted wantedOf(const BatchItem &item) const {
         archive::Wanted wanted{item.key, {}};
-        if (m_choice.modalities.empty())
+        if (m_choice.modalities.empty() && m_terms.seriesUid.empty())
             return wanted;
         archive::SearchTerms terms;
         terms.studyUid = item.key;
+        terms.seriesUid = m_terms.seriesUid;
         terms.level = exchange::Level::series;
         for (const archive::FoundEntry &entry : found(terms)) {
             const std::string modality = entry.text(tag::modality);
-            if (modality.empty() ||
+            if (modality.empty() || m_choice.modalities.empty() ||
                 std::find(m_choice.modalities.begin(), m_choice.modalities.end(), modality) !=
                     m_choice.modalities.end())
                 wanted.seriesUids.push_back(entry.text(tag::seriesUid));

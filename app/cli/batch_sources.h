@@ -42,6 +42,7 @@ public:
 std::unique_ptr<BatchSource> batchOfFiles(const std::vector<std::filesystem::path> &paths,
                                           const std::filesystem::path &except,
                                           const Context &context);
+/// `terms`: those of studies; with the UID of a series, only this one of each study is retrieved.
 std::unique_ptr<BatchSource> batchOfServer(const archive::Server &server,
                                            const archive::SearchTerms &terms,
                                            const batch::SeriesChoice &choice,
