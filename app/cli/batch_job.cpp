@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,19 @@ using task::Error;
 using task::ErrorCode;
 
 constexpr int framesPerSecond = 25; // of videos and loops
+
+// A digest of the images of a volume: the same wherever their files are, and whatever else their
+// study contains, such as the pictures of an earlier run.
+std::string imagesOf(const dicom::Selection &selection, const std::string &inputs) {
+    std::set<fs::path> used;
+    for (const dicom::FrameReference &frame : selection.volume->frames)
+        used.insert(frame.path);
+    std::vector<std::string> uids;
+    for (const dicom::InstanceFile &file : selection.series->files)
+        if (!file.sopInstanceUid.empty() && used.contains(file.path))
+            uids.push_back(file.sopInstanceUid);
+    return uids.empty() ? inputs : batch::digestOf(std::move(uids));
+}
 
 // What a plan is made for: the scene without the direction that it is seen from.
 scene::Scene subjectOf(scene::Scene scene) {
@@ -73,6 +87,7 @@ public:
             throw Error(ErrorCode::unusable, because::inWords("contains images but no volume"));
         m_volume = &loaded.volume;
         m_labels = dicom::captureLabels(selection);
+        m_images = imagesOf(selection, m_study.inputs);
         m_record.recipe = m_recipe.digest;
         m_record.inputs = m_study.inputs;
         m_record.studyUid = m_study.study.uid;
@@ -141,11 +156,11 @@ private:
     dicom::CaptureLabels labelsFor(const Output &output, int view) const {
         dicom::CaptureLabels labels =
             output.isDeidentified ? dicom::deidentified(m_labels) : m_labels;
-        const std::string of = m_recipe.digest + m_study.inputs + m_study.study.uid + output.name;
+        const std::string of = m_recipe.digest + m_images + m_study.study.uid + output.name;
         labels.seriesUid = batch::derivedUid(of);
         labels.instanceUid = batch::derivedUid(fmt::format("{} {}", of, view));
         if (output.isDeidentified) // of nothing that others know
-            labels.studyUid = batch::derivedUid("study " + m_recipe.digest + m_study.inputs);
+            labels.studyUid = batch::derivedUid("study " + m_recipe.digest + m_images);
         labels.isDated = false;
         labels.seriesDescription = output.name;
         labels.instanceNumber = view + 1;
@@ -232,6 +247,7 @@ private:
     std::size_t m_memoryBytes = 0;
     const volume::Volume *m_volume = nullptr;
     dicom::CaptureLabels m_labels;
+    std::string m_images;
     DoneRecord m_record;
     std::unique_ptr<files::NpyFile> m_array;
     nlohmann::json m_geometry;
