@@ -312,8 +312,8 @@ TEST_F(PacsBatchInOrthanc, EachSeriesThatArrivesIsRenderedOnce) {
     arrives("A");
     // The picture is an object of the study: that which a batch of the files makes.
     const fs::path out = m_folder / "out";
-    const CommandResult local =
-        batch(m_recipe, "'" + (m_folder / "A").string() + "' --out '" + out.string() + "'");
+    const CommandResult local = batch(recipe(onePicture), "'" + (m_folder / "A").string() +
+                                                              "' --out '" + out.string() + "'");
     ASSERT_EQ(local.exitCode, 0) << local.error;
     const archive::ObjectFolder folder(m_folder / "got",
                                        archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
