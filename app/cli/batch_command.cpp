@@ -22,8 +22,10 @@
 #include "app/cli/json_text.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
+#include "core/archive/login.h"
 #include "core/archive/sending.h"
 #include "core/batch/study_results.h"
+#include "core/exchange/link.h"
 #include "core/files/atomic_file.h"
 #include "core/files/user_folders.h"
 #include "core/files/video_file.h"
@@ -129,7 +131,7 @@ public:
         // A graphics card rounds differently, and has one picture at a time.
         m_card = chooseCard("cpu", 1);
         if (!m_options.sendTo.empty())
-            m_receiver = serverNamed(m_options.sendTo, m_context);
+            reachReceiver();
         openSource();
         m_items = m_source->list();
         std::erase_if(m_items, [&](const BatchItem &item) {
@@ -152,7 +154,8 @@ private:
             const auto data = files::userDataFolder();
             if (!data)
                 throw Error(ErrorCode::output, because::noFolderForData);
-            m_out = *data / "batch" / m_recipe.digest;
+            const std::string what = m_recipe.digest + m_options.sendTo;
+            m_out = *data / "batch" / batch::digestOf({what});
         }
         std::error_code failed;
         fs::create_directories(m_out, failed);
@@ -161,6 +164,18 @@ private:
                         m_out);
         files::requireWritable(m_out);
         batch::removeUnfinished(m_out);
+    }
+
+    // Before any study is rendered in vain.
+    void reachReceiver() {
+        m_receiver = serverNamed(m_options.sendTo, m_context);
+        const task::Progress progress(m_context.stop);
+        task::naming(m_receiver->name, [&] {
+            archive::withLogin(*m_receiver, progress, [&](const exchange::Peer &peer) {
+                exchange::Link link(exchange::Connection{peer, exchange::Purpose::echo}, progress);
+                link.echo(progress);
+            });
+        });
     }
 
     void openSource() {

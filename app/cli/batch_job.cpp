@@ -68,16 +68,17 @@ std::size_t bytesFor(const dicom::VolumeEntry &volume) {
 class StudyRun {
 public:
     StudyRun(const StudyToRender &study, const batch::Recipe &recipe, const fs::path &folder,
-             batch::MemoryShares &memory, const CardChoice &card, const Context &context)
-        : m_study(study), m_recipe(recipe), m_folder(folder), m_memory(memory), m_card(card),
-          m_context(context) {}
+             batch::MemoryShares &memory, std::size_t needed, const CardChoice &card,
+             const Context &context)
+        : m_study(study), m_recipe(recipe), m_folder(folder), m_memory(memory), m_needed(needed),
+          m_card(card), m_context(context) {}
 
     DoneRecord run() {
         Stopwatch watch;
         const task::Progress progress(m_context.stop);
         const dicom::Selection selection =
             batch::choose(m_recipe.series, m_study.patient, m_study.study);
-        const auto share = m_memory.take(bytesFor(*selection.volume), progress);
+        const auto share = m_memory.take(std::max(m_needed, bytesFor(*selection.volume)), progress);
         m_memoryBytes = share.bytes();
         const dicom::LoadedVolume loaded = dicom::loadVolume(*selection.volume, progress);
         if (!loaded.skipped.empty()) // a picture of a part is not what the recipe asks for
@@ -111,10 +112,7 @@ private:
                 continue;
             const scene::Scene &scene = scenes[first].second;
             SceneRenderer renderer(scene, Subject{*m_volume, nullptr, {}},
-                                   MemoryLimit{m_memoryBytes, false}, m_card, m_context);
-            // It would depend on the memory of the machine.
-            if (renderer.renderer().isReduced())
-                throw Error(ErrorCode::outOfMemory, because::inWords(renderer.renderer().reason()));
+                                   MemoryLimit{m_memoryBytes, false, false}, m_card, m_context);
             for (std::size_t n = first; n < scenes.size(); ++n)
                 if (!isDone[n] && subjectOf(scenes[n].second) == subjectOf(scene)) {
                     isDone[n] = true;
@@ -242,6 +240,7 @@ private:
     const batch::Recipe &m_recipe;
     const fs::path &m_folder;
     batch::MemoryShares &m_memory;
+    std::size_t m_needed;
     const CardChoice &m_card;
     const Context &m_context;
     std::size_t m_memoryBytes = 0;
@@ -260,7 +259,15 @@ private:
 DoneRecord renderStudy(const batch::Recipe &recipe, const StudyToRender &study,
                        const fs::path &folder, batch::MemoryShares &memory, const CardChoice &card,
                        const Context &context) {
-    return StudyRun(study, recipe, folder, memory, card, context).run();
+    try {
+        return StudyRun(study, recipe, folder, memory, 0, card, context).run();
+    } catch (const Error &error) {
+        if (error.code() != ErrorCode::outOfMemory || memory.jobs() < 2)
+            throw;
+    }
+    for (const fs::directory_entry &made : fs::directory_iterator(folder))
+        fs::remove(made.path());
+    return StudyRun(study, recipe, folder, memory, memory.bytes(), card, context).run();
 }
 
 } // namespace pellucid::cli

@@ -22,8 +22,9 @@ struct StudyToRender {
 };
 
 /// Loads the series of a study that a recipe asks for, and writes all outputs into a folder.
-/// Outputs that differ in their views only share one preparation. *Throws* as loading and
-/// rendering; Error{output}.
+/// Outputs that differ in their views only share one preparation. What is made does not depend on
+/// the memory: if the share of this job is too small, the study waits until it has all of it.
+/// *Throws* as loading and rendering; Error{output}.
 batch::DoneRecord renderStudy(const batch::Recipe &recipe, const StudyToRender &study,
                               const std::filesystem::path &folder, batch::MemoryShares &memory,
                               const CardChoice &card, const Context &context);

@@ -135,7 +135,10 @@ public:
         terms.seriesUid.clear();
         std::vector<BatchItem> items;
         for (const archive::FoundEntry &entry : found(terms))
-            items.push_back({entry.text(tag::studyUid)});
+            // Two series of one study are two results.
+            items.push_back(
+                {m_terms.seriesUid.empty() ? entry.text(tag::studyUid) : m_terms.seriesUid, 0,
+                 entry.text(tag::studyUid)});
         std::sort(items.begin(), items.end(),
                   [](const BatchItem &a, const BatchItem &b) { return a.key < b.key; });
         return items;
@@ -157,7 +160,7 @@ public:
                         m_server.name);
         const dicom::Catalogue catalogue = dicom::scan({folder.path()}, progress());
         const dicom::Patient *patient = nullptr;
-        const dicom::Study &study = studyOf(catalogue, item.key, patient);
+        const dicom::Study &study = studyOf(catalogue, item.studyUid, patient);
         use({catalogue, *patient, study, inputs});
     }
 
@@ -182,11 +185,11 @@ private:
     // The series that is asked for, or those of a modality that the recipe asks for: a study may
     // have gigabytes of others.
     archive::Wanted wantedOf(const BatchItem &item) const {
-        archive::Wanted wanted{item.key, {}};
+        archive::Wanted wanted{item.studyUid, {}};
         if (m_choice.modalities.empty() && m_terms.seriesUid.empty())
             return wanted;
         archive::SearchTerms terms;
-        terms.studyUid = item.key;
+        terms.studyUid = item.studyUid;
         terms.seriesUid = m_terms.seriesUid;
         terms.level = exchange::Level::series;
         for (const archive::FoundEntry &entry : found(terms)) {

@@ -18,8 +18,9 @@ namespace pellucid::cli {
 
 /// A study that a batch may render.
 struct BatchItem {
-    std::string key;       ///< names its results: the study UID, or what stands for it
-    std::size_t index = 0; ///< of its source
+    std::string key;        ///< names its results: the study UID, or what stands for it
+    std::size_t index = 0;  ///< of its source
+    std::string studyUid{}; ///< on a server
 };
 
 /// Studies in files, or on a server. Thread-safe, but for `list`.

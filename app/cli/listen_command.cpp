@@ -32,7 +32,8 @@ struct Options {
 // Every DICOM server of the list may send.
 std::vector<archive::Sender> knownSenders() {
     std::vector<archive::Sender> senders;
-    for (const archive::Server &server : archive::ServerList::ofUser().servers())
+    const auto list = archive::ServerList::ofUser();
+    for (const archive::Server &server : list.servers())
         if (server.peer.protocol == exchange::Protocol::dicom)
             senders.push_back({server.peer.calledAe, server.peer.host});
     return senders;

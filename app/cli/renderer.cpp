@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/plan_json.h"
@@ -71,12 +72,12 @@ CardChoice chooseCard(const std::string &engine, int frames) {
 }
 
 Renderer::Renderer(const scene::Scene &scene, classify::ShownFields &&fields,
-                   const plan::Budget &budget, const Context &context)
+                   const plan::Budget &budget, const Context &context, std::size_t limit)
     : Renderer(scene, sourcesOf(scene, std::move(fields), task::Progress(context.stop)), budget,
-               context) {}
+               context, limit) {}
 
 Renderer::Renderer(const scene::Scene &scene, Sources sources, const plan::Budget &budget,
-                   const Context &context)
+                   const Context &context, std::size_t limit)
     : m_scene(scene), m_progress(context.stop),
       m_images(std::size_t(
           prepare::compositionOf(sources.fields.channels.size(), scene.shading).images)),
@@ -90,7 +91,13 @@ Renderer::Renderer(const scene::Scene &scene, Sources sources, const plan::Budge
     const bool isMet = m_fitting.plan.predictedError <= scene.tolerance;
     const bool mustPlan = !scene.interpolation.isPlanned() ||
                           scene.plannedFor == scene::PlannedFor::volume || m_fitting.reduction > 1;
-    if (isMet || mustPlan || exactBytes > budget.bytes)
+    const bool isPlanned = isMet || mustPlan || exactBytes > budget.bytes;
+    if (const std::size_t needed = isPlanned ? m_fitting.plan.bytes : exactBytes; needed > limit)
+        throw task::Error(
+            task::ErrorCode::outOfMemory,
+            task::because::inWords(fmt::format("the pictures need {} MB, but only {} MB are left",
+                                               (needed >> 20) + 1, limit >> 20)));
+    if (isPlanned)
         preparePlanned(std::move(sources));
     else
         prepareExact(std::move(sources), exactBytes);

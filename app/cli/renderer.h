@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,10 +35,11 @@ CardChoice chooseCard(const std::string &engine, int frames);
 /// or the plan is for the whole volume.
 class Renderer {
 public:
-    /// The scene must outlive it. The fields are released as soon as they are transformed. *Throws*
-    /// Error{outOfMemory}, Cancelled.
+    /// The scene must outlive it. The fields are released as soon as they are transformed. `limit`:
+    /// the most bytes that the plan may need, other than the budget, which decides what is planned.
+    /// *Throws* Error{outOfMemory}, Cancelled.
     Renderer(const scene::Scene &scene, classify::ShownFields &&fields, const plan::Budget &budget,
-             const Context &context);
+             const Context &context, std::size_t limit = std::numeric_limits<std::size_t>::max());
 
     /// Makes the images on the card from now on. *Throws* Error{noSuchDevice}, Error{outOfMemory}
     /// with the reason if the user requires the card and it cannot be used.
@@ -90,7 +92,7 @@ private:
     static Sources sourcesOf(const scene::Scene &scene, classify::ShownFields fields,
                              const task::Progress &progress);
     Renderer(const scene::Scene &scene, Sources sources, const plan::Budget &budget,
-             const Context &context);
+             const Context &context, std::size_t limit);
     void prepareExact(Sources sources, std::size_t bytes);
     void preparePlanned(Sources sources);
     std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera,

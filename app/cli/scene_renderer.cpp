@@ -43,6 +43,12 @@ void SceneRenderer::makeFields(const MemoryLimit &memory) {
             m_subject.path);
     m_fields = fieldsFor(m_scene, volume, m_subject.segments, m_context);
     m_whyEmpty = whyEmpty(m_scene, volume, m_fields);
+    if (!memory.decides) {
+        m_budget.bytes = std::numeric_limits<std::size_t>::max();
+        m_limit = std::size_t(*memory.bytes - std::min<std::uint64_t>(*memory.bytes, m_held));
+        m_fieldMs = watch.lapMs();
+        return;
+    }
     // If the program asked for more than is available, the system would kill it.
     m_budget.bytes = system::availableMemoryBytes();
     m_budget.bytes -= std::min(m_budget.bytes, forLight); // not allocated yet
@@ -63,7 +69,7 @@ void SceneRenderer::prepare() {
         classify::ShownFields fields = m_fields;
         if (!classify::haveRegions(m_scene.look.classes))
             m_fields = {};
-        m_renderer.emplace(m_planned, std::move(fields), m_budget, m_context);
+        m_renderer.emplace(m_planned, std::move(fields), m_budget, m_context, m_limit);
         m_renderer->use(m_card);
     } catch (const Error &error) {
         if (error.code() != ErrorCode::outOfMemory || !m_given)

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +31,8 @@ struct MemoryLimit {
     std::optional<std::uint64_t> bytes;
     /// Whether the user has given them, so that errors name them.
     bool isGiven = false;
+    /// Whether what is planned depends on them. If not, a plan that needs more is refused.
+    bool decides = true;
 };
 
 /// Makes pictures of one scene, from any direction, within its tolerance: of parts of the volume,
@@ -81,7 +84,8 @@ private:
     classify::ShownFields m_fields; ///< until the renderer takes them; with steps, longer
     std::string m_whyEmpty;         ///< a warning, or empty
     plan::Budget m_budget;
-    std::optional<Renderer> m_renderer; ///< refers to the planned scene
+    std::size_t m_limit = std::numeric_limits<std::size_t>::max(); ///< of the plan's bytes
+    std::optional<Renderer> m_renderer;                            ///< refers to the planned scene
     double m_fieldMs = 0.0, m_prepareMs = 0.0;
     picture::FrameTimes m_times;
     int m_pictures = 0;

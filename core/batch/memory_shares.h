@@ -14,6 +14,9 @@ class MemoryShares {
 public:
     MemoryShares(std::size_t bytes, int jobs) : m_free(bytes), m_bytes(bytes), m_jobs(jobs) {}
 
+    std::size_t bytes() const { return m_bytes; }
+    int jobs() const { return m_jobs; }
+
     /// A part of the memory, given back with the object.
     class Share {
     public:

@@ -38,7 +38,10 @@ fs::path unfinishedIn(const fs::path &out) {
 } // namespace
 
 void removeUnfinished(const fs::path &out) {
-    files::removeAbandonedSessionFolders(unfinishedIn(out));
+    const fs::path unfinished = unfinishedIn(out);
+    files::removeAbandonedSessionFolders(unfinished);
+    std::error_code ignored;
+    fs::remove(unfinished, ignored); // if it is empty
 }
 
 StudyResults::StudyResults(const fs::path &out, const std::string &key)

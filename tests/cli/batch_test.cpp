@@ -127,6 +127,31 @@ TEST_F(Batch, MakesWhatRenderMakes) {
     EXPECT_LE(record["outputs"][0]["predicted_error"], record["outputs"][0]["tolerance"]);
 }
 
+// With less memory, a study is not made in another way: it fails.
+TEST_F(Batch, MemoryDecidesWhetherButNotHow) {
+    const fs::path in = studies(1, "--kind chest --size 64x64x64");
+    const fs::path made =
+        recipe(R"({"view": "front", "format": "npy", "tolerance": "fine", "size": 64})");
+    ASSERT_EQ(batch(made, in, folder / "much").exitCode, 0);
+    const auto truth = contentsOf(folder / "much");
+    int done = 0, failed = 0;
+    for (int megabytes = 60; megabytes > 1; megabytes = megabytes * 3 / 4) {
+        const fs::path out = folder / ("m" + std::to_string(megabytes));
+        const auto r = batch(made, in, out, "--memory " + std::to_string(megabytes) + "MB");
+        if (r.exitCode == 0) {
+            EXPECT_EQ(contentsOf(out), truth) << megabytes;
+            EXPECT_EQ(failed, 0) << "less is enough";
+            ++done;
+        } else {
+            EXPECT_EQ(r.exitCode, 7) << r.error;
+            EXPECT_NE(r.error.find("need"), std::string::npos) << r.error;
+            ++failed;
+        }
+    }
+    EXPECT_GT(done, 0);
+    EXPECT_GT(failed, 0);
+}
+
 TEST_F(Batch, SkipsWhatIsDoneAndUnchanged) {
     const fs::path in = studies(3);
     const fs::path made = recipe(R"({"view": "front", "format": "npy", "size": 32})");
