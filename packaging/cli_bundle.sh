@@ -15,13 +15,12 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 tree=$work/bundle/$name
 "$here/copy_programs.sh" "$bin" "$tree" pellucid-cli pellucid-net
-documents=$tree/share/doc
+documents=$tree/share/doc/pellucid # as the packages have it
 mkdir -p "$documents"
 cp "$here/../LICENSE" "$here/linux/copyright" "$documents"
 cp -R "$here/../resources/manual" "$documents"
-for examples in slurm orthanc; do
-    [[ ! -d $here/$examples ]] || cp -R "$here/$examples" "$documents"
-done
+cp "$here/../resources/CONFORMANCE.md" "$here/../resources/recipe.schema.json" "$documents"
+cp -R "$here/slurm" "$here/orthanc" "$documents"
 "$here/linux/inventory.py" "$tree" "$version" "$documents/licences" "$documents/pellucid.spdx.json" >/dev/null
 # unpack.sh compares a folder that exists with this list.
 sums=$(cd "$tree" && find . -type f | LC_ALL=C sort | xargs -d '\n' sha256sum)

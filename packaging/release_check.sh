@@ -47,7 +47,7 @@ done
 check "the licences of all that is inside"
 sh "$packages"/pellucid-cli-*.run --quiet --noexec --target "$elsewhere/bundle"
 for list in build/package/inventory/pellucid.spdx.json build/package/bundle/share/doc/pellucid/pellucid.spdx.json \
-    "$elsewhere"/bundle/*/share/doc/pellucid.spdx.json; do
+    "$elsewhere"/bundle/*/share/doc/pellucid/pellucid.spdx.json; do
     python3 - "$list" <<'PYTHON'
 import json, os, pathlib, re, sys
 place = pathlib.Path(sys.argv[1])

@@ -20,6 +20,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
+#include "app/cli/reason_lines.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
 #include "core/archive/login.h"
@@ -30,6 +31,7 @@
 #include "core/files/user_folders.h"
 #include "core/files/video_file.h"
 #include "core/fourier/transforms/wisdom.h"
+#include "core/system/content_digest.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
 #include "core/task/naming.h"
@@ -89,13 +91,17 @@ archive::SearchTerms termsFrom(const std::vector<std::string> &texts) {
                                          "date, modality, study, series and accession"));
         *known->second = text.substr(equals + 1);
     }
-    if (!terms.seriesUid.empty()) // of one study, as servers need it
+    if (!terms.seriesUid.empty()) { // of one study, as servers need it
+        if (texts.size() != 2 || terms.studyUid.empty())
+            throw Error(ErrorCode::usage,
+                        because::inWords("--find: 'series' goes with 'study', and with no other"));
         terms.level = exchange::Level::series;
-    archive::queryOf(terms, 0); // makes sense
+    }
+    archive::queryOf(terms, 0); // checks the values
     return terms;
 }
 
-// What a recipe needs, before any work.
+// Checks before any work.
 void requirePossible(const batch::Recipe &recipe, bool isSent) {
     bool hasCapture = false;
     for (const batch::Output &output : recipe.outputs) {
@@ -121,6 +127,10 @@ public:
         const Shard shard = shardFrom(m_options.shard);
         m_recipe = batch::readRecipe(m_options.recipe);
         requirePossible(m_recipe, !m_options.sendTo.empty());
+        const archive::SearchTerms terms = termsFrom(m_options.terms);
+        for (const std::string &server : {m_options.from, m_options.sendTo})
+            if (!server.empty())
+                archive::ServerList::ofUser().get(server);
         choosePlace();
         // The same bits in every run: plans that are measured depend on the moment.
         fourier::estimatePlans();
@@ -132,13 +142,19 @@ public:
         m_card = chooseCard("cpu", 1);
         if (!m_options.sendTo.empty())
             reachReceiver();
-        openSource();
+        openSource(terms);
         m_items = m_source->list();
+        tellOfUnused();
         std::erase_if(m_items, [&](const BatchItem &item) {
             return batch::shardOf(item.key, shard.count) != shard.index;
         });
         renderAll();
-        report(watch.lapMs() / 1000.0);
+        print(watch.lapMs() / 1000.0);
+        if (m_fatal)
+            std::rethrow_exception(m_fatal);
+        if (m_caller.stop.stop_requested())
+            throw task::Cancelled();
+        requireDone();
     }
 
 private:
@@ -154,8 +170,8 @@ private:
             const auto data = files::userDataFolder();
             if (!data)
                 throw Error(ErrorCode::output, because::noFolderForData);
-            const std::string what = m_recipe.digest + m_options.sendTo;
-            m_out = *data / "batch" / batch::digestOf({what});
+            const std::string what = m_recipe.digest + " " + m_options.sendTo;
+            m_out = *data / "batch" / system::contentDigest(std::as_bytes(std::span(what)));
         }
         std::error_code failed;
         fs::create_directories(m_out, failed);
@@ -178,13 +194,12 @@ private:
         });
     }
 
-    void openSource() {
+    void openSource(const archive::SearchTerms &terms) {
         if (m_options.from.empty()) {
             m_source =
                 batchOfFiles({m_options.paths.begin(), m_options.paths.end()}, m_out, m_context);
             return;
         }
-        const archive::SearchTerms terms = termsFrom(m_options.terms);
         m_source = batchOfServer(serverNamed(m_options.from, m_context), terms, m_recipe.series,
                                  m_context);
     }
@@ -199,10 +214,6 @@ private:
             for (int n = 0; n < jobs; ++n)
                 workers.emplace_back([this] { work(); });
         }
-        if (m_fatal)
-            std::rethrow_exception(m_fatal);
-        if (m_caller.stop.stop_requested())
-            throw task::Cancelled();
     }
 
     void work() {
@@ -213,12 +224,15 @@ private:
             } catch (const task::Cancelled &) {
                 return;
             } catch (const Error &error) {
-                // Nothing can be written, not of the others either.
+                // Other studies could not be written either.
                 if (error.code() == ErrorCode::output) {
                     stop();
                     return;
                 }
-                fail(item, error.what());
+                if (error.reason().is(because::noSeriesIsChosen))
+                    passOver(item);
+                else
+                    fail(item, error.what());
             } catch (const std::exception &error) {
                 fail(item, error.what());
             }
@@ -282,10 +296,25 @@ private:
             return;
         std::puts(
             printable(fmt::format("{} of {}: {}: {} outputs in {:.2f} s, error at most {:.2g}",
-                                  m_done + m_skipped + m_failures.size(), m_items.size(), item.key,
-                                  record.outputs.size(), seconds, error))
+                                  m_done + m_skipped + m_failures.size() + m_passedOver.size(),
+                                  m_items.size(), item.key, record.outputs.size(), seconds, error))
                 .c_str());
         std::fflush(stdout);
+    }
+
+    void passOver(const BatchItem &item) {
+        const std::lock_guard lock(m_mutex);
+        m_passedOver.push_back(item.key);
+    }
+
+    // A study may be among them.
+    void tellOfUnused() const {
+        std::vector<Named> unused;
+        for (const dicom::Skipped &skipped : m_source->skipped())
+            if (!skipped.reason.is(because::isNotDicom)) // texts and programs beside images
+                unused.push_back({skipped.path.string(), skipped.reason});
+        for (const std::string &line : linesByReason(unused, "not used"))
+            warn(line);
     }
 
     void fail(const BatchItem &item, const std::string &reason) {
@@ -302,10 +331,10 @@ private:
         m_stop.request_stop();
     }
 
-    void report(double seconds) {
+    void print(double seconds) {
         std::sort(m_failures.begin(), m_failures.end(),
                   [](const Failure &a, const Failure &b) { return a.key < b.key; });
-        const std::size_t unused = m_source->unusedFiles();
+        std::sort(m_passedOver.begin(), m_passedOver.end());
         if (m_options.json) {
             json failures = json::array();
             for (const Failure &failure : m_failures)
@@ -314,7 +343,8 @@ private:
                                 {"done", m_done},
                                 {"skipped", m_skipped.load()},
                                 {"failed", failures},
-                                {"unused_files", unused},
+                                {"without_such_a_series", m_passedOver},
+                                {"unused_files", unusedJson()},
                                 {"recipe", m_recipe.digest},
                                 {"seconds", seconds}})
                           .c_str());
@@ -324,10 +354,23 @@ private:
                 text += fmt::format(", {} were done before", m_skipped.load());
             if (!m_failures.empty())
                 text += fmt::format(", {} failed", m_failures.size());
-            if (unused > 0)
-                text += fmt::format("; files that are not used: {}", unused);
+            if (!m_passedOver.empty())
+                text += fmt::format(", {} have no series that the recipe asks for",
+                                    m_passedOver.size());
             std::puts(fmt::format("{}; {:.1f} s", text, seconds).c_str());
         }
+    }
+
+    json unusedJson() const {
+        json files = json::array();
+        for (const dicom::Skipped &skipped : m_source->skipped())
+            files.push_back(
+                {{"path", skipped.path.string()}, {"reason", skipped.reason.english()}});
+        return files;
+    }
+
+    // A part of a batch may have nothing to do.
+    void requireDone() const {
         if (m_items.empty() && m_options.shard.empty())
             throw Error(ErrorCode::unusable, because::holdsNoUsableImages,
                         m_options.from.empty() ? m_options.paths.front() : m_options.from);
@@ -354,6 +397,7 @@ private:
     std::mutex m_mutex; ///< of what follows
     std::size_t m_done = 0;
     std::vector<Failure> m_failures;
+    std::vector<std::string> m_passedOver; ///< studies without a series that the recipe asks for
     std::exception_ptr m_fatal;
 };
 

@@ -14,6 +14,7 @@
 #include "app/cli/image_output.h"
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
+#include "app/cli/reason_lines.h"
 #include "app/cli/scene_renderer.h"
 #include "core/batch/derived_uid.h"
 #include "core/dicom/load_volume.h"
@@ -58,8 +59,8 @@ scene::Scene subjectOf(scene::Scene scene) {
     return scene;
 }
 
-// The memory that a volume and its pictures need at most, unless the plan has to be tighter: the
-// values, the field, and a spectrum of single precision with its transform.
+// The memory that a grey picture usually needs: the values, the field, and a spectrum of single
+// precision with its transform. What needs more is found out when it is planned.
 std::size_t bytesFor(const dicom::VolumeEntry &volume) {
     constexpr std::size_t bytesOfVoxel = 48;
     return bytesOfVoxel * volume.voxels();
@@ -99,6 +100,9 @@ public:
         return std::move(m_record);
     }
 
+    /// The share of the memory that it had.
+    std::size_t memoryBytes() const { return m_memoryBytes; }
+
 private:
     // Outputs in their order, except that those that share a preparation follow each other.
     void renderAll() {
@@ -112,7 +116,8 @@ private:
                 continue;
             const scene::Scene &scene = scenes[first].second;
             SceneRenderer renderer(scene, Subject{*m_volume, nullptr, {}},
-                                   MemoryLimit{m_memoryBytes, false, false}, m_card, m_context);
+                                   MemoryLimit{.bytes = m_memoryBytes, .decides = false}, m_card,
+                                   m_context);
             for (std::size_t n = first; n < scenes.size(); ++n)
                 if (!isDone[n] && subjectOf(scenes[n].second) == subjectOf(scene)) {
                     isDone[n] = true;
@@ -123,7 +128,16 @@ private:
 
     DoneRecord::MadeOutput render(const Output &output, scene::Scene scene,
                                   SceneRenderer &renderer) {
-        DoneRecord::MadeOutput made{output.name, scene.tolerance, 0.0, renderer.warnings()};
+        DoneRecord::MadeOutput made{output.name, scene.tolerance, 0.0,
+                                    englishTexts(m_volume->notes().warnings)};
+        std::vector<Named> unused;
+        for (const dicom::Skipped &skipped : m_study.catalogue.skipped)
+            unused.push_back(
+                {m_study.catalogue.named(skipped.path).filename().string(), skipped.reason});
+        for (const std::string &line : linesByReason(unused, "not used"))
+            made.warnings.push_back(line);
+        for (const std::string &warning : renderer.warnings())
+            made.warnings.push_back(warning);
         if (output.look)
             if (const auto why = presets::mismatch(*output.look, *m_volume))
                 made.warnings.push_back(why->english());
@@ -141,24 +155,26 @@ private:
             const picture::ProjectionImage image = renderer.image(scene.camera);
             made.predictedError =
                 std::max(made.predictedError, renderer.renderer().lastViewError());
-            add(output, scene, image, files[files.size() > 1 ? view : 0], int(view));
+            add(output, scene, image, files[files.size() > 1 ? view : 0], int(view),
+                renderer.renderer().lastViewError());
         }
         endFile(output, scene, files.front());
-        if (made.predictedError > scene.tolerance && made.warnings.empty())
-            made.warnings.push_back(
-                fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted",
-                            scene.tolerance, made.predictedError));
+        if (const std::string missed = renderer.warningOfViews(); !missed.empty())
+            made.warnings.push_back(missed);
         return made;
     }
 
     dicom::CaptureLabels labelsFor(const Output &output, int view) const {
         dicom::CaptureLabels labels =
             output.isDeidentified ? dicom::deidentified(m_labels) : m_labels;
-        const std::string of = m_recipe.digest + m_images + m_study.study.uid + output.name;
-        labels.seriesUid = batch::derivedUid(of);
-        labels.instanceUid = batch::derivedUid(fmt::format("{} {}", of, view));
-        if (output.isDeidentified) // of nothing that others know
-            labels.studyUid = batch::derivedUid("study " + m_recipe.digest + m_images);
+        // Another version may make other pixels, which need other UIDs.
+        const std::string of = fmt::format("{} {} {} {}", PELLUCID_VERSION, m_recipe.digest,
+                                           m_images, m_study.study.uid);
+        labels.seriesUid = batch::derivedUid(fmt::format("series {} {}", of, output.name));
+        labels.instanceUid =
+            batch::derivedUid(fmt::format("instance {} {} {}", view, of, output.name));
+        if (output.isDeidentified)
+            labels.studyUid = batch::derivedUid("study " + of);
         labels.isDated = false;
         labels.seriesDescription = output.name;
         labels.instanceNumber = view + 1;
@@ -195,12 +211,12 @@ private:
     }
 
     void add(const Output &output, const scene::Scene &scene, const picture::ProjectionImage &image,
-             const std::string &name, int view) {
+             const std::string &name, int view, double predictedError) {
         const fs::path path = m_folder / name;
         switch (output.format) {
         case Format::npy:
             m_array->write(image.samples);
-            m_geometry.push_back(geometryJson(scene.camera, m_volume->lattice()));
+            m_geometry.push_back(geometryJson(scene.camera, m_volume->lattice(), predictedError));
             break;
         case Format::png16:
             files::writePng16(
@@ -259,10 +275,11 @@ private:
 DoneRecord renderStudy(const batch::Recipe &recipe, const StudyToRender &study,
                        const fs::path &folder, batch::MemoryShares &memory, const CardChoice &card,
                        const Context &context) {
+    StudyRun run(study, recipe, folder, memory, 0, card, context);
     try {
-        return StudyRun(study, recipe, folder, memory, 0, card, context).run();
+        return run.run();
     } catch (const Error &error) {
-        if (error.code() != ErrorCode::outOfMemory || memory.jobs() < 2)
+        if (error.code() != ErrorCode::outOfMemory || run.memoryBytes() >= memory.bytes())
             throw;
     }
     for (const fs::directory_entry &made : fs::directory_iterator(folder))

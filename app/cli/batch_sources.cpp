@@ -96,7 +96,7 @@ public:
         const dicom::Study &study = studyOf(catalogue, indexed.uid, patient);
         use({catalogue, *patient, study, digestOf(item)});
     }
-    std::size_t unusedFiles() const override { return m_index.skipped.size(); }
+    std::vector<dicom::Skipped> skipped() const override { return m_index.skipped; }
 
 private:
     // They would be inputs of the next run.
@@ -192,7 +192,10 @@ private:
         terms.studyUid = item.studyUid;
         terms.seriesUid = m_terms.seriesUid;
         terms.level = exchange::Level::series;
-        for (const archive::FoundEntry &entry : found(terms)) {
+        const std::vector<archive::FoundEntry> series = found(terms);
+        if (series.empty())
+            throw task::Error(task::ErrorCode::unusable, because::holdsNoUsableImages);
+        for (const archive::FoundEntry &entry : series) {
             const std::string modality = entry.text(tag::modality);
             if (modality.empty() || m_choice.modalities.empty() ||
                 std::find(m_choice.modalities.begin(), m_choice.modalities.end(), modality) !=

@@ -35,8 +35,8 @@ public:
     /// archive::retrieve; Error{incomplete} if not all of it arrived.
     virtual void open(const BatchItem &item,
                       const std::function<void(const StudyToRender &)> &use) = 0;
-    /// How many files belong to no study that can be read.
-    virtual std::size_t unusedFiles() const { return 0; }
+    /// Files that belong to no study that can be read, each with its reason.
+    virtual std::vector<dicom::Skipped> skipped() const { return {}; }
 };
 
 /// What is in `except`, the folder of the results, is left out.

@@ -90,7 +90,8 @@ fs::path geometryPath(const fs::path &array) {
     return path.replace_extension(".json");
 }
 
-nlohmann::json geometryJson(const scene::Camera &camera, const volume::Lattice &patient) {
+nlohmann::json geometryJson(const scene::Camera &camera, const volume::Lattice &patient,
+                            double predictedError) {
     const scene::PositionerAngles angles = scene::positionerAngles(camera.orientation);
     const glm::dmat3 axes = camera.axes();
     const auto list = [](const glm::dvec3 &v) { return nlohmann::json{v.x, v.y, v.z}; };
@@ -99,7 +100,8 @@ nlohmann::json geometryJson(const scene::Camera &camera, const volume::Lattice &
             {"secondary_deg", angles.secondaryDeg},
             {"right", list(axes[0])},
             {"down", list(-axes[1])},
-            {"toward_viewer", list(axes[2])}};
+            {"toward_viewer", list(axes[2])},
+            {"predicted_error", predictedError}};
 }
 
 void writeGeometry(const fs::path &path, const scene::Camera &camera, const nlohmann::json &views) {

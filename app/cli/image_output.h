@@ -31,9 +31,11 @@ std::filesystem::path framePath(const std::filesystem::path &out, int frame);
 
 /// The file beside an array of views that describes them.
 std::filesystem::path geometryPath(const std::filesystem::path &array);
-/// Where a view was seen from: its projection matrix, its angles as of DICOM's positioner, and the
-/// directions of its axes. *Shape*: `patient`: that of the volume.
-nlohmann::json geometryJson(const scene::Camera &camera, const volume::Lattice &patient);
+/// Where a view was seen from: its projection matrix, its angles as of DICOM's positioner, the
+/// directions of its axes, and its predicted error (relative L2). *Shape*: `patient`: that of the
+/// volume.
+nlohmann::json geometryJson(const scene::Camera &camera, const volume::Lattice &patient,
+                            double predictedError);
 /// Describes views that have one size, and one size of a pixel. *Throws* Error{output}.
 void writeGeometry(const std::filesystem::path &path, const scene::Camera &camera,
                    const nlohmann::json &views);

@@ -127,13 +127,14 @@ private:
         scene::Camera &camera = m_scene.camera;
         if (m_views.size && m_command.count("--size") == 0)
             camera.width = (*m_views.size)[0], camera.height = (*m_views.size)[1];
-        if (m_views.pixelMm && m_command.count("--pixel-mm") == 0)
-            camera.pixelMm = *m_views.pixelMm;
+        if (m_command.count("--pixel-mm") > 0) {
+            m_views.pixelMm = camera.pixelMm;
+            scene::agreeOnPixel(m_views);
+        }
+        camera.pixelMm = m_views.pixelMm.value_or(camera.pixelMm);
         const scene::Camera base = camera;
         for (const scene::ViewList::View &view : m_views.views)
             m_cameras.push_back(scene::cameraOf(view, base, volume().lattice()));
-        // The plan is for pictures of this pixel.
-        camera.pixelMm = m_cameras.front().pixelMm;
     }
 
     void prepare() {
@@ -189,8 +190,8 @@ private:
             Stopwatch watch;
             stack.write(image.samples);
             m_writeMs += watch.lapMs();
-            views.push_back(geometryJson(camera, volume().lattice()));
-            views.back()["predicted_error"] = m_renderer->renderer().lastViewError();
+            views.push_back(
+                geometryJson(camera, volume().lattice(), m_renderer->renderer().lastViewError()));
         }
         stack.commit();
         writeGeometry(both.aside(geometryPath(out)), m_scene.camera, views);

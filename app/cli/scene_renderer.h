@@ -32,11 +32,12 @@ struct MemoryLimit {
     /// Whether the user has given them, so that errors name them.
     bool isGiven = false;
     /// Whether what is planned depends on them. If not, a plan that needs more is refused.
+    /// *Requires*: `bytes`, if not.
     bool decides = true;
 };
 
-/// Makes pictures of one scene, from any direction, within its tolerance: of parts of the volume,
-/// too, for which it plans again if it must.
+/// Makes pictures of one scene from any direction, within its tolerance. Plans again if a part of
+/// the volume misses it.
 class SceneRenderer {
 public:
     /// *Throws* Error{outOfMemory}, naming the path; Error{noSuchDevice}; Cancelled.
@@ -45,6 +46,7 @@ public:
     SceneRenderer(const SceneRenderer &) = delete; // the renderer refers to the planned scene
     SceneRenderer &operator=(const SceneRenderer &) = delete;
 
+    /// *Throws* Error{outOfMemory}, Cancelled.
     picture::ProjectionImage image(const scene::Camera &camera);
     /// The scene's own exposure or, measured once, that of the study.
     const scene::Exposure &exposure();

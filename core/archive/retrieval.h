@@ -46,7 +46,7 @@ struct MoveDestination {
     int port = defaultListenerPort;
     /// A listener of this program has the port, and stores what comes in the same folder.
     bool hasListener = false;
-    /// A listener of this program has the port, but with TLS where the server has none, or without.
+    /// A listener of this program has the port, with TLS switched differently.
     bool isTakenByOtherTls = false;
 };
 

@@ -47,10 +47,10 @@ public:
     TransferLog(const TransferLog &) = delete;
     TransferLog &operator=(const TransferLog &) = delete;
 
-    /// Adds a retrieval that waits, or finds the one that is the same and does it again. What
-    /// somebody waits for is not put off.
+    /// Adds a retrieval that waits, or restarts an equal one; one that somebody waits for stays
+    /// urgent.
     std::int64_t add(const Transfer &transfer);
-    /// One whose program has ended waits.
+    /// Reports a transfer as waiting if its program has ended.
     std::vector<Transfer> transfers() const;
     std::optional<Transfer> transfer(std::int64_t id) const;
     /// Takes a waiting transfer, or one whose program has ended. False if another program has it.

@@ -292,15 +292,15 @@ void TransferLog::finish(std::int64_t id, TransferState state, const RetrievalSt
 }
 
 void TransferLog::cancel(std::int64_t id) {
-    Statement update(m_database.get(), m_file, "UPDATE transfers SET state = 4 WHERE id = ?");
-    update.bind(id);
+    Statement update(m_database.get(), m_file, "UPDATE transfers SET state = ? WHERE id = ?");
+    update.bind(std::int64_t(TransferState::cancelled)).bind(id);
     update.run();
 }
 
 void TransferLog::retry(std::int64_t id) {
     Statement update(m_database.get(), m_file,
-                     "UPDATE transfers SET state = 0, later = 0 WHERE id = ?");
-    update.bind(id);
+                     "UPDATE transfers SET state = ?, later = 0 WHERE id = ?");
+    update.bind(std::int64_t(TransferState::waiting)).bind(id);
     update.run();
 }
 

@@ -12,7 +12,9 @@ std::string derivedUid(const std::string &of) {
     constexpr std::size_t bytes = 16;
     std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
     SHA256(reinterpret_cast<const unsigned char *>(of.data()), of.size(), digest.data());
-    std::vector<int> decimal{0}; // the last digit first
+    digest[6] = static_cast<unsigned char>(0x80U | (digest[6] & 0x0fU)); // the version
+    digest[8] = static_cast<unsigned char>(0x80U | (digest[8] & 0x3fU)); // the variant
+    std::vector<int> decimal{0};                                         // the last digit first
     for (std::size_t n = 0; n < bytes; ++n) {
         int carry = digest[n];
         for (int &place : decimal) {

@@ -40,7 +40,7 @@ std::optional<DoneRecord> doneIn(const std::filesystem::path &folder);
 /// Whether a folder has all results of this recipe for these inputs, by this program.
 bool isDone(const std::filesystem::path &folder, const DoneRecord &wanted);
 
-/// A file of a study. One in an archive changes with the archive.
+/// A file of a study. `changing`: the archive that contains it, or the file itself.
 struct InputFile {
     std::filesystem::path path, changing;
 };

@@ -61,9 +61,11 @@ std::optional<DoneRecord> doneIn(const fs::path &folder) {
         record.inputs = in.at("inputs").text();
         record.studyUid = in.at("study_uid").text();
         record.seriesUid = in.at("series_uid").text();
-        for (const JsonValue &file : in.at("files").elements())
-            record.files.push_back(
-                {file.at("name").text(), std::uint64_t(file.at("bytes").number())});
+        for (const JsonValue &file : in.at("files").elements()) {
+            constexpr double largest = 9007199254740992.0; // whole numbers up to 2^53 are exact
+            const double bytes = file.at("bytes").number(largest);
+            record.files.push_back({file.at("name").text(), std::uint64_t(std::max(0.0, bytes))});
+        }
         for (const JsonValue &output : in.at("outputs").elements()) {
             record.outputs.push_back({output.at("name").text(),
                                       output.at("tolerance").number(),

@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <deque>
 #include <mutex>
 
 #include "core/task/progress.h"
@@ -31,7 +32,7 @@ public:
         std::size_t m_bytes;
     };
     /// An equal share, or more for a job that needs more, which waits for others to end; at most
-    /// all. *Throws* Cancelled.
+    /// all. Jobs are served in the order in which they ask. *Throws* Cancelled.
     Share take(std::size_t needed, const task::Progress &progress);
 
 private:
@@ -39,6 +40,7 @@ private:
 
     std::mutex m_mutex;
     std::condition_variable m_changed;
+    std::deque<const void *> m_waiting; ///< the next one first
     std::size_t m_free, m_bytes;
     int m_jobs;
 };

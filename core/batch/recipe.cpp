@@ -40,15 +40,25 @@ FormatFacts factsOf(Format format) {
     return {};
 }
 
-// Whether a text matches a pattern, in which * stands for any characters and ? for one.
+// Whether a text matches a pattern, in which * stands for any bytes and ? for one. On a mismatch,
+// the last * takes one byte more: no combination is tried twice.
 bool matches(std::string_view pattern, std::string_view text) {
-    if (pattern.empty())
-        return text.empty();
-    if (pattern.front() == '*')
-        return matches(pattern.substr(1), text) ||
-               (!text.empty() && matches(pattern, text.substr(1)));
-    return !text.empty() && (pattern.front() == '?' || pattern.front() == text.front()) &&
-           matches(pattern.substr(1), text.substr(1));
+    std::size_t p = 0, star = std::string_view::npos, resumed = 0;
+    for (std::size_t t = 0; t < text.size();) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            star = p++;
+            resumed = t;
+        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
+            ++p;
+            ++t;
+        } else if (star != std::string_view::npos) {
+            p = star + 1;
+            t = ++resumed;
+        } else {
+            return false;
+        }
+    }
+    return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
 bool holds(const SeriesChoice &choice, const dicom::Series &series,

@@ -30,8 +30,7 @@ enum class Format { png, png16, npy, nrrd, capture, captureLoop, video };
 struct Output {
     std::string name; ///< of its files, without the suffix
     Format format = Format::png;
-    /// Where the scene starts from; its camera counts for its orientation only, unless it is the
-    /// only view.
+    /// Where the scene starts from; of its camera, the orientation and the size count.
     std::optional<scene::Scene> scene;
     std::optional<presets::Preset> look; ///< replaces the look and the shading of the scene
     std::vector<scene::ViewList::View> views;
@@ -72,7 +71,7 @@ std::string recipeOf(const scene::Scene &scene, const presets::Preset &look, For
 std::vector<std::string> filesOf(const Output &output);
 
 /// The scene of an output for a volume; its camera is that of the first view. *Throws* Error{usage}
-/// if the volume needs a larger picture than there can be.
+/// if the volume needs a larger picture than there can be, or as scene::validate.
 scene::Scene sceneOf(const Output &output, const volume::Volume &volume);
 /// The cameras of all views; they have one size, and one size of a pixel.
 std::vector<scene::Camera> camerasOf(const Output &output, const scene::Scene &scene,

@@ -58,7 +58,9 @@ public:
             recipe.outputs.push_back(outputFrom(output));
         if (recipe.outputs.empty())
             in["outputs"].refuse(because::mustNotBeEmpty);
-        const std::string contents = in.dumped() + m_contents;
+        json whole = json::parse(in.dumped());
+        whole.erase("notes"); // nothing depends on them
+        const std::string contents = whole.dump() + m_contents;
         recipe.digest = system::contentDigest(std::as_bytes(std::span(contents)));
         return recipe;
     }
@@ -100,7 +102,14 @@ private:
         const bool isLoop = output.format == Format::captureLoop || output.format == Format::video;
         if (isLoop && output.views.size() < 2)
             in.refuse(because::loopNeedsViews);
+        const bool hasColors =
+            output.look ? !classify::isGrey(output.look->look) || !output.look->shading.isGrey()
+                        : output.scene && (!classify::isGrey(output.scene->look) ||
+                                           !output.scene->shading.isGrey());
+        if (hasColors && (output.format == Format::png16 || output.format == Format::nrrd))
+            in["format"].refuse(because::colorsHaveNoGreyValues);
         output.name = nameFrom(in);
+        takeFileNames(in, output);
         return output;
     }
 
@@ -153,8 +162,10 @@ private:
                 const std::string text = textOf(views);
                 list = views.checked([&] { return scene::viewListFromJson(text); });
             } else if (views.isList()) {
-                for (const JsonValue &one : views.elements())
+                for (const JsonValue &one : views.elements()) {
                     list.views.push_back(scene::viewFrom(one));
+                    one.checked([&] { scene::agreeOnPixel(list); });
+                }
                 if (list.views.empty())
                     views.refuse(because::mustNotBeEmpty);
                 requireSizeOfMatrices(in, list);
@@ -210,6 +221,8 @@ private:
             output.pixelMm = pixel.number();
             if (!(*output.pixelMm > 0.0))
                 pixel.refuse(because::pixelMustBePositive);
+            ViewList list{output.views, {}, output.pixelMm};
+            pixel.checked([&] { scene::agreeOnPixel(list); });
         }
     }
 
@@ -231,6 +244,14 @@ private:
         if (!m_names.insert(name).second)
             (given ? given : in).refuse(because::nameIsTaken(name));
         return name;
+    }
+
+    // "a_0000" may be a view of the output "a".
+    void takeFileNames(const JsonValue &in, const Output &output) {
+        for (const std::string &file : filesOf(output))
+            if (const std::string stem = fs::path(file).stem().string();
+                stem != output.name && !m_names.insert(stem).second)
+                (in["name"] ? in["name"] : in).refuse(because::nameIsTaken(stem));
     }
 
     // The text of a file that the recipe names.

@@ -35,6 +35,16 @@ fs::path unfinishedIn(const fs::path &out) {
     return out / (std::string(".unfinished-") + name.data());
 }
 
+// Only results are replaced, not images that happen to be there, nor a file.
+void requireOwn(const fs::path &place) {
+    std::error_code unknown;
+    const bool isFree = !fs::exists(fs::symlink_status(place, unknown)) ||
+                        (fs::is_directory(place, unknown) && fs::is_empty(place, unknown));
+    if (!isFree && !doneIn(place))
+        throw task::Error(task::ErrorCode::unusable,
+                          task::systemReason(std::make_error_code(std::errc::file_exists)), place);
+}
+
 } // namespace
 
 void removeUnfinished(const fs::path &out) {
@@ -47,10 +57,23 @@ void removeUnfinished(const fs::path &out) {
 StudyResults::StudyResults(const fs::path &out, const std::string &key)
     : m_place(out / key), m_aside(unfinishedIn(out), files::SessionFolder::Parent::goes),
       m_folder(m_aside.path() / "results") {
+    requireOwn(m_place); // before anything is rendered
     std::error_code failed;
     fs::create_directory(m_folder, failed);
     if (failed)
         fail(failed, m_folder);
+}
+
+// In two steps. If the second fails, the former results come back.
+void StudyResults::replace(std::error_code &failed) const {
+    const fs::path former = m_aside.path() / "former";
+    fs::rename(m_place, former, failed);
+    if (failed)
+        return;
+    fs::rename(m_folder, m_place, failed);
+    std::error_code ignored;
+    if (failed)
+        fs::rename(former, m_place, ignored);
 }
 
 void StudyResults::publish(DoneRecord record) {
@@ -63,16 +86,13 @@ void StudyResults::publish(DoneRecord record) {
     done.write(toJson(record));
     done.commit();
     std::error_code failed;
-    for (int tries = 0; tries < 2; ++tries) {
-        fs::rename(m_folder, m_place, failed); // succeeds if there is none, or an empty one
-        if (!failed)
-            break;
-        if (exchange(m_folder, m_place)) {
+    fs::rename(m_folder, m_place, failed); // succeeds if there is none, or an empty one
+    if (failed) {
+        requireOwn(m_place);
+        if (exchange(m_folder, m_place))
             failed.clear();
-            break;
-        }
-        // In two steps: a kill between them leaves a study that is not done.
-        fs::rename(m_place, m_aside.path() / "former", failed);
+        else
+            replace(failed);
     }
     if (failed)
         fail(failed, m_place);

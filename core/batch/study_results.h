@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "core/batch/done_record.h"
 #include "core/files/session_folder.h"
@@ -10,11 +11,12 @@
 namespace pellucid::batch {
 
 /// The results of one study, which get their folder when all of them are there. Until then, and if
-/// the program is killed, the results of an earlier run stay. Several machines may share the
-/// folder.
+/// the program is killed, the results of an earlier run stay; on file systems that cannot exchange
+/// two folders at once, a kill at the end may leave neither. Several machines may share the folder.
 class StudyResults {
 public:
-    /// *Shape*: `key`: the name of the study's folder in `out`. *Throws* Error{output}.
+    /// *Shape*: `key`: the name of the study's folder in `out`. *Throws* Error{output};
+    /// Error{unusable} if something else has that name.
     StudyResults(const std::filesystem::path &out, const std::string &key);
 
     /// Where to write the results.
@@ -24,6 +26,8 @@ public:
     void publish(DoneRecord record);
 
 private:
+    void replace(std::error_code &failed) const;
+
     std::filesystem::path m_place;
     files::SessionFolder m_aside;
     std::filesystem::path m_folder;

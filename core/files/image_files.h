@@ -18,8 +18,9 @@ void writeNpy(const std::filesystem::path &path, std::span<const float> samples,
 /// The same array, written in parts, for those that do not fit in memory.
 class NpyFile {
 public:
-    /// *Shape*: `shape`: from the slowest axis to the fastest. *Throws* Error{output}.
+    /// *Shape*: `shape`: from the slowest axis to the fastest, two or more. *Throws* Error{output}.
     NpyFile(const std::filesystem::path &path, const std::vector<std::size_t> &shape);
+    /// *Throws* Error{output}.
     void write(std::span<const float> samples);
     /// *Requires*: all samples are written. *Throws* Error{output}.
     void commit();

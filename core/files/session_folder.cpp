@@ -72,8 +72,11 @@ void SessionFolder::make(const fs::path &parent) {
     for (int attempts = 0; attempts < 100; ++attempts) {
         std::string name = (parent / "XXXXXX.lock").string();
         const Descriptor made(::mkstemps(name.data(), int(std::string_view(".lock").size())));
-        if (!made && errno == ENOENT && fs::create_directories(parent, failed))
-            continue; // an empty parent was removed meanwhile
+        if (!made && errno == ENOENT) {             // an empty parent was removed meanwhile
+            fs::create_directories(parent, failed); // perhaps by another program
+            if (!failed)
+                continue;
+        }
         if (!made)
             break;
         m_lock = takeLockOrFile(name);

@@ -98,7 +98,7 @@ VideoFile::VideoFile(const fs::path &path, int width, int height, int framesPerS
                // The codec needs even sizes, players need this pixel format.
                "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-crf", "16", "-pix_fmt",
                "yuv420p", "-metadata", "comment=Not for diagnostic use",
-               // The same bytes on every machine: they depend on the number of threads.
+               // The same ffmpeg writes the same bytes: they depend on the number of threads.
                "-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "4", "-movflags",
                "+faststart", m_unfinished.string()},
               childInput.get(), m_messages);

@@ -66,7 +66,7 @@ ProjectionMatrix projectionMatrix(const Camera &camera, const volume::Lattice &p
              {0.0, 0.0, 0.0, 1.0}}};
 }
 
-double pixelOf(const ProjectionMatrix &matrix) {
+double pixelMmOf(const ProjectionMatrix &matrix) {
     const Rows rows = rowsOf(matrix);
     return 2.0 / (glm::length(rows.column) + glm::length(rows.row));
 }
@@ -77,7 +77,7 @@ Camera cameraOf(const ProjectionMatrix &matrix, int width, int height,
     Camera camera;
     camera.width = width;
     camera.height = height;
-    camera.pixelMm = pixelOf(matrix);
+    camera.pixelMm = pixelMmOf(matrix);
     // The nearest orthogonal axes: neither of the two is preferred.
     const glm::dvec3 a = glm::normalize(rows.column), b = glm::normalize(rows.row);
     const glm::dvec3 sum = glm::normalize(a + b), difference = glm::normalize(a - b);
@@ -91,6 +91,18 @@ Camera cameraOf(const ProjectionMatrix &matrix, int width, int height,
     camera.panMm = {(0.5 * (width - 1) - column) * camera.pixelMm,
                     (row - 0.5 * (height - 1)) * camera.pixelMm};
     return camera;
+}
+
+void agreeOnPixel(ViewList &list) {
+    constexpr double rounding = 1e-4; // matrices are written with six digits and more
+    for (const ViewList::View &view : list.views) {
+        if (!view.matrix)
+            continue;
+        const double here = pixelMmOf(*view.matrix);
+        if (list.pixelMm && std::abs(here - *list.pixelMm) > rounding * *list.pixelMm)
+            refuse(because::pixelsOfViewsDiffer);
+        list.pixelMm = here;
+    }
 }
 
 Camera cameraOf(const ViewList::View &view, const Camera &base, const volume::Lattice &patient) {

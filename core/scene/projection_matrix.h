@@ -46,6 +46,9 @@ ViewList viewListFromJson(const std::string &text);
 Camera cameraOf(const ViewList::View &view, const Camera &base, const volume::Lattice &patient);
 
 /// The size of a pixel in mm that a matrix has. *Throws* as cameraOf.
-double pixelOf(const ProjectionMatrix &matrix);
+double pixelMmOf(const ProjectionMatrix &matrix);
+/// Gives all views the pixel of the matrices among them. *Throws* Error{usage} if they differ from
+/// each other or from `pixelMm`.
+void agreeOnPixel(ViewList &list);
 
 } // namespace pellucid::scene

@@ -19,7 +19,7 @@ ProjectionMatrix matrixFrom(const JsonValue &in) {
     ProjectionMatrix matrix{};
     for (std::size_t row = 0; row < 3; ++row)
         matrix[row] = in.at(row).fourNumbers();
-    in.checked([&] { pixelOf(matrix); });
+    in.checked([&] { pixelMmOf(matrix); });
     return matrix;
 }
 
@@ -32,8 +32,10 @@ ViewList::View viewFrom(const JsonValue &in) {
         const std::string text = in.text();
         return {in.checked([&] { return orientationOf(positionerAnglesFromText(text)); }), {}};
     }
-    if (const JsonValue matrix = in["matrix"])
+    if (const JsonValue matrix = in["matrix"]) {
+        in.requireOnly({"matrix"});
         return {{}, matrixFrom(matrix)};
+    }
     const auto degrees = [&](const char *name, double largest) {
         const JsonValue angle = in[name];
         return angle ? angle.number(largest) : 0.0;
@@ -53,20 +55,11 @@ ViewList viewListFrom(const JsonValue &in) {
         if (!(*list.pixelMm > 0.0))
             pixel.refuse(because::pixelMustBePositive);
     }
-    std::optional<double> pixelMm;
     for (const JsonValue &each : in.at("views").elements()) {
         list.views.push_back(viewFrom(each));
-        if (!list.views.back().matrix)
-            continue;
-        // The pictures of all views are one array.
-        constexpr double rounding = 1e-4;
-        const double here = pixelOf(*list.views.back().matrix);
-        if (!pixelMm)
-            pixelMm = here;
-        if (std::abs(here - *pixelMm) > rounding * *pixelMm)
-            each.refuse(because::pixelsOfViewsDiffer);
-        if (!list.size)
+        if (list.views.back().matrix && !list.size)
             in.refuse(because::matricesNeedASize);
+        each.checked([&] { agreeOnPixel(list); });
     }
     if (list.views.empty())
         in["views"].refuse(because::mustNotBeEmpty);

@@ -36,8 +36,9 @@ fi
 # --array=2,5, other studies would belong to part 2. What Slurm grants limits the program even where Slurm does not.
 options=(--resume --shard "$SLURM_ARRAY_TASK_ID/$shards")
 [[ " $* " == *" --threads"* ]] || options+=(--threads "${SLURM_CPUS_ON_NODE:-1}")
-if [[ -n ${SLURM_MEM_PER_NODE:-} && " $* " != *" --memory"* ]]; then
-    options+=(--memory "$((SLURM_MEM_PER_NODE * 3 / 4))MB") # the rest is for the program and its decoders
+megabytes=${SLURM_MEM_PER_NODE:-$((${SLURM_MEM_PER_CPU:-0} * ${SLURM_CPUS_ON_NODE:-1}))}
+if ((megabytes > 0)) && [[ " $* " != *" --memory"* ]]; then
+    options+=(--memory "$((megabytes * 3 / 4))MB") # the rest is for the program and its decoders
 fi
 # exec: Slurm's signals reach the program, which then stops cleanly.
 exec "${PELLUCID_CLI:-pellucid-cli}" batch "$@" "${options[@]}"

@@ -194,7 +194,7 @@ void viewList(Bytes bytes) {
             const scene::Camera camera = scene::cameraOf(view, base, lattice);
             check(std::abs(glm::length(camera.orientation) - 1.0) < 1e-9);
             check(camera.pixelMm > 0.0 && std::isfinite(camera.pixelMm));
-            scene::pixelOf(scene::projectionMatrix(camera, lattice));
+            scene::pixelMmOf(scene::projectionMatrix(camera, lattice));
         }
     });
 }

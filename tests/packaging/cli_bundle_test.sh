@@ -47,9 +47,9 @@ refuses "current one" .
 touch "$home/file"
 refuses "other contents" file
 # A folder that lost a file is not taken for complete.
-mv "$folder/share/doc/LICENSE" "$home"
+mv "$folder/share/doc/pellucid/LICENSE" "$home"
 refuses "other contents" "$folder"
-mv "$home/LICENSE" "$folder/share/doc"
+mv "$home/LICENSE" "$folder/share/doc/pellucid"
 unpack "$folder" || fail "a second time: $(cat "$work/output")"
 unpack || fail "without a folder: $(cat "$work/output")"
 [[ -x $home/$name/pellucid-cli && $(stat -c %a "$home/$name") == 755 ]] || fail "without a folder: $(ls -l "$home")"
@@ -58,7 +58,7 @@ unpack -- --one && fail "an option is taken for a folder"
 
 "$source/tests/packaging/is_self_contained.sh" "$folder" pellucid-cli pellucid-decode pellucid-net
 for file in LICENSE manual/manual.html licences/libdcmtk17 pellucid.spdx.json; do
-    [[ -s $folder/share/doc/$file ]] || fail "no $file"
+    [[ -s $folder/share/doc/pellucid/$file ]] || fail "no $file"
 done
 
 cli() { bare "$folder/pellucid-cli" "$@"; }

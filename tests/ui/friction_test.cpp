@@ -310,7 +310,7 @@ private slots:
             const auto manual = qScopeGuard([this] { delete manualWindow(); });
             QVERIFY(manualWindow() != nullptr);
             auto *contents = manualWindow()->findChild<QTreeWidget *>("manualContents");
-            QCOMPARE(contents->topLevelItemCount(), 19);
+            QCOMPARE(contents->topLevelItemCount(), 22);
             auto *text = manualWindow()->findChild<QTextBrowser *>("manual");
             // A chapter is at the top after a click on it.
             QTreeWidgetItem *chapter = contents->topLevelItem(8);

@@ -182,10 +182,13 @@ private slots:
         send(2);
         QTRY_VERIFY_WITH_TIMEOUT(document().volume(), patienceMs);
         QVERIFY(document().isPreview());
-        QCOMPARE(document().volume()->lattice().size().k, 80);
+        const volume::Lattice first = document().volume()->lattice();
+        QVERIFY(first.size().k < 80); // room for all slices would take time
         // Every eighth slice: the projection is there and turns.
         send(12);
         QTRY_VERIFY_WITH_TIMEOUT(!projection()->picture().isNull(), patienceMs);
+        QCOMPARE(document().volume()->lattice().size().k, 80);
+        QVERIFY(document().volume()->lattice().fillsSameBox(first));
         QVERIFY(document().isPreview());
         save("arriving");
         projection()->showStandardView(scene::StandardView::left);

@@ -29,14 +29,15 @@ QString secretKey(const archive::Server &server) {
              QString::number(server.peer.port));
 }
 
-// With the addresses of both servers: a token goes to the login server that gave it.
+// With the addresses of both servers and the scope: a token goes to the login server that gave it,
+// and allows what it was given for.
 QString loginKey(const archive::Server &server) {
     const archive::LoginSettings &login = server.loginSettings;
     const QString address = QString::fromStdString(archive::addressOf(server.peer));
-    return QString("%1/login/%2/%3/%4")
+    return QString("%1/login/%2/%3/%4/%5")
         .arg(QString::fromStdString(server.name), address,
              QString::fromStdString(login.issuer.empty() ? login.tokenUrl : login.issuer),
-             QString::fromStdString(login.clientId));
+             QString::fromStdString(login.clientId), QString::fromStdString(login.scope));
 }
 
 bool hasLogin(const archive::Server &server) {
@@ -164,10 +165,7 @@ void ServerBook::forget(const QString &key) {
 
 void ServerBook::replaceLogin(const archive::Server &former, const archive::Server &server) {
     const QString key = loginKey(former);
-    // A token allows what it was given for.
-    const bool isOther = !hasLogin(server) || loginKey(server) != key ||
-                         server.loginSettings.scope != former.loginSettings.scope;
-    if (isOther)
+    if (!hasLogin(server) || loginKey(server) != key)
         forgetLogin(former);
     else if (!(server.loginSettings == former.loginSettings) ||
              server.peer.authorities != former.peer.authorities)
@@ -282,8 +280,10 @@ void ServerBook::prepareLogin(const std::shared_ptr<Pending> &pending,
             [self, key, text = QString::fromStdString(token)] {
                 if (self == nullptr)
                     return;
-                if (!self->isSavedLogin(key))
+                if (!self->isSavedLogin(key) && !text.isEmpty())
                     self->m_unsavedTokens[key] = text;
+                else if (!self->isSavedLogin(key))
+                    self->m_unsavedTokens.remove(key);
                 else if (text.isEmpty())
                     self->forget(key);
                 else

@@ -41,7 +41,7 @@ StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme
     m_spectrum = addSpectrum(window, bench, theme);
     arrange();
     // A tab that is asked for comes to the front.
-    for (QDockWidget *dock : {m_measured, m_earlierDock, m_transfers, m_history, m_spectrum})
+    for (QDockWidget *dock : {m_measured, m_earlierDock, m_transfers})
         connect(dock->toggleViewAction(), &QAction::triggered, dock, [dock](bool isShown) {
             if (isShown)
                 dock->raise();
@@ -50,7 +50,7 @@ StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme
 
 // One above the other, they would leave room for a few rows each.
 void StudyDocks::arrange() {
-    for (QDockWidget *dock : {m_earlierDock, m_transfers, m_history, m_spectrum})
+    for (QDockWidget *dock : {m_earlierDock, m_transfers})
         m_window.tabifyDockWidget(m_measured, dock);
 }
 

@@ -18,8 +18,8 @@ class StudyPanel;
 class TransfersPanel;
 struct Workbench;
 
-/// The docks on the left of the window: studies above, and below, as tabs, measurements, earlier
-/// studies, transfers, edit history and spectrum. The last four are hidden at first.
+/// The docks on the left of the window: studies; measurements, earlier studies and transfers, as
+/// tabs; edit history and spectrum. Earlier studies and those after them are hidden at first.
 class StudyDocks : public QObject {
     Q_OBJECT
 public:

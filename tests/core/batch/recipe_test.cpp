@@ -60,7 +60,7 @@ TEST(Recipe, TheSmallestMakesTheValuesOfTheFront) {
 
 TEST(Recipe, FaultsAreNamedWithTheirLines) {
     const std::pair<const char *, const char *> faults[] = {
-        {"{\"recipe\": 1,\n \"outputs\": [\n", "line 3"},
+        {"{\"recipe\": 1,\n \"outputs\": [\n }", "line 3"},
         {"{\"recipe\": 2, \"outputs\": [{}]}", "line 1: /recipe: is not 1"},
         {"{\"outputs\": [{}]}", "has no recipe"},
         {"{\"recipe\": 1, \"outputs\": []}", "/outputs: must not be empty"},
@@ -77,6 +77,15 @@ TEST(Recipe, FaultsAreNamedWithTheirLines) {
         {"{\"recipe\": 1, \"outputs\": [{\"name\": \"done\"}]}", "another output"},
         {"{\"recipe\": 1, \"outputs\": [{}, {}]}", "the name 'picture'"},
         {"{\"recipe\": 1, \"outputs\": [{\"look\": \"nothing like this\"}]}", "/outputs/0/look"},
+        {"{\"recipe\": 1, \"outputs\": [{\"turntable\": 3, \"name\": \"a\"},\n"
+         "{\"name\": \"a_0002\"}]}",
+         "line 2: /outputs/1/name: the name 'a_0002'"},
+        {"{\"recipe\": 1, \"outputs\": [{\"look\": \"Bone over soft tissue\", \"format\": "
+         "\"png16\"}]}",
+         "/outputs/0/format"},
+        {"{\"recipe\": 1, \"outputs\": [{\"size\": 9, \"pixel_mm\": 3, \"views\": "
+         "[{\"matrix\": [[1,0,0,0],[0,1,0,0],[0,0,0,1]]}]}]}",
+         "/outputs/0/pixel_mm"},
         {"{\"recipe\": 1, \"outputs\": [{\"scene\": \"missing.json\"}]}", "/outputs/0/scene"},
         {"{\"recipe\": 1, \"outputs\": [{\"view\": \"left\", \"views\": [\"AP\"]}]}",
          "more than one"},
@@ -94,6 +103,7 @@ TEST(Recipe, TheDigestIsOfTheContent) {
     const std::string digest = read(R"({"recipe": 1, "outputs": [{"view": "left"}]})").digest;
     EXPECT_EQ(read("{ \"outputs\":[ {\"view\":\"left\"} ],\n\n\"recipe\":1}").digest, digest);
     EXPECT_NE(read(R"({"recipe": 1, "outputs": [{"view": "right"}]})").digest, digest);
+    EXPECT_EQ(read(R"({"recipe": 1, "notes": "x", "outputs": [{"view": "left"}]})").digest, digest);
     const test::TemporaryFolder folder;
     presets::Preset preset;
     preset.name = "Mine";
@@ -212,6 +222,8 @@ TEST(Recipe, ChoosesTheSeriesThatItAsksFor) {
     EXPECT_EQ(chosen({.modalities = {"CT"}, .sliceMm = {{3.0, 6.0}}}), "Thick chest");
     EXPECT_EQ(chosen({.description = "*CHEST"}), "Thin chest");
     EXPECT_EQ(chosen({.description = "th?ck*"}), "Thick chest");
+    add(std::string(60, 'a').c_str(), "CT", 5, 1.0);
+    EXPECT_THROW(chosen({.description = "*a*a*a*a*a*a*a*a*a*b"}), task::Error); // at once
     EXPECT_THROW(chosen({.modalities = {"PT"}}), task::Error);
     EXPECT_THROW(chosen({.leastSlices = 500}), task::Error);
     // The first of equals, whatever the order of the files: that with the smaller UID.

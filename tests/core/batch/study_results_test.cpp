@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <set>
 #include <thread>
 
@@ -123,8 +124,9 @@ TEST(DerivedUid, IsAUidOfItsText) {
         all.insert(uid);
     }
     EXPECT_EQ(all.size(), 1000U);
-    // The first half of SHA-256 of nothing, e3b0c44298fc1c149afbf4c8996fb924, as a number.
-    EXPECT_EQ(derivedUid(""), "2.25.302652579918965577886386472538583578916");
+    // The first half of SHA-256 of nothing, with version and variant:
+    // e3b0c44298fc8c149afbf4c8996fb924.
+    EXPECT_EQ(derivedUid(""), "2.25.302652579918966106791432553938847512868");
 }
 
 TEST(MemoryShares, AreNeverMoreThanThereIs) {
@@ -147,6 +149,24 @@ TEST(MemoryShares, AreNeverMoreThanThereIs) {
             });
     }
     EXPECT_FALSE(isTooMuch);
+    // While one that needs all waits, those that ask after it wait, too.
+    std::stop_source atOnce;
+    atOnce.request_stop();
+    {
+        std::jthread large;
+        const auto held = shares.take(25, {});
+        large = std::jthread([&] { shares.take(100, {}); });
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        bool hasToWait = false;
+        while (!hasToWait && std::chrono::steady_clock::now() < end) {
+            try {
+                shares.take(1, task::Progress(atOnce.get_token())); // there is enough for it
+            } catch (const task::Cancelled &) {
+                hasToWait = true;
+            }
+        }
+        EXPECT_TRUE(hasToWait);
+    }
     std::stop_source stop;
     const auto all = shares.take(100, {});
     stop.request_stop();
