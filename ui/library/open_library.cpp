@@ -190,17 +190,6 @@ bool hasCopiesWithoutList(const LibraryPlace &place) {
     return false;
 }
 
-// Whether there is nothing but copies: the command line stored them before the workstation first
-// ran.
-bool hasNothingElse(const LibraryPlace &place) {
-    std::error_code failed;
-    for (fs::directory_iterator entry(place.folder, failed), end; !failed && entry != end;
-         entry.increment(failed))
-        if (entry->path() != place.copiesFolder())
-            return false;
-    return true;
-}
-
 OpenedLibrary listInMemory(OpenedLibrary opened, const task::Reason &reason) {
     opened.place.inMemory = true;
     opened.notices.push_back({opened.place.listFile(), because::listedForThisRun(reason)});
@@ -215,7 +204,6 @@ OpenedLibrary openLibrary(const fs::path &folder) {
     std::error_code failed;
     fs::create_directories(folder, failed);
     const bool hadNoList = hasCopiesWithoutList(opened.place);
-    const bool isNew = hasNothingElse(opened.place);
     if (hadNoList) {
         try {
             files::AtomicFile(opened.place.rebuiltMark()).commit();
@@ -246,7 +234,7 @@ OpenedLibrary openLibrary(const fs::path &folder) {
             return listInMemory(std::move(opened), because::cannotBeRebuilt(error.reason()));
         }
     }
-    if (hadNoList && !isNew)
+    if (hadNoList)
         opened.notices.push_back({opened.place.listFile(), because::libraryWasEmpty});
     opened.mayLackCopies = hadNoList || fs::exists(opened.place.rebuiltMark(), failed);
     return opened;

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <fstream>
+#include <mutex>
 #include <thread>
 
 #include <glm/geometric.hpp>
@@ -49,23 +52,41 @@ std::vector<double> valuesOf(const volume::Volume &volume) {
     return values;
 }
 
-// Sends files one by one, each after the one before has been looked at, and returns what was shown.
+// Sends files one by one, and returns what was shown. Where a finer part can be shown, the next
+// file waits for it, however busy the machine is, unless this series shows no parts.
 struct Shown {
     std::vector<PartialVolume> partial;
     dicom::ArrivedSeries arrived;
 };
 Shown arrive(const std::vector<fs::path> &files, const std::vector<std::size_t> &order) {
+    constexpr std::size_t coarsestAfterTheFirst = 8;
     ArrivingSeries series(files.size());
     Shown shown;
+    std::mutex mutex;
+    std::condition_variable changed;
     std::jthread sender([&] {
+        std::vector<bool> isHere(files.size());
+        std::size_t awaited = files.size() + 1;
+        bool showsParts = true;
         for (const std::size_t n : order) {
             series.add(n, files[n]);
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            isHere[n] = true;
+            const std::size_t stride = dicom::finestStride(isHere);
+            const bool isFirst = awaited > files.size();
+            if (stride < 2 || stride >= awaited || (!isFirst && stride > coarsestAfterTheFirst))
+                continue;
+            awaited = stride;
+            std::unique_lock lock(mutex);
+            showsParts = showsParts && changed.wait_for(lock, std::chrono::seconds(5), [&] {
+                return !shown.partial.empty() && shown.partial.back().stride <= stride;
+            });
         }
         series.end();
     });
     shown.arrived = series.load({}, [&](const PartialVolume &partial, const task::Progress &) {
+        const std::lock_guard lock(mutex);
         shown.partial.push_back(partial);
+        changed.notify_all();
     });
     return shown;
 }
