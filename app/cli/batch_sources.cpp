@@ -7,6 +7,7 @@
 
 #include "app/cli/servers.h"
 #include "core/archive/retrieval.h"
+#include "core/decoder/decoder.h"
 #include "core/dicom/file_list.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/study_index.h"
@@ -90,7 +91,8 @@ public:
     void open(const BatchItem &item,
               const std::function<void(const StudyToRender &)> &use) override {
         const dicom::IndexedStudy &indexed = m_index.studies[item.index];
-        dicom::Catalogue catalogue = dicom::scan(indexed.files, task::Progress(m_context.stop));
+        dicom::Catalogue catalogue =
+            dicom::scan(indexed.files, task::Progress(m_context.stop), {.isSameSource = true});
         catalogue.unpacked = m_index.unpacked;
         const dicom::Patient *patient = nullptr;
         const dicom::Study &study = studyOf(catalogue, indexed.uid, patient);
@@ -130,6 +132,7 @@ public:
     }
 
     std::vector<BatchItem> list() override {
+        decoder::Decoder::shared().beginOpening();
         archive::SearchTerms terms = m_terms;
         terms.level = exchange::Level::study;
         terms.seriesUid.clear();
@@ -158,7 +161,8 @@ public:
         };
         requireComplete(archive::retrieve(m_server, wantedOf(item), objects, observer, progress()),
                         m_server.name);
-        const dicom::Catalogue catalogue = dicom::scan({folder.path()}, progress());
+        const dicom::Catalogue catalogue =
+            dicom::scan({folder.path()}, progress(), {.isSameSource = true});
         const dicom::Patient *patient = nullptr;
         const dicom::Study &study = studyOf(catalogue, item.studyUid, patient);
         use({catalogue, *patient, study, inputs});

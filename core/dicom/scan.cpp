@@ -396,7 +396,8 @@ Series seriesOf(const std::vector<SeriesFile> &files, std::vector<Skipped> &skip
 
 Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress,
                const ScanOptions &options) {
-    decoder::Decoder::shared().beginOpening();
+    if (!options.isSameSource)
+        decoder::Decoder::shared().beginOpening();
     FileList list = listFiles(paths, progress);
     std::vector<FileContents> contents = HeaderReader(options, progress).read(list.found);
     Catalogue catalogue;

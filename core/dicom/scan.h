@@ -16,6 +16,9 @@ struct ScanOptions {
     bool includesHuge = false;
     /// Files whose headers are known already; may be null.
     const DecodedFiles *decoded = nullptr;
+    /// The files are part of what was opened last, such as an archive whose studies are scanned one
+    /// by one: the same decoders read them, see `Decoder::beginOpening`.
+    bool isSameSource = false;
 };
 
 /// Searches files, folders (recursively, without following links to folders), DICOMDIRs, ZIP

@@ -65,7 +65,7 @@ cli() { bare "$folder/pellucid-cli" "$@"; }
 cli phantom head --kind head --size 48x48x32 >/dev/null
 echo '{"recipe": 1, "outputs": [{"view": "front", "size": 64}, {"name": "left", "format": "dicom", "size": 64}]}' >"$home/recipe.json"
 cli recipe check recipe.json >/dev/null
-cli batch recipe.json head --out out --engine cpu
+cli batch recipe.json head --out out
 for file in front.png left.dcm done.json; do
     [[ -s $(echo "$home"/out/*/$file) ]] || fail "no $file: $(ls -R "$home/out")"
 done
