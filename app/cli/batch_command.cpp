@@ -116,6 +116,14 @@ void requirePossible(const batch::Recipe &recipe, bool isSent) {
                                      "format dicom or dicom-loop"));
 }
 
+// Whether a file is intact, but no image that can be projected.
+bool isOfAnotherKind(const task::Reason &reason) {
+    return reason.is(because::isNotDicom) || reason.is(because::isAnIndex) ||
+           reason.is(because::isAnArchive) || reason.is(because::hasNoPixels) ||
+           reason.is(because::hasNoPixelsBut) || reason.is(because::isASegmentation) ||
+           reason.is(because::isAColorImage);
+}
+
 class BatchRun {
 public:
     BatchRun(const Options &options, const Context &caller)
@@ -144,7 +152,7 @@ public:
             reachReceiver();
         openSource(terms);
         m_items = m_source->list();
-        tellOfUnused();
+        sortUnused(shard);
         std::erase_if(m_items, [&](const BatchItem &item) {
             return batch::shardOf(item.key, shard.count) != shard.index;
         });
@@ -307,13 +315,19 @@ private:
         m_passedOver.push_back(item.key);
     }
 
-    // A study may be among them.
-    void tellOfUnused() const {
-        std::vector<Named> unused;
-        for (const dicom::Skipped &skipped : m_source->skipped())
+    // Damaged files count as failures, because a study may consist of them. Which one is not known:
+    // each part of a batch counts its share.
+    void sortUnused(const Shard &shard) {
+        std::vector<Named> named;
+        for (const dicom::Skipped &skipped : m_source->skipped()) {
             if (!skipped.reason.is(because::isNotDicom)) // texts and programs beside images
-                unused.push_back({skipped.path.string(), skipped.reason});
-        for (const std::string &line : linesByReason(unused, "not used"))
+                named.push_back({skipped.path.string(), skipped.reason});
+            if (isOfAnotherKind(skipped.reason))
+                m_unused.push_back(skipped);
+            else if (batch::shardOf(skipped.path.string(), shard.count) == shard.index)
+                m_damaged.push_back(skipped);
+        }
+        for (const std::string &line : linesByReason(named, "not used"))
             warn(line);
     }
 
@@ -344,7 +358,8 @@ private:
                                 {"skipped", m_skipped.load()},
                                 {"failed", failures},
                                 {"without_such_a_series", m_passedOver},
-                                {"unused_files", unusedJson()},
+                                {"damaged_files", jsonOf(m_damaged)},
+                                {"unused_files", jsonOf(m_unused)},
                                 {"recipe", m_recipe.digest},
                                 {"seconds", seconds}})
                           .c_str());
@@ -354,6 +369,8 @@ private:
                 text += fmt::format(", {} were done before", m_skipped.load());
             if (!m_failures.empty())
                 text += fmt::format(", {} failed", m_failures.size());
+            if (!m_damaged.empty())
+                text += fmt::format(", damaged files: {}", m_damaged.size());
             if (!m_passedOver.empty())
                 text += fmt::format(", {} have no series that the recipe asks for",
                                     m_passedOver.size());
@@ -361,11 +378,10 @@ private:
         }
     }
 
-    json unusedJson() const {
+    static json jsonOf(const std::vector<dicom::Skipped> &skipped) {
         json files = json::array();
-        for (const dicom::Skipped &skipped : m_source->skipped())
-            files.push_back(
-                {{"path", skipped.path.string()}, {"reason", skipped.reason.english()}});
+        for (const dicom::Skipped &one : skipped)
+            files.push_back({{"path", one.path.string()}, {"reason", one.reason.english()}});
         return files;
     }
 
@@ -378,6 +394,12 @@ private:
             throw Error(ErrorCode::incomplete,
                         because::inWords(fmt::format("{} of {} studies failed", m_failures.size(),
                                                      m_items.size())));
+        if (!m_damaged.empty())
+            throw Error(
+                ErrorCode::incomplete,
+                because::inWords(fmt::format("damaged files: {}; the first: {}", m_damaged.size(),
+                                             m_damaged.front().reason.english())),
+                m_damaged.front().path);
     }
 
     const Options &m_options;
@@ -397,6 +419,7 @@ private:
     std::mutex m_mutex; ///< of what follows
     std::size_t m_done = 0;
     std::vector<Failure> m_failures;
+    std::vector<dicom::Skipped> m_damaged, m_unused;
     std::vector<std::string> m_passedOver; ///< studies without a series that the recipe asks for
     std::exception_ptr m_fatal;
 };
