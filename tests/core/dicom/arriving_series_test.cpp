@@ -58,8 +58,9 @@ struct Shown {
     std::vector<PartialVolume> partial;
     dicom::ArrivedSeries arrived;
 };
-Shown arrive(const std::vector<fs::path> &files, const std::vector<std::size_t> &order) {
-    constexpr std::size_t coarsestAfterTheFirst = 8;
+Shown arrive(const std::vector<fs::path> &files, const std::vector<std::size_t> &order,
+             std::chrono::milliseconds patience = std::chrono::seconds(3)) {
+    constexpr std::size_t coarsestAfterTheFirst = 8, leastToShow = 16;
     ArrivingSeries series(files.size());
     Shown shown;
     std::mutex mutex;
@@ -67,17 +68,17 @@ Shown arrive(const std::vector<fs::path> &files, const std::vector<std::size_t> 
     std::jthread sender([&] {
         std::vector<bool> isHere(files.size());
         std::size_t awaited = files.size() + 1;
-        bool showsParts = true;
         for (const std::size_t n : order) {
             series.add(n, files[n]);
             isHere[n] = true;
             const std::size_t stride = dicom::finestStride(isHere);
             const bool isFirst = awaited > files.size();
-            if (stride < 2 || stride >= awaited || (!isFirst && stride > coarsestAfterTheFirst))
+            if (files.size() < leastToShow || stride < 2 || stride >= awaited ||
+                (!isFirst && stride > coarsestAfterTheFirst))
                 continue;
             awaited = stride;
             std::unique_lock lock(mutex);
-            showsParts = showsParts && changed.wait_for(lock, std::chrono::seconds(5), [&] {
+            changed.wait_for(lock, patience, [&] {
                 return !shown.partial.empty() && shown.partial.back().stride <= stride;
             });
         }
@@ -247,7 +248,8 @@ TEST(ArrivingSeries, SeriesThatAreNoStackAreNotShownBefore) {
     test::SeriesKnobs knobs = unevenValues();
     knobs.change = [](test::DicomWriter &w, int) { w.remove({0x0020, 0x0032}); };
     const auto files = filesOfSeries(folder / "unplaced", knobs);
-    EXPECT_TRUE(arrive(files, archive::coarseToFine(files.size())).partial.empty());
+    EXPECT_TRUE(arrive(files, archive::coarseToFine(files.size()), std::chrono::milliseconds(50))
+                    .partial.empty());
 }
 
 } // namespace
