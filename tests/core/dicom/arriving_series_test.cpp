@@ -227,7 +227,8 @@ TEST(ArrivingSeries, RealSeriesArriveAsTheyAre) {
         std::vector<fs::path> files;
         for (const auto &[number, path] : numbered)
             files.push_back(path);
-        const Shown shown = arrive(files, archive::coarseToFine(files.size()));
+        const Shown shown =
+            arrive(files, archive::coarseToFine(files.size()), std::chrono::seconds(1));
         const volume::Volume &found = shown.arrived.loaded.volume;
         EXPECT_TRUE(found.lattice() == expected.lattice()) << name;
         EXPECT_EQ(valuesOf(found), valuesOf(expected)) << name;
