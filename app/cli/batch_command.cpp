@@ -293,17 +293,19 @@ private:
     // Requires the lock.
     void tell(const BatchItem &item, const DoneRecord &record, double seconds) const {
         double error = 0.0;
-        std::size_t warnings = 0;
+        std::vector<std::string> told; // what concerns all outputs, once
         for (const DoneRecord::MadeOutput &output : record.outputs) {
             error = std::max(error, output.predictedError);
-            warnings += output.warnings.size();
             for (const std::string &warning : output.warnings)
-                warn(item.key + ": " + output.name + ": " + warning);
+                if (std::find(told.begin(), told.end(), warning) == told.end()) {
+                    told.push_back(warning);
+                    warn(item.key + ": " + output.name + ": " + warning);
+                }
         }
         if (m_options.json)
             return;
         std::puts(
-            printable(fmt::format("{} of {}: {}: {} outputs in {:.2f} s, error at most {:.2g}",
+            printable(fmt::format("{} of {}: {}: outputs: {}; {:.2f} s, error at most {:.2g}",
                                   m_done + m_skipped + m_failures.size() + m_passedOver.size(),
                                   m_items.size(), item.key, record.outputs.size(), seconds, error))
                 .c_str());
@@ -334,6 +336,10 @@ private:
     void fail(const BatchItem &item, const std::string &reason) {
         const std::lock_guard lock(m_mutex);
         m_failures.push_back({item.key, reason});
+        if (!m_options.json) {
+            std::puts(printable(item.key + ": failed").c_str());
+            std::fflush(stdout);
+        }
         warn(reason.find(item.key) == std::string::npos ? item.key + ": " + reason : reason);
     }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "app/cli/servers.h"
@@ -12,6 +13,7 @@
 #include "core/dicom/scan.h"
 #include "core/dicom/study_index.h"
 #include "core/files/session_folder.h"
+#include "core/system/content_digest.h"
 #include "core/task/error.h"
 
 namespace pellucid::cli {
@@ -31,6 +33,14 @@ std::string safeName(const std::string &text) {
                     ? c
                     : '_';
     return name.empty() ? "study" : name;
+}
+
+// The key of a file without a study. Files in other folders may have the same name.
+std::string keyOf(const fs::path &file) {
+    constexpr std::size_t digits = 8;
+    const std::string path = dicom::resolved(file).string();
+    return safeName(file.filename().string()) + "-" +
+           system::contentDigest(std::as_bytes(std::span(path))).substr(0, digits);
 }
 
 // Keys are folders of one folder.
@@ -64,16 +74,17 @@ public:
         : m_paths(std::move(paths)), m_except(std::move(except)), m_context(context) {}
 
     std::vector<BatchItem> list() override {
+        for (const fs::path &path : m_paths)
+            if (std::error_code unknown; !fs::exists(path, unknown))
+                throw task::Error(task::ErrorCode::unusable, because::doesNotExist, path);
         m_index = dicom::indexStudies(m_paths, task::Progress(m_context.stop));
         m_names.unpacked = m_index.unpacked;
         leaveOutResults();
         std::vector<BatchItem> items;
         for (std::size_t n = 0; n < m_index.studies.size(); ++n) {
             const dicom::IndexedStudy &study = m_index.studies[n];
-            items.push_back({exchange::isUid(study.uid)
-                                 ? study.uid
-                                 : safeName(study.files.front().filename().string()),
-                             n});
+            items.push_back(
+                {exchange::isUid(study.uid) ? study.uid : keyOf(study.files.front()), n});
         }
         std::stable_sort(items.begin(), items.end(),
                          [](const BatchItem &a, const BatchItem &b) { return a.key < b.key; });
@@ -190,7 +201,7 @@ private:
     // have gigabytes of others.
     archive::Wanted wantedOf(const BatchItem &item) const {
         archive::Wanted wanted{item.studyUid, {}};
-        if (m_choice.modalities.empty() && m_terms.seriesUid.empty())
+        if (m_choice.modalities.empty() && m_terms.seriesUid.empty() && m_terms.modality.empty())
             return wanted;
         archive::SearchTerms terms;
         terms.studyUid = item.studyUid;
@@ -199,6 +210,13 @@ private:
         const std::vector<archive::FoundEntry> series = found(terms);
         if (series.empty())
             throw task::Error(task::ErrorCode::unusable, because::holdsNoUsableImages);
+        // Not every server heeds the modality in a search for studies.
+        const auto hasModality = [&](const archive::FoundEntry &entry) {
+            const std::string modality = entry.text(tag::modality);
+            return modality.empty() || modality == m_terms.modality;
+        };
+        if (!m_terms.modality.empty() && std::none_of(series.begin(), series.end(), hasModality))
+            throw task::Error(task::ErrorCode::unusable, because::noSeriesIsChosen);
         for (const archive::FoundEntry &entry : series) {
             const std::string modality = entry.text(tag::modality);
             if (modality.empty() || m_choice.modalities.empty() ||

@@ -88,6 +88,12 @@ private:
     }
 
     void readViews(const fs::path &out) {
+        for (const char *const option :
+             {"--view", "--azimuth", "--elevation", "--roll", "--orientation", "--carm"})
+            if (m_command.count(option) > 0)
+                throw Error(ErrorCode::usage,
+                            because::inWords(std::string(option) +
+                                             ": --matrix says where the volume is seen from"));
         if (out.extension() != ".npy")
             throw Error(ErrorCode::usage,
                         because::inWords("-o: the pictures of --matrix are one array, .npy"));

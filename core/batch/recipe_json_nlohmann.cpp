@@ -34,12 +34,6 @@ constexpr JsonWords<Format, 7> formats{{{"png", Format::png},
                                         {"dicom", Format::capture},
                                         {"dicom-loop", Format::captureLoop},
                                         {"mp4", Format::video}}};
-constexpr JsonWords<StandardView, 6> standardViews{{{"front", StandardView::front},
-                                                    {"back", StandardView::back},
-                                                    {"left", StandardView::left},
-                                                    {"right", StandardView::right},
-                                                    {"top", StandardView::top},
-                                                    {"bottom", StandardView::bottom}}};
 constexpr int longestName = 60;
 
 // Reads the outputs of a recipe, and notes the contents of the files that they name.
@@ -189,10 +183,6 @@ private:
     }
 
     static glm::dquat viewFrom(const JsonValue &in) {
-        if (in.isText())
-            for (const auto &[word, view] : standardViews)
-                if (in.text() == word)
-                    return scene::viewOrientation(view);
         const ViewList::View view = scene::viewFrom(in);
         if (!view.orientation)
             in.refuse(because::matrixBelongsToViews);

@@ -86,7 +86,7 @@ StudyIndex indexStudies(const std::vector<fs::path> &paths, const task::Progress
     for (std::size_t n = 0; n < identities.size(); ++n) {
         const Identity &identity = identities[n];
         const fs::path &path = list.found[n];
-        if (identity.reason && *identity.reason != task::Reason(because::isASegmentation)) {
+        if (identity.reason) {
             index.skipped.push_back({names.named(path), *identity.reason});
         } else if (identity.isVolumeFile) {
             index.studies.push_back({{}, {path}});

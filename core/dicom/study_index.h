@@ -16,7 +16,7 @@ struct IndexedStudy {
     std::vector<std::filesystem::path> files;
 };
 
-/// Which files belong to which study, for archives whose headers do not fit in memory at once.
+/// Which images belong to which study, for archives whose headers do not fit in memory at once.
 struct StudyIndex {
     std::vector<IndexedStudy> studies; ///< in the order of their first files
     std::vector<Skipped> skipped;      ///< with the paths to show to users

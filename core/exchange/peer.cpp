@@ -52,6 +52,8 @@ const std::vector<std::string> &commonClasses() {
         "1.2.840.10008.5.1.4.1.1.4",     // MR
         "1.2.840.10008.5.1.4.1.1.128",   // PET
         "1.2.840.10008.5.1.4.1.1.7",     // Secondary Capture
+        "1.2.840.10008.5.1.4.1.1.7.2",   // Multi-frame Secondary Capture, grey
+        "1.2.840.10008.5.1.4.1.1.7.4",   // Multi-frame Secondary Capture, colored
         "1.2.840.10008.5.1.4.1.1.2.1",   // Enhanced CT
         "1.2.840.10008.5.1.4.1.1.4.1",   // Enhanced MR
         "1.2.840.10008.5.1.4.1.1.66.4",  // Segmentation

@@ -23,6 +23,13 @@ ProjectionMatrix matrixFrom(const JsonValue &in) {
     return matrix;
 }
 
+constexpr files::JsonWords<StandardView, 6> standardViews{{{"front", StandardView::front},
+                                                           {"back", StandardView::back},
+                                                           {"left", StandardView::left},
+                                                           {"right", StandardView::right},
+                                                           {"top", StandardView::top},
+                                                           {"bottom", StandardView::bottom}}};
+
 } // namespace
 
 ViewList::View viewFrom(const JsonValue &in) {
@@ -30,6 +37,9 @@ ViewList::View viewFrom(const JsonValue &in) {
         in.requireOnly({"matrix", "primary_deg", "secondary_deg", "roll_deg"});
     if (!in.isObject()) {
         const std::string text = in.text();
+        for (const auto &[word, view] : standardViews)
+            if (text == word)
+                return {viewOrientation(view), {}};
         return {in.checked([&] { return orientationOf(positionerAnglesFromText(text)); }), {}};
     }
     if (const JsonValue matrix = in["matrix"]) {

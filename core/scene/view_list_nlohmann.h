@@ -8,7 +8,7 @@ namespace pellucid::scene {
 
 /// A list of views within another file. *Throws* as JsonValue.
 ViewList viewListFrom(const files::JsonValue &in);
-/// One view: an object, or angles as text.
+/// One view: an object, or text: front, back, left, right, top, bottom, or angles.
 ViewList::View viewFrom(const files::JsonValue &in);
 
 } // namespace pellucid::scene
