@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <malloc.h>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -229,6 +230,9 @@ private:
             const BatchItem &item = m_items[n];
             try {
                 naming(item.key, [&] { renderOne(item); });
+                // What a study took goes back: the heaps of the threads would keep ever larger
+                // rests.
+                ::malloc_trim(0);
             } catch (const task::Cancelled &) {
                 return;
             } catch (const Error &error) {

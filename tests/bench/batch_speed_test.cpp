@@ -67,9 +67,9 @@ protected:
 } // namespace
 
 // Two pictures of each study, which share a preparation in a batch. In turns; other processes slow
-// some rounds, so the best of three counts. Measured on two threads of AVX-512: 3 to 4 times, and
-// with one picture of each study 2.1 to 2.4 times.
-TEST_F(BatchSpeed, ABatchIsTwiceAsFastAsALoopOfRender) {
+// some rounds, so the best of three counts. Measured on two threads of AVX-512: 2.2 to 2.3 times,
+// also with one picture of each study; 1.5 to 1.6 times when every study had new decoders.
+TEST_F(BatchSpeed, ABatchIsFasterThanALoopOfRender) {
     const fs::path in = studies(10, "64x64x40");
     const fs::path made = recipe();
     std::array<double, 3> ratios{};
@@ -92,7 +92,7 @@ TEST_F(BatchSpeed, ABatchIsTwiceAsFastAsALoopOfRender) {
                     ratio);
     }
     std::sort(ratios.begin(), ratios.end());
-    EXPECT_GT(ratios[2], 2.0);
+    EXPECT_GT(ratios[2], 1.8);
 }
 
 // After it has warmed up, every study leaves as much memory as it took.
