@@ -83,7 +83,7 @@ private:
     double m_patienceSeconds;
     int m_confinement = 0;
     bool m_isUsable = false;
-    bool m_isAtWork = false; ///< a server that is asked for more than an answer may be busy
+    bool m_isAtWork = false;   ///< a server that is asked for more than an answer may be busy
     Arrival m_arrival;         ///< the current object
     bool m_isArriving = false; ///< it has a file
 };
