@@ -52,7 +52,7 @@ std::string imagesOf(const dicom::Selection &selection, const std::string &input
     return uids.empty() ? inputs : batch::digestOf(std::move(uids));
 }
 
-// What a plan is made for: the scene without the direction that it is seen from.
+// The scene without its direction. Views that differ in nothing else share a plan.
 scene::Scene subjectOf(scene::Scene scene) {
     scene.camera.orientation = glm::dquat(1.0, 0.0, 0.0, 0.0);
     scene.camera.panMm = {};

@@ -39,7 +39,7 @@ public:
     virtual std::vector<dicom::Skipped> skipped() const { return {}; }
 };
 
-/// What is in `except`, the folder of the results, is left out.
+/// Leaves out the folder of the results, `except`.
 std::unique_ptr<BatchSource> batchOfFiles(const std::vector<std::filesystem::path> &paths,
                                           const std::filesystem::path &except,
                                           const Context &context);

@@ -61,7 +61,7 @@ nlohmann::json jsonOf(const archive::FoundEntry &entry) {
     return out;
 }
 
-// Nothing if the server does not count them.
+// Empty if the server does not count them.
 std::string imagesOf(const archive::FoundEntry &entry) {
     const std::string count = entry.text(tag::instancesInSeries);
     return count.empty() ? count : count + (count == "1" ? " image" : " images");

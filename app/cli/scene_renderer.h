@@ -53,9 +53,9 @@ public:
 
     const Renderer &renderer() const { return *m_renderer; }
     classify::FieldWindow window() const { return m_window; }
-    /// What cannot be kept, a line each; without what concerns single pictures.
+    /// Warnings about the whole volume, a line each.
     std::vector<std::string> warnings() const;
-    /// The same for the pictures so far; empty if they keep the tolerance.
+    /// A warning about the pictures so far; empty if they keep the tolerance.
     std::string warningOfViews() const;
 
     double fieldMs() const { return m_fieldMs; }

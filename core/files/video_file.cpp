@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/files/atomic_file.h"
+#include "core/files/spawn.h"
 #include "core/task/error.h"
 
 namespace pellucid::files {
@@ -51,26 +52,16 @@ pid_t start(const fs::path &program, std::vector<std::string> arguments, int inp
     for (std::string &argument : arguments)
         pointers.push_back(argument.data());
     pointers.push_back(nullptr);
-    posix_spawnattr_t attributes;
-    sigset_t none, all;
-    ::sigemptyset(&none);
-    ::sigfillset(&all);
-    ::posix_spawnattr_init(&attributes);
-    ::posix_spawnattr_setpgroup(&attributes, 0); // the terminal's interrupt is not for it
-    ::posix_spawnattr_setsigmask(&attributes, &none);
-    ::posix_spawnattr_setsigdefault(&attributes, &all);
-    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK |
-                                                POSIX_SPAWN_SETSIGDEF);
+    const SpawnAttributes attributes;
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_adddup2(&actions, input, 0);
     ::posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
     ::posix_spawn_file_actions_addopen(&actions, 2, messages.c_str(), O_WRONLY | O_CREAT, 0600);
     pid_t started = -1;
-    const int failed =
-        ::posix_spawn(&started, program.c_str(), &actions, &attributes, pointers.data(), environ);
+    const int failed = ::posix_spawn(&started, program.c_str(), &actions, attributes.get(),
+                                     pointers.data(), environ);
     ::posix_spawn_file_actions_destroy(&actions);
-    ::posix_spawnattr_destroy(&attributes);
     return failed == 0 ? started : -1;
 }
 

@@ -15,6 +15,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "core/files/spawn.h"
 #include "core/files/user_folders.h"
 
 namespace pellucid::helper {
@@ -63,17 +64,7 @@ Process::Process(const Program &program) {
     if (program.file >= 0)
         file = aboveReserved(::fcntl(program.file, F_DUPFD_CLOEXEC, 10));
 
-    // The terminal's interrupt is for the program only, and signals start with their defaults.
-    posix_spawnattr_t attributes;
-    sigset_t none, all;
-    ::sigemptyset(&none);
-    ::sigfillset(&all);
-    ::posix_spawnattr_init(&attributes);
-    ::posix_spawnattr_setpgroup(&attributes, 0);
-    ::posix_spawnattr_setsigmask(&attributes, &none);
-    ::posix_spawnattr_setsigdefault(&attributes, &all);
-    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK |
-                                                POSIX_SPAWN_SETSIGDEF);
+    const files::SpawnAttributes attributes;
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_adddup2(&actions, childSocket.get(), socketDescriptor);
@@ -91,10 +82,9 @@ Process::Process(const Program &program) {
     for (std::string &variable : variables)
         pointers.push_back(variable.data());
     pointers.push_back(nullptr);
-    const int failed = ::posix_spawn(&m_pid, program.path.c_str(), &actions, &attributes,
+    const int failed = ::posix_spawn(&m_pid, program.path.c_str(), &actions, attributes.get(),
                                      arguments.data(), pointers.data());
     ::posix_spawn_file_actions_destroy(&actions);
-    ::posix_spawnattr_destroy(&attributes);
     if (failed != 0) {
         m_pid = -1;
         fail(failed);

@@ -190,6 +190,28 @@ TEST_F(PacsBatch, ASeriesIsChosenByItsUid) {
     EXPECT_NE(none.out.find("\"without_such_a_series\": [\n"), std::string::npos) << none.out;
 }
 
+// A server that does not tell the kinds of its objects gives back what a batch has sent to it.
+TEST_F(PacsBatch, AMultiFrameCaptureComesBack) {
+    Dcmqrscp dcmqrscp;
+    const archive::Server server = serverAt(dcmqrscp.port(), "COMMON");
+    const fs::path sent = series("E", 8);
+    put(server, sent);
+    const std::string study = studyIn(sent);
+    add("s", "COMMON", dcmqrscp.port());
+    const fs::path by = recipe(R"({"recipe": 1, "series": {"modality": "CT"}, "outputs": [
+        {"name": "grey", "turntable": 3, "size": 32, "format": "dicom-loop"},
+        {"name": "color", "turntable": 3, "size": 32, "format": "dicom-loop",
+         "look": "Bone over soft tissue"}]})");
+    ASSERT_EQ(batch(by, "--from s --find study=" + study + " --send s").exitCode, 0);
+    ASSERT_EQ(picturesOf(server, study).size(), 2U);
+    const archive::RetrievalReport report =
+        archive::retrieve(server, {study, {}},
+                          archive::ObjectFolder(m_folder / "back",
+                                                archive::ObjectFolder::Keeps::inMemoryOfTheSystem));
+    EXPECT_TRUE(report.isComplete()) << report.lacking.front().reason.english();
+    EXPECT_EQ(report.state.received, 10U);
+}
+
 // The UIDs of the pictures depend on the images and the recipe: what is sent again is there once.
 TEST_F(PacsBatch, PicturesThatAreSentAgainAreThereOnce) {
     Dcmqrscp dcmqrscp;

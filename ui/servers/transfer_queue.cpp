@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <QFileInfo>
+#include <QWidget>
 
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
