@@ -107,8 +107,12 @@ private:
     // Outputs in their order, except that those that share a preparation follow each other.
     void renderAll() {
         std::vector<std::pair<const Output *, scene::Scene>> scenes;
-        for (const Output &output : m_recipe.outputs)
+        for (const Output &output : m_recipe.outputs) {
+            if (output.look)
+                if (const auto why = presets::mismatch(*output.look, *m_volume))
+                    throw Error(ErrorCode::unusable, *why, output.name);
             scenes.emplace_back(&output, batch::sceneOf(output, *m_volume));
+        }
         m_record.outputs.resize(scenes.size());
         std::vector<bool> isDone(scenes.size());
         for (std::size_t first = 0; first < scenes.size(); ++first) {
@@ -118,6 +122,9 @@ private:
             SceneRenderer renderer(scene, Subject{*m_volume, nullptr, {}},
                                    MemoryLimit{.bytes = m_memoryBytes, .decides = false}, m_card,
                                    m_context);
+            if (!renderer.whyEmpty().empty())
+                throw Error(ErrorCode::unusable, because::inWords(renderer.whyEmpty()),
+                            scenes[first].first->name);
             for (std::size_t n = first; n < scenes.size(); ++n)
                 if (!isDone[n] && subjectOf(scenes[n].second) == subjectOf(scene)) {
                     isDone[n] = true;
@@ -130,24 +137,24 @@ private:
                                   SceneRenderer &renderer) {
         DoneRecord::MadeOutput made{output.name, scene.tolerance, 0.0,
                                     englishTexts(m_volume->notes().warnings)};
+        for (const std::string &warning : renderer.warnings())
+            made.warnings.push_back(warning);
+        m_labels.warnings = made.warnings; // without names of files
         std::vector<Named> unused;
         for (const dicom::Skipped &skipped : m_study.catalogue.skipped)
             unused.push_back(
                 {m_study.catalogue.named(skipped.path).filename().string(), skipped.reason});
         for (const std::string &line : linesByReason(unused, "not used"))
             made.warnings.push_back(line);
-        for (const std::string &warning : renderer.warnings())
-            made.warnings.push_back(warning);
-        if (output.look)
-            if (const auto why = presets::mismatch(*output.look, *m_volume))
-                made.warnings.push_back(why->english());
         const bool isGrey = classify::isGrey(scene.look) && scene.shading.isGrey();
         if (!isGrey && (output.format == Format::png16 || output.format == Format::nrrd))
             throw Error(ErrorCode::usage, because::colorsHaveNoGreyValues);
-        if (output.format != Format::npy && output.format != Format::nrrd)
+        const bool isDisplayed = output.format != Format::npy && output.format != Format::nrrd;
+        if (isDisplayed || output.fit == batch::Fit::body)
             scene.tone.exposure = renderer.exposure();
         const std::vector<scene::Camera> cameras =
             batch::camerasOf(output, scene, m_volume->lattice());
+        scene.camera = cameras.front();
         const std::vector<std::string> files = batch::filesOf(output);
         beginFile(output, scene, files.front(), cameras.size(), isGrey);
         for (std::size_t view = 0; view < cameras.size(); ++view) {
@@ -158,13 +165,13 @@ private:
             add(output, scene, image, files[files.size() > 1 ? view : 0], int(view),
                 renderer.renderer().lastViewError());
         }
-        endFile(output, scene, files.front());
+        endFile(output, scene, files.front(), made.predictedError);
         if (const std::string missed = renderer.warningOfViews(); !missed.empty())
             made.warnings.push_back(missed);
         return made;
     }
 
-    dicom::CaptureLabels labelsFor(const Output &output, int view) const {
+    dicom::CaptureLabels labelsFor(const Output &output, int view, double predictedError) const {
         dicom::CaptureLabels labels =
             output.isDeidentified ? dicom::deidentified(m_labels) : m_labels;
         // Another version may make other pixels, which need other UIDs.
@@ -176,6 +183,7 @@ private:
         if (output.isDeidentified)
             labels.studyUid = batch::derivedUid("study " + of);
         labels.isDated = false;
+        labels.derivation += fmt::format(", predicted error {:.2g} (relative L2)", predictedError);
         labels.seriesDescription = output.name;
         labels.instanceNumber = view + 1;
         return labels;
@@ -199,9 +207,9 @@ private:
             m_geometry = nlohmann::json::array();
         } else if (output.format == Format::captureLoop) {
             if (dicom::CaptureLoop::bytesOf(int(views), height, width, isGrey) >
-                dicom::CaptureLoop::mostBytes)
+                dicom::CaptureLoop::maxBytes)
                 throw Error(ErrorCode::usage,
-                            because::loopIsTooLarge(dicom::CaptureLoop::mostBytes >> 20));
+                            because::loopIsTooLarge(dicom::CaptureLoop::maxBytes >> 20));
             m_loop = std::make_unique<dicom::CaptureLoop>(int(views), height, width, isGrey,
                                                           1000.0 / framesPerSecond);
         } else if (output.format == Format::video) {
@@ -235,19 +243,21 @@ private:
         case Format::png:
         case Format::nrrd:
         case Format::capture:
-            writeImage(path, image, scene, m_volume->lattice(), labelsFor(output, view));
+            writeImage(path, image, scene, m_volume->lattice(),
+                       labelsFor(output, view, predictedError));
             break;
         }
     }
 
-    void endFile(const Output &output, const scene::Scene &scene, const std::string &name) {
+    void endFile(const Output &output, const scene::Scene &scene, const std::string &name,
+                 double predictedError) {
         const fs::path path = m_folder / name;
         if (m_array) {
             std::exchange(m_array, nullptr)->commit();
             writeGeometry(geometryPath(path), scene.camera, m_geometry);
         }
         if (m_loop)
-            std::exchange(m_loop, nullptr)->write(path, labelsFor(output, 0));
+            std::exchange(m_loop, nullptr)->write(path, labelsFor(output, 0, predictedError));
         if (m_video)
             std::exchange(m_video, nullptr)->finish(task::Progress(m_context.stop));
     }

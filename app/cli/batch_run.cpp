@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -18,13 +16,12 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
+#include "app/cli/batch_report.h"
 #include "app/cli/batch_sources.h"
 #include "app/cli/commands.h"
 #include "app/cli/input.h"
-#include "app/cli/json_text.h"
 #include "app/cli/reason_lines.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
@@ -48,55 +45,8 @@ namespace {
 namespace because = task::because;
 namespace fs = std::filesystem;
 using batch::DoneRecord;
-using nlohmann::json;
 using task::Error;
 using task::ErrorCode;
-
-struct Shard {
-    int index = 0, count = 1;
-};
-
-// "I/N": part I of N, from 0 as Slurm counts tasks.
-Shard shardFrom(const std::string &text) {
-    if (text.empty())
-        return {};
-    const auto n = parseNumbers("--shard", text, '/', 2);
-    constexpr double most = 1e6;
-    if (n[0] != std::floor(n[0]) || n[1] != std::floor(n[1]) || n[0] < 0 || n[1] < 1 ||
-        n[0] >= n[1] || n[1] > most)
-        throw Error(ErrorCode::usage,
-                    because::inWords("--shard: '" + text +
-                                     "' is not I/N with I from 0 to N - 1, such as 0/4"));
-    return {int(n[0]), int(n[1])};
-}
-
-archive::SearchTerms termsFrom(const std::vector<std::string> &texts) {
-    archive::SearchTerms terms;
-    const std::pair<const char *, std::string *> names[]{
-        {"name", &terms.patientName},  {"id", &terms.patientId},   {"date", &terms.date},
-        {"modality", &terms.modality}, {"study", &terms.studyUid}, {"accession", &terms.accession},
-        {"series", &terms.seriesUid}};
-    for (const std::string &text : texts) {
-        const auto equals = text.find('=');
-        const auto *const known =
-            std::find_if(std::begin(names), std::end(names),
-                         [&](const auto &one) { return text.substr(0, equals) == one.first; });
-        if (equals == std::string::npos || known == std::end(names))
-            throw Error(ErrorCode::usage,
-                        because::inWords("--find: '" + text +
-                                         "' is not TERM=VALUE with one of the terms name, id, "
-                                         "date, modality, study, series and accession"));
-        *known->second = text.substr(equals + 1);
-    }
-    if (!terms.seriesUid.empty()) { // of one study, as servers need it
-        if (texts.size() != 2 || terms.studyUid.empty())
-            throw Error(ErrorCode::usage,
-                        because::inWords("--find: 'series' goes with 'study', and with no other"));
-        terms.level = exchange::Level::series;
-    }
-    archive::queryOf(terms, 0); // checks the values
-    return terms;
-}
 
 // Checks before any work.
 void requirePossible(const batch::Recipe &recipe, bool isSent) {
@@ -125,14 +75,13 @@ class BatchRun {
 public:
     BatchRun(const BatchOptions &options, const Context &caller)
         : m_options(options), m_context{m_stop.get_token()},
-          m_forward(caller.stop, [this] { m_stop.request_stop(); }), m_caller(caller) {}
+          m_forward(caller.stop, [this] { m_stop.request_stop(); }), m_caller(caller),
+          m_report(options.json) {}
 
     void run() {
         Stopwatch watch;
-        const Shard shard = shardFrom(m_options.shard);
         m_recipe = batch::readRecipe(m_options.recipe);
         requirePossible(m_recipe, !m_options.sendTo.empty());
-        const archive::SearchTerms terms = termsFrom(m_options.terms);
         for (const std::string &server : {m_options.from, m_options.sendTo})
             if (!server.empty())
                 archive::ServerList::ofUser().get(server);
@@ -147,26 +96,23 @@ public:
         m_card = chooseCard("cpu", 1);
         if (!m_options.sendTo.empty())
             reachReceiver();
-        openSource(terms);
+        openSource();
         m_items = m_source->list();
-        sortUnused(shard);
-        std::erase_if(m_items, [&](const BatchItem &item) {
-            return batch::shardOf(item.key, shard.count) != shard.index;
-        });
+        const bool isEmpty = m_items.empty(); // a part of a batch may have nothing to do
+        std::erase_if(m_items, [&](const BatchItem &item) { return !isOfShard(item.key); });
+        sortUnused();
+        if (isEmpty)
+            requireServer();
         renderAll();
-        print(watch.lapMs() / 1000.0);
+        m_report.print(m_recipe.digest, watch.lapMs() / 1000.0);
         if (m_fatal)
             std::rethrow_exception(m_fatal);
         if (m_caller.stop.stop_requested())
             throw task::Cancelled();
-        requireDone();
+        m_report.requireAllDone();
     }
 
 private:
-    struct Failure {
-        std::string key, reason;
-    };
-
     // With --send alone, only the records of what was sent are kept.
     void choosePlace() {
         m_out = m_options.out;
@@ -199,14 +145,14 @@ private:
         });
     }
 
-    void openSource(const archive::SearchTerms &terms) {
+    void openSource() {
         if (m_options.from.empty()) {
             m_source =
                 batchOfFiles({m_options.paths.begin(), m_options.paths.end()}, m_out, m_context);
             return;
         }
-        m_source = batchOfServer(serverNamed(m_options.from, m_context), terms, m_recipe.series,
-                                 m_context);
+        m_source = batchOfServer(serverNamed(m_options.from, m_context), m_options.terms,
+                                 m_recipe.series, m_context);
     }
 
     void renderAll() {
@@ -238,11 +184,11 @@ private:
                     return;
                 }
                 if (error.reason().is(because::noSeriesIsChosen))
-                    passOver(item);
+                    m_report.passedOver(item.key);
                 else
-                    fail(item, error.what());
+                    m_report.failed(item.key, error.what());
             } catch (const std::exception &error) {
-                fail(item, error.what());
+                m_report.failed(item.key, error.what());
             }
         }
     }
@@ -256,7 +202,7 @@ private:
         if (m_options.resumes) {
             wanted.inputs = m_source->digestOf(item);
             if (batch::isDone(m_out / item.key, wanted)) {
-                ++m_skipped;
+                m_report.wasDoneBefore();
                 return;
             }
         }
@@ -272,9 +218,7 @@ private:
                 for (const fs::directory_entry &made : fs::directory_iterator(results.folder()))
                     fs::remove(made.path());
             results.publish(record);
-            const std::lock_guard lock(m_mutex);
-            ++m_done;
-            tell(item, record, watch.lapMs() / 1000.0);
+            m_report.finished(item.key, record, watch.lapMs() / 1000.0);
         });
     }
 
@@ -290,57 +234,22 @@ private:
             throw Error(ErrorCode::incomplete, report.notSent.front().reason, m_receiver->name);
     }
 
-    // Requires the lock.
-    void tell(const BatchItem &item, const DoneRecord &record, double seconds) const {
-        double error = 0.0;
-        std::vector<std::string> told; // what concerns all outputs, once
-        for (const DoneRecord::MadeOutput &output : record.outputs) {
-            error = std::max(error, output.predictedError);
-            for (const std::string &warning : output.warnings)
-                if (std::find(told.begin(), told.end(), warning) == told.end()) {
-                    told.push_back(warning);
-                    warn(item.key + ": " + output.name + ": " + warning);
-                }
-        }
-        if (m_options.json)
-            return;
-        std::puts(
-            printable(fmt::format("{} of {}: {}: outputs: {}; {:.2f} s, error at most {:.2g}",
-                                  m_done + m_skipped + m_failures.size() + m_passedOver.size(),
-                                  m_items.size(), item.key, record.outputs.size(), seconds, error))
-                .c_str());
-        std::fflush(stdout);
-    }
-
-    void passOver(const BatchItem &item) {
-        const std::lock_guard lock(m_mutex);
-        m_passedOver.push_back(item.key);
-    }
-
     // Damaged files count as failures, because a study may consist of them. Which one is not known:
     // each part of a batch counts its share.
-    void sortUnused(const Shard &shard) {
+    void sortUnused() {
         std::vector<Named> named;
+        std::vector<dicom::Skipped> damaged, unused;
         for (const dicom::Skipped &skipped : m_source->skipped()) {
             if (!skipped.reason.is(because::isNotDicom)) // texts and programs beside images
                 named.push_back({skipped.path.string(), skipped.reason});
             if (isOfAnotherKind(skipped.reason))
-                m_unused.push_back(skipped);
-            else if (batch::shardOf(skipped.path.string(), shard.count) == shard.index)
-                m_damaged.push_back(skipped);
+                unused.push_back(skipped);
+            else if (isOfShard(skipped.path.string()))
+                damaged.push_back(skipped);
         }
         for (const std::string &line : linesByReason(named, "not used"))
             warn(line);
-    }
-
-    void fail(const BatchItem &item, const std::string &reason) {
-        const std::lock_guard lock(m_mutex);
-        m_failures.push_back({item.key, reason});
-        if (!m_options.json) {
-            std::puts(printable(item.key + ": failed").c_str());
-            std::fflush(stdout);
-        }
-        warn(reason.find(item.key) == std::string::npos ? item.key + ": " + reason : reason);
+        m_report.begin(m_items.size(), std::move(damaged), std::move(unused));
     }
 
     // In a handler of the exception.
@@ -351,61 +260,15 @@ private:
         m_stop.request_stop();
     }
 
-    void print(double seconds) {
-        std::sort(m_failures.begin(), m_failures.end(),
-                  [](const Failure &a, const Failure &b) { return a.key < b.key; });
-        std::sort(m_passedOver.begin(), m_passedOver.end());
-        if (m_options.json) {
-            json failures = json::array();
-            for (const Failure &failure : m_failures)
-                failures.push_back({{"study", failure.key}, {"reason", failure.reason}});
-            std::puts(jsonText({{"studies", m_items.size()},
-                                {"done", m_done},
-                                {"skipped", m_skipped.load()},
-                                {"failed", failures},
-                                {"without_such_a_series", m_passedOver},
-                                {"damaged_files", jsonOf(m_damaged)},
-                                {"unused_files", jsonOf(m_unused)},
-                                {"recipe", m_recipe.digest},
-                                {"seconds", seconds}})
-                          .c_str());
-        } else {
-            std::string text = fmt::format("{} of {} done", m_done, m_items.size());
-            if (m_skipped > 0)
-                text += fmt::format(", {} were done before", m_skipped.load());
-            if (!m_failures.empty())
-                text += fmt::format(", {} failed", m_failures.size());
-            if (!m_damaged.empty())
-                text += fmt::format(", damaged files: {}", m_damaged.size());
-            if (!m_passedOver.empty())
-                text += fmt::format(", {} have no series that the recipe asks for",
-                                    m_passedOver.size());
-            std::puts(fmt::format("{}; {:.1f} s", text, seconds).c_str());
-        }
+    bool isOfShard(const std::string &key) const {
+        return batch::shardOf(key, m_options.shard.count) == m_options.shard.index;
     }
 
-    static json jsonOf(const std::vector<dicom::Skipped> &skipped) {
-        json files = json::array();
-        for (const dicom::Skipped &one : skipped)
-            files.push_back({{"path", one.path.string()}, {"reason", one.reason.english()}});
-        return files;
-    }
-
-    // A part of a batch may have nothing to do.
-    void requireDone() const {
-        if (m_items.empty() && m_options.shard.empty())
-            throw Error(ErrorCode::unusable, because::holdsNoUsableImages,
-                        m_options.from.empty() ? m_options.paths.front() : m_options.from);
-        if (!m_failures.empty())
-            throw Error(ErrorCode::incomplete,
-                        because::inWords(fmt::format("{} of {} studies failed", m_failures.size(),
-                                                     m_items.size())));
-        if (!m_damaged.empty())
-            throw Error(
-                ErrorCode::incomplete,
-                because::inWords(fmt::format("damaged files: {}; the first: {}", m_damaged.size(),
-                                             m_damaged.front().reason.english())),
-                m_damaged.front().path);
+    // On a server, a night may have brought nothing.
+    void requireServer() const {
+        if (m_options.from.empty())
+            throw Error(ErrorCode::unusable, because::holdsNoUsableImages, m_options.paths.front());
+        warn(m_options.from + ": " + task::Reason(because::noStudyMatches).english());
     }
 
     const BatchOptions &m_options;
@@ -421,12 +284,9 @@ private:
     std::unique_ptr<BatchSource> m_source;
     std::vector<BatchItem> m_items;
     std::unique_ptr<batch::MemoryShares> m_memory;
-    std::atomic<std::size_t> m_next = 0, m_skipped = 0;
+    std::atomic<std::size_t> m_next = 0;
+    BatchReport m_report;
     std::mutex m_mutex; ///< of what follows
-    std::size_t m_done = 0;
-    std::vector<Failure> m_failures;
-    std::vector<dicom::Skipped> m_damaged, m_unused;
-    std::vector<std::string> m_passedOver; ///< studies without a series that the recipe asks for
     std::exception_ptr m_fatal;
 };
 

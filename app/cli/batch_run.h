@@ -6,13 +6,21 @@
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "core/archive/search.h"
 
 namespace pellucid::cli {
 
+/// Part `index`, from 0, of `count` parts of a batch.
+struct Shard {
+    int index = 0, count = 1;
+};
+
 /// What the command asks for.
 struct BatchOptions {
-    std::string recipe, from, out, sendTo, shard;
-    std::vector<std::string> paths, terms;
+    std::string recipe, from, out, sendTo;
+    std::vector<std::string> paths;
+    archive::SearchTerms terms;
+    Shard shard;
     int jobs = 2, threads = 0;
     std::uint64_t memory = 0;
     bool resumes = false, json = false;

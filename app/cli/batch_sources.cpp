@@ -114,6 +114,7 @@ public:
 private:
     // They would be inputs of the next run.
     void leaveOutResults() {
+        const bool hadStudies = !m_index.studies.empty();
         const std::string folder = dicom::resolved(m_except).string() + "/";
         const auto isResult = [&](const fs::path &path) {
             return dicom::resolved(path).string().starts_with(folder);
@@ -124,6 +125,9 @@ private:
                       [](const dicom::IndexedStudy &study) { return study.files.empty(); });
         std::erase_if(m_index.skipped,
                       [&](const dicom::Skipped &skipped) { return isResult(skipped.path); });
+        if (hadStudies && m_index.studies.empty())
+            throw task::Error(task::ErrorCode::unusable, because::onlyResultsAreThere,
+                              m_paths.front());
     }
 
     std::vector<fs::path> m_paths;

@@ -9,8 +9,12 @@
 #include "app/cli/input.h"
 #include "app/cli/terminal.h"
 #include "core/batch/recipe.h"
+#include "core/files/video_file.h"
+#include "core/task/error.h"
 
 namespace pellucid::cli {
+
+namespace because = task::because;
 
 void addRecipeCommand(CLI::App &app, const Context &) {
     auto file = std::make_shared<std::string>();
@@ -20,7 +24,11 @@ void addRecipeCommand(CLI::App &app, const Context &) {
                                                  "where it cannot");
     check->add_option("RECIPE", *file, "The recipe, a JSON file")->required()->check(notEmpty());
     check->callback([file] {
-        batch::readRecipe(*file);
+        const batch::Recipe recipe = batch::readRecipe(*file);
+        for (const batch::Output &output : recipe.outputs)
+            if (output.format == batch::Format::video && !files::VideoFile::isAvailable())
+                warn(output.name + ": " +
+                     task::Reason(because::videosNeedFfmpeg).english()); // on this machine
         std::puts(printable(*file + " is a recipe").c_str());
     });
     CLI::App *explain = c->add_subcommand("explain", "Say what a recipe makes, a line each");

@@ -38,7 +38,7 @@ using task::ErrorCode;
 struct Options {
     SceneOptions scene;
     InputOptions input;
-    std::string out, engine = "auto", views;
+    std::string out, engine = "auto", views, fit;
     int threads = 0, frames = 0;
     std::uint64_t memory = 0;
     bool json = false, isDeidentified = false;
@@ -56,6 +56,9 @@ public:
         m_preset = presetFor(m_options.scene);
         checkOutput(out, classify::isGrey(lookFor(m_options.scene, m_preset)) &&
                              shadingFor(m_options.scene, m_command, m_preset).isGrey());
+        if (m_options.fit == "body" && hasSize() && m_command.count("--pixel-mm") > 0)
+            throw Error(ErrorCode::usage,
+                        because::inWords("--fit: cannot be met with a size and --pixel-mm"));
         if (!m_options.views.empty())
             readViews(out);
         m_card = chooseCard(m_options.engine, frames());
@@ -160,14 +163,14 @@ private:
             m_options.isDeidentified ? dicom::deidentified(m_input.labels) : m_input.labels;
         if (!m_options.isDeidentified)
             labels.seriesUid = dicom::newSeriesUid(); // one for all frames
+        labels.warnings = m_warnings;
         std::optional<files::FileSet> turn;
         if (isTurntable())
             turn.emplace(m_outs.front());
+        placeFrames();
         for (int frame = 0; frame < frames(); ++frame) {
             scene::Scene turned = m_scene;
-            turned.camera.orientation =
-                glm::angleAxis(glm::radians(360.0 * frame / frames()), glm::dvec3(0, 0, 1)) *
-                m_scene.camera.orientation;
+            turned.camera = m_cameras[std::size_t(frame)];
             const picture::ProjectionImage image = m_renderer->image(turned.camera);
             if (isDisplayed(m_options.out))
                 turned.tone.exposure = m_renderer->exposure();
@@ -181,6 +184,23 @@ private:
         if (turn)
             turn->commit();
     }
+
+    void placeFrames() {
+        for (int frame = 0; frame < frames(); ++frame) {
+            scene::Camera &camera = m_cameras.emplace_back(m_scene.camera);
+            camera.orientation =
+                glm::angleAxis(glm::radians(360.0 * frame / frames()), glm::dvec3(0, 0, 1)) *
+                m_scene.camera.orientation;
+        }
+        if (m_options.fit != "body")
+            return;
+        const scene::Exposure &exposure = m_renderer->exposure();
+        scene::fitToBox(m_cameras, exposure.lowMm, exposure.highMm,
+                        hasSize() ? scene::FitBy::pixel : scene::FitBy::size);
+        m_scene.camera = m_cameras.front();
+    }
+
+    bool hasSize() const { return m_command.count("--size") > 0 || !m_options.scene.scene.empty(); }
 
     // The pictures of all views as one array, and beside it where each was seen from.
     void renderViews(const fs::path &out) {
@@ -331,11 +351,18 @@ void addRenderCommand(CLI::App &app, const Context &context) {
                 "Render one turn about the patient's long axis; file names get the frame number")
             ->needs(frames);
     frames->needs(turntable);
-    c->add_option("--matrix", o->views,
-                  "Views from a JSON file: 3x4 matrices of parallel projections, or angles of a "
-                  "C-arm; writes one array (.npy), and the geometry of each view beside it (.json)")
-        ->check(notEmpty())
-        ->excludes(turntable);
+    CLI::Option *matrix =
+        c->add_option(
+             "--matrix", o->views,
+             "Views from a JSON file: 3x4 matrices of parallel projections, or angles of a "
+             "C-arm; writes one array (.npy), and the geometry of each view beside it (.json)")
+            ->check(notEmpty())
+            ->excludes(turntable);
+    c->add_option("--fit", o->fit,
+                  "What the picture has room for: 'volume', the whole volume from every side "
+                  "(default), or 'body', the body from these views")
+        ->check(CLI::IsMember({"volume", "body"}))
+        ->excludes(matrix);
     c->add_flag("--deidentify", o->isDeidentified,
                 "Remove the patient's identity from the .dcm (PS3.15, basic profile)");
     c->add_flag("--json", o->json, "Print a report as one JSON object");

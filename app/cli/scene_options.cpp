@@ -286,8 +286,7 @@ void setPixel(scene::Camera &camera, const SceneOptions &o, const CLI::App &comm
             ErrorCode::usage,
             because::inWords(fmt::format(
                 "--pixel-mm: an image of the whole volume would have {:.0f} pixels a side", side)));
-    const int n = int(std::ceil(side - 1e-6));
-    camera.width = camera.height = std::max(2, n + n % 2);
+    camera.width = camera.height = scene::evenPixels(side);
 }
 
 void setSize(scene::Camera &camera, const SceneOptions &o, const CLI::App &command) {

@@ -55,6 +55,8 @@ public:
     classify::FieldWindow window() const { return m_window; }
     /// Warnings about the whole volume, a line each.
     std::vector<std::string> warnings() const;
+    /// Why the pictures show nothing; empty if they do. One of the warnings.
+    const std::string &whyEmpty() const { return m_whyEmpty; }
     /// A warning about the pictures so far; empty if they keep the tolerance.
     std::string warningOfViews() const;
 

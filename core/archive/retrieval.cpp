@@ -29,6 +29,7 @@ using task::ErrorCode;
 using Clock = std::chrono::steady_clock;
 
 // Connections that are lost one after the other, without any object between.
+constexpr std::size_t firstShown = 2; // the slices at both ends
 constexpr int maxFailures = 3, maxRefusals = 3;
 constexpr std::chrono::milliseconds pauses[maxFailures]{std::chrono::milliseconds(300),
                                                         std::chrono::milliseconds(1500),
@@ -79,11 +80,10 @@ private:
 class EarlyLinks {
 public:
     EarlyLinks(const Server &server, const task::Progress &progress) {
-        constexpr int useful = 2;
         if (server.retrieve == RetrieveMethod::move ||
             server.peer.protocol != exchange::Protocol::dicom)
             return;
-        for (int n = 0; n < std::min(useful, server.connections - 1); ++n) // one lists
+        for (int n = 0; n < std::min(int(firstShown), server.connections - 1); ++n) // one lists
             m_links.push_back(std::async(std::launch::async, [&server, &progress] {
                 return std::make_unique<exchange::Link>(
                     exchange::Connection{server.peer, Purpose::get}, progress);
@@ -126,8 +126,11 @@ public:
           m_destinationAe(std::move(destinationAe)),
           m_mayMove(purpose == Purpose::get && server.retrieve == RetrieveMethod::automatic) {}
 
-    void run() {
+    /// `awaited`: objects that come before this connection asks for any.
+    void run(std::size_t awaited) {
         try {
+            if (awaited > 0)
+                connectAndAwait(awaited);
             takeAll();
         } catch (...) {
             m_work.stop(std::current_exception());
@@ -165,12 +168,23 @@ private:
             }
         }
     }
+    // The line is free for the objects that are shown first.
+    void connectAndAwait(std::size_t objects) {
+        try {
+            connect();
+        } catch (const Error &) { // tried again with a batch
+        }
+        m_work.awaitReceived(objects);
+    }
+    void connect() {
+        if (m_link)
+            return;
+        m_connection.peer = authenticated(m_server, m_progress, m_refusedToken);
+        m_link = std::make_unique<exchange::Link>(m_connection, m_progress);
+    }
     void take(const Batch &batch) {
         try {
-            if (!m_link) {
-                m_connection.peer = authenticated(m_server, m_progress, m_refusedToken);
-                m_link = std::make_unique<exchange::Link>(m_connection, m_progress);
-            }
+            connect();
             const exchange::RetrievalEnd end = m_link->retrieve({.level = Level::image,
                                                                  .studyUid = batch.studyUid,
                                                                  .seriesUid = batch.seriesUid,
@@ -233,7 +247,7 @@ void runWorkers(const Server &server, Purpose purpose, const std::vector<std::st
                 const std::vector<std::string> &syntaxes, const std::string &destinationAe,
                 EarlyLinks *early, RetrievalWork &work, const task::Progress &progress) {
     // A connection costs round trips, which a few objects do not repay.
-    const std::size_t useful = (work.missing() + leastOfABatch - 1) / leastOfABatch;
+    const std::size_t useful = (work.missing() + minOfABatch - 1) / minOfABatch;
     const std::size_t count = std::min<std::size_t>(useful, std::size_t(server.connections));
     std::vector<std::unique_ptr<Worker>> workers;
     for (std::size_t n = 0; n < count; ++n)
@@ -243,9 +257,10 @@ void runWorkers(const Server &server, Purpose purpose, const std::vector<std::st
     {
         std::vector<std::jthread> threads;
         for (std::size_t n = 1; n < workers.size(); ++n)
-            threads.emplace_back([worker = workers[n].get()] { worker->run(); });
+            threads.emplace_back(
+                [n, worker = workers[n].get()] { worker->run(n < firstShown ? 0 : firstShown); });
         if (!workers.empty())
-            workers.front()->run();
+            workers.front()->run(0);
     }
     work.rethrow();
     if (work.receivedCount() == 0 && work.missing() > 0)

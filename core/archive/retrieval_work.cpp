@@ -2,6 +2,7 @@
 #include "core/archive/retrieval_work.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "core/task/error.h"
@@ -44,6 +45,14 @@ std::set<std::string> RetrievalWork::classes() const {
     return found;
 }
 
+void RetrievalWork::awaitReceived(std::size_t objects) {
+    constexpr std::chrono::milliseconds moment(150);
+    std::unique_lock lock(m_mutex);
+    m_received.wait_for(lock, moment, [&] {
+        return m_state.received >= objects || m_missing.empty() || m_failure || m_offersNoGet;
+    });
+}
+
 std::optional<Batch> RetrievalWork::next() {
     const std::lock_guard lock(m_mutex);
     if (m_queue.empty() || m_failure || m_offersNoGet)
@@ -76,6 +85,7 @@ void RetrievalWork::stored(const StoredObject &object) {
         return;
     m_reasons.erase(object.sopInstanceUid);
     ++m_state.received;
+    m_received.notify_all();
     if (m_observer.stored)
         m_observer.stored(object);
     if (m_observer.changed)
@@ -203,7 +213,7 @@ void RetrievalWork::fillQueue(const std::vector<Instance> &instances) {
         while (end < instances.size() && instances[end].seriesUid == instances[begin].seriesUid)
             ++end;
         const std::size_t count = end - begin;
-        const std::size_t largest = std::clamp(count / 16, leastOfABatch, mostOfABatch);
+        const std::size_t largest = std::clamp(count / 16, minOfABatch, mostOfABatch);
         // Dealt out among the connections: together they bring coarse slices before fine ones.
         const Batch empty{instances[begin].studyUid, instances[begin].seriesUid, {}};
         std::vector<Batch> hands(m_connections, empty);
@@ -220,7 +230,7 @@ void RetrievalWork::fillQueue(const std::vector<Instance> &instances) {
                 continue;
             hands[dealt++ % hands.size()].uids.push_back(uid);
             // Small ones first: what is shown is coarse at first, and must not wait.
-            const std::size_t size = ++taken <= count / 8 + 2 ? leastOfABatch : largest;
+            const std::size_t size = ++taken <= count / 8 + 2 ? minOfABatch : largest;
             if (dealt >= size * hands.size())
                 flush();
         }

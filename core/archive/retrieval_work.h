@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <exception>
@@ -23,7 +24,7 @@ struct Batch {
 };
 
 /// The most instances that a first batch has; a connection is worth while for so many.
-inline constexpr std::size_t leastOfABatch = 8;
+inline constexpr std::size_t minOfABatch = 8;
 
 /// The state of a retrieval, shared by its connections: what lacks and why, and the queue of
 /// batches from coarse to fine. Thread-safe, but for `classes`, `needsMove` and `useMove`, which
@@ -37,6 +38,8 @@ public:
     std::size_t missing() const;
     std::set<std::string> classes() const;
 
+    /// Waits until so many objects have come, nothing else can come, or a moment is over.
+    void awaitReceived(std::size_t objects);
     /// The next batch; nothing when all are taken.
     std::optional<Batch> next();
 
@@ -79,6 +82,7 @@ private:
     const RetrievalObserver &m_observer;
     const std::size_t m_connections;
     mutable std::mutex m_mutex;
+    std::condition_variable m_received;
     std::map<std::string, Instance> m_missing;
     std::map<std::string, task::Reason> m_reasons;
     std::deque<Batch> m_queue;

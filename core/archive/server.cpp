@@ -152,8 +152,8 @@ void requireValid(const Server &server) {
     requireAeTitle(server.peer.callingAe);
     if (server.connections < 1 || server.connections > maxConnections)
         fail(because::connectionsAreOutOfRange(maxConnections));
-    if (server.limit > mostAnswers)
-        fail(because::answersAreOutOfRange(mostAnswers));
+    if (server.limit > maxAnswers)
+        fail(because::answersAreOutOfRange(maxAnswers));
     if (server.peer.certificate.empty() != server.peer.key.empty())
         fail(because::certificateNeedsItsKey);
     if (server.peer.authentication == exchange::Authentication::oauth)

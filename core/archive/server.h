@@ -44,7 +44,7 @@ struct Server {
 };
 
 inline constexpr int maxConnections = 8;
-inline constexpr std::uint32_t mostAnswers = 1000000;
+inline constexpr std::uint32_t maxAnswers = 1000000;
 inline constexpr int defaultDicomPort = 104, defaultListenerPort = 11112;
 
 /// AET@HOST:PORT, the port being optional. *Throws* Error{usage}.

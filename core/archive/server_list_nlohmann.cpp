@@ -95,7 +95,7 @@ Server fromJson(const JsonValue &json) {
     if (json["connections"])
         server.connections = int(json["connections"].number(1000));
     if (json["limit"])
-        server.limit = std::uint32_t(std::max(0.0, json["limit"].number(double(mostAnswers))));
+        server.limit = std::uint32_t(std::max(0.0, json["limit"].number(double(maxAnswers))));
     peer.authorities = textOr(json["authorities"], {});
     peer.certificate = textOr(json["certificate"], {});
     peer.key = textOr(json["key"], {});

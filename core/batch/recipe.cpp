@@ -65,7 +65,7 @@ bool holds(const SeriesChoice &choice, const dicom::Series &series,
            const dicom::VolumeEntry &volume) {
     const volume::Lattice &lattice = volume.geometry.lattice;
     if (!volume.placed || volume.notes.isLocalizer || volume.fillsHoles ||
-        lattice.size().k < choice.leastSlices)
+        lattice.size().k < choice.minSlices)
         return false;
     const auto &modalities = choice.modalities;
     if (!modalities.empty() &&
@@ -126,8 +126,7 @@ scene::Scene sceneOf(const Output &output, const volume::Volume &volume) {
             if (side > scene::largestImageSize)
                 throw task::Error(task::ErrorCode::usage,
                                   because::volumeNeedsALargerImage(scene::largestImageSize));
-            const int n = int(std::ceil(side - 1e-6));
-            camera.width = camera.height = std::max(2, n + n % 2);
+            camera.width = camera.height = scene::evenPixels(side);
         }
         // The whole volume from every side.
         camera.pixelMm = output.pixelMm.value_or(across / smallestSide(camera));
@@ -144,6 +143,9 @@ std::vector<scene::Camera> camerasOf(const Output &output, const scene::Scene &s
     std::vector<scene::Camera> cameras;
     for (const scene::ViewList::View &view : output.views)
         cameras.push_back(scene::cameraOf(view, base, patient));
+    if (output.fit == Fit::body && scene.tone.exposure)
+        scene::fitToBox(cameras, scene.tone.exposure->lowMm, scene.tone.exposure->highMm,
+                        output.size ? scene::FitBy::pixel : scene::FitBy::size);
     return cameras;
 }
 
@@ -183,7 +185,7 @@ std::vector<std::string> explained(const Recipe &recipe) {
     if (choice.sliceMm)
         series += fmt::format(", with slices {:g} to {:g} mm apart", (*choice.sliceMm)[0],
                               (*choice.sliceMm)[1]);
-    series += fmt::format(", at least {}", choice.leastSlices);
+    series += fmt::format(", at least {}", choice.minSlices);
     std::vector<std::string> lines{series};
     for (const Output &output : recipe.outputs) {
         const std::size_t views = output.views.size();
@@ -206,6 +208,8 @@ std::vector<std::string> explained(const Recipe &recipe) {
             line += fmt::format(", {} x {} pixels", (*output.size)[0], (*output.size)[1]);
         if (output.pixelMm)
             line += fmt::format(", {:g} mm a pixel", *output.pixelMm);
+        if (output.fit == Fit::body)
+            line += ", fits the body";
         line +=
             fmt::format(", error at most {:g}",
                         output.tolerance.value_or(output.scene.value_or(scene::Scene()).tolerance));

@@ -20,11 +20,14 @@ struct SeriesChoice {
     std::vector<std::string> modalities;          ///< one of them
     std::string description;                      ///< with the wildcards * and ?, whatever the case
     std::optional<std::array<double, 2>> sliceMm; ///< thinnest and thickest distance of slices
-    int leastSlices = 2;
+    int minSlices = 2;
     bool operator==(const SeriesChoice &) const = default;
 };
 
 enum class Format { png, png16, npy, nrrd, capture, captureLoop, video };
+
+/// What a picture has room for: the whole volume from every side, or the body from its views.
+enum class Fit { volume, body };
 
 /// What is made of a series: pictures of one look from some directions, in one format.
 struct Output {
@@ -37,6 +40,7 @@ struct Output {
     bool isTurn = false; ///< the views are one turn about the patient's long axis
     std::optional<std::array<int, 2>> size;
     std::optional<double> pixelMm;
+    Fit fit = Fit::volume;
     std::optional<double> tolerance;
     bool isDeidentified = false; ///< `capture` and `captureLoop`
 
@@ -73,7 +77,8 @@ std::vector<std::string> filesOf(const Output &output);
 /// The scene of an output for a volume; its camera is that of the first view. *Throws* Error{usage}
 /// if the volume needs a larger picture than there can be, or as scene::validate.
 scene::Scene sceneOf(const Output &output, const volume::Volume &volume);
-/// The cameras of all views; they have one size, and one size of a pixel.
+/// The cameras of all views; they have one size, and one size of a pixel. To fit the body, the
+/// scene's tone has the exposure of the study.
 std::vector<scene::Camera> camerasOf(const Output &output, const scene::Scene &scene,
                                      const volume::Lattice &patient);
 

@@ -13,6 +13,7 @@
 #include "core/presets/preset_library.h"
 #include "core/scene/view_list_nlohmann.h"
 #include "core/system/content_digest.h"
+#include "core/system/text.h"
 #include "core/task/error.h"
 
 namespace pellucid::batch {
@@ -34,7 +35,13 @@ constexpr JsonWords<Format, 7> formats{{{"png", Format::png},
                                         {"dicom", Format::capture},
                                         {"dicom-loop", Format::captureLoop},
                                         {"mp4", Format::video}}};
-constexpr int longestName = 60;
+constexpr JsonWords<Fit, 2> fits{{{"volume", Fit::volume}, {"body", Fit::body}}};
+constexpr std::size_t maxNameBytes = 60;
+
+bool isSafe(char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
+           c == '_' || c == '.' || c == ',';
+}
 
 // Reads the outputs of a recipe, and notes the contents of the files that they name.
 class Reader {
@@ -61,7 +68,7 @@ public:
 
 private:
     static SeriesChoice seriesFrom(const JsonValue &in) {
-        in.requireOnly({"modality", "description", "slice_mm", "least_slices"});
+        in.requireOnly({"modality", "description", "slice_mm", "min_slices"});
         SeriesChoice choice;
         if (const JsonValue modality = in["modality"]) {
             if (modality.isList())
@@ -77,22 +84,26 @@ private:
             if (!((*choice.sliceMm)[0] <= (*choice.sliceMm)[1]))
                 range.refuse(because::mustBeTwoRisingNumbers);
         }
-        if (const JsonValue least = in["least_slices"])
-            choice.leastSlices = least.wholeNumber(2, 1000000);
+        if (const JsonValue least = in["min_slices"])
+            choice.minSlices = least.wholeNumber(2, 1000000);
         return choice;
     }
 
     Output outputFrom(const JsonValue &in) {
         in.requireOnly({"name", "format", "view", "views", "turntable", "look", "scene", "size",
-                        "pixel_mm", "tolerance", "deidentify"});
+                        "pixel_mm", "fit", "tolerance", "deidentify"});
         Output output;
         if (const JsonValue format = in["format"])
             output.format = format.meaning(formats);
         readScene(in, output);
         readViews(in, output);
         readCamera(in, output);
-        if (const JsonValue deidentify = in["deidentify"])
+        if (const JsonValue deidentify = in["deidentify"]) {
             output.isDeidentified = deidentify.boolean();
+            if (output.isDeidentified && output.format != Format::capture &&
+                output.format != Format::captureLoop)
+                deidentify.refuse(because::deidentifyIsForDicom);
+        }
         const bool isLoop = output.format == Format::captureLoop || output.format == Format::video;
         if (isLoop && output.views.size() < 2)
             in.refuse(because::loopNeedsViews);
@@ -214,33 +225,53 @@ private:
             ViewList list{output.views, {}, output.pixelMm};
             pixel.checked([&] { scene::agreeOnPixel(list); });
         }
+        if (const JsonValue fit = in["fit"]) {
+            output.fit = fit.meaning(fits);
+            if (output.size && output.pixelMm)
+                fit.refuse(because::fitHasNoChoice);
+            if (std::any_of(output.views.begin(), output.views.end(),
+                            [](const ViewList::View &view) { return view.matrix.has_value(); }))
+                fit.refuse(because::matricesDecideTheFit);
+        }
     }
 
     std::string nameFrom(const JsonValue &in) {
         const JsonValue given = in["name"];
-        std::string name = given ? given.text() : "picture";
-        if (!given && in["view"] && in["view"].isText())
-            name = in["view"].text();
-        if (!given && in["turntable"])
-            name = "turntable";
-        const bool isSafe = !name.empty() && name.size() <= longestName && name.front() != '.' &&
-                            std::all_of(name.begin(), name.end(), [](char c) {
-                                return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
-                                       (c >= 'a' && c <= 'z') || c == '-' || c == '_' || c == '.' ||
-                                       c == ',';
-                            });
-        if (!isSafe)
-            given.refuse(because::mustBeAFileName(longestName));
-        if (!m_names.insert(name).second)
-            (given ? given : in).refuse(because::nameIsTaken(name));
+        if (!given)
+            return nameOfViews(in);
+        const std::string name = given.text();
+        if (name.empty() || name.size() > maxNameBytes || name.front() == '.' ||
+            !std::all_of(name.begin(), name.end(), isSafe))
+            given.refuse(because::mustBeAFileName(maxNameBytes));
+        if (system::lowered(name) == recordName)
+            given.refuse(because::nameIsReserved(name));
+        if (!take(name))
+            given.refuse(because::nameIsTaken(name));
         return name;
     }
+
+    // The name of an output without one.
+    std::string nameOfViews(const JsonValue &in) {
+        std::string name = "picture";
+        if (in["turntable"])
+            name = "turntable";
+        else if (in["view"] && in["view"].isText())
+            name = in["view"].text();
+        std::replace_if(
+            name.begin(), name.end(), [](char c) { return !isSafe(c); }, '_');
+        if (!take(name))
+            in.refuse(because::needsANameOfItsOwn(name));
+        return name;
+    }
+
+    // Some file systems do not distinguish upper and lower case.
+    bool take(const std::string &name) { return m_names.insert(system::lowered(name)).second; }
 
     // "a_0000" may be a view of the output "a".
     void takeFileNames(const JsonValue &in, const Output &output) {
         for (const std::string &file : filesOf(output))
             if (const std::string stem = fs::path(file).stem().string();
-                stem != output.name && !m_names.insert(stem).second)
+                stem != output.name && !take(stem))
                 (in["name"] ? in["name"] : in).refuse(because::nameIsTaken(stem));
     }
 
@@ -261,8 +292,9 @@ private:
     }
 
     fs::path m_folder;
-    std::string m_contents;                ///< of what it names
-    std::set<std::string> m_names{"done"}; ///< of the record beside the outputs
+    static constexpr const char *recordName = "done"; // see doneFile
+    std::string m_contents;                           ///< of what it names
+    std::set<std::string> m_names{recordName};        ///< of files, in lower case
 };
 
 } // namespace
@@ -294,11 +326,12 @@ std::string recipeOf(const scene::Scene &scene, const presets::Preset &look, For
     json output{{"name", turn > 0 ? "turntable" : "picture"},
                 {"format", files::wordFor(format, formats)},
                 {"size", {scene.camera.width, scene.camera.height}},
+                {"fit", files::wordFor(Fit::body, fits)},
                 {"look", json::parse(presets::toJson(look))},
                 {"scene", json::parse(scene::toJson(shown))}};
     if (turn > 0)
         output["turntable"] = turn;
-    if (isDeidentified)
+    if (isDeidentified && (format == Format::capture || format == Format::captureLoop))
         output["deidentify"] = true;
     return json{{"recipe", 1}, {"outputs", {output}}}.dump(2) + "\n";
 }

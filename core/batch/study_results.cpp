@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <fcntl.h>
+#include <set>
 #include <system_error>
 #include <unistd.h>
 
@@ -35,14 +36,30 @@ fs::path unfinishedIn(const fs::path &out) {
     return out / (std::string(".unfinished-") + name.data());
 }
 
-// Only results are replaced, not images that happen to be there, nor a file.
+bool isOfAFileManager(const std::string &name) {
+    return name.front() == '.' || name == "Thumbs.db" || name == "desktop.ini";
+}
+
+// Only results are replaced, not images that happen to be there, nor a file that someone else put
+// among them.
 void requireOwn(const fs::path &place) {
     std::error_code unknown;
     const bool isFree = !fs::exists(fs::symlink_status(place, unknown)) ||
                         (fs::is_directory(place, unknown) && fs::is_empty(place, unknown));
-    if (!isFree && !doneIn(place))
+    if (isFree)
+        return;
+    const auto done = doneIn(place);
+    if (!done)
         throw task::Error(task::ErrorCode::unusable,
                           task::systemReason(std::make_error_code(std::errc::file_exists)), place);
+    std::set<std::string> results{doneFile};
+    for (const DoneRecord::MadeFile &file : done->files)
+        results.insert(file.name);
+    for (const fs::directory_entry &entry : fs::directory_iterator(place, unknown))
+        if (const std::string name = entry.path().filename().string();
+            !results.contains(name) && !isOfAFileManager(name))
+            throw task::Error(task::ErrorCode::unusable, because::holdsOtherThanResults(name),
+                              place);
 }
 
 } // namespace

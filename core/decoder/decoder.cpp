@@ -112,6 +112,17 @@ void Decoder::beginOpening() {
     former.swap(m_idle);
 }
 
+void Decoder::startAhead(int count, const task::Progress &progress) {
+    std::vector<std::unique_ptr<Child>> children;
+    try {
+        for (int n = 0; n < count; ++n)
+            children.push_back(acquire(progress));
+    } catch (const Error &) { // the first file will tell
+    }
+    for (auto &child : children)
+        release(std::move(child));
+}
+
 std::unique_ptr<Child> Decoder::acquire(const task::Progress &progress) {
     std::uint64_t opening = 0;
     {

@@ -123,6 +123,9 @@ public:
     /// files that it reads next.
     void beginOpening();
 
+    /// Starts decoders that wait for files, so that the first files need not wait for them.
+    void startAhead(int count, const task::Progress &progress = {});
+
     /// The confinement of decoders on this machine, see `Confinement`. Starts one if necessary.
     int confinement();
 

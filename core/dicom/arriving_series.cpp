@@ -253,6 +253,7 @@ void ArrivingSeries::showPartial(std::size_t stride, const task::Progress &progr
 
 ArrivedSeries ArrivingSeries::load(const task::Progress &progress, const Show &show) {
     decoder::Decoder::shared().beginOpening();
+    decoder::Decoder::shared().startAhead(2, progress); // the slices at both ends come first
     // Ends what is made of a part, when all is there.
     std::stop_source stop;
     const auto forward = [&stop] { stop.request_stop(); };

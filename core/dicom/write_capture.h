@@ -26,6 +26,8 @@ struct CaptureLabels {
     bool isDated = true;
     std::string seriesDescription = "Projection";
     std::string derivation = "Fourier volume rendering, parallel projection";
+    /// What a reader of the picture must know, a line each.
+    std::vector<std::string> warnings;
     int seriesNumber = 9001, instanceNumber = 1;
     std::string patientOrientation; ///< of rows and columns, "L\F"; may be empty
     double pixelMm = 0.0;           ///< in the plane of the picture; 0: unknown
@@ -56,7 +58,7 @@ void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_
 class CaptureLoop {
 public:
     /// The most bytes of samples that a loop may have: some readers keep lengths as signed numbers.
-    static constexpr std::uint64_t mostBytes = (std::uint64_t(1) << 31) - 2;
+    static constexpr std::uint64_t maxBytes = (std::uint64_t(1) << 31) - 2;
 
     /// `isGrey`: frames are written as 8-bit grey (the red channel), else as RGB. `frameMs`: how
     /// long each is shown. *Throws* Error{outOfMemory}.

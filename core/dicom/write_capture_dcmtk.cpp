@@ -76,7 +76,10 @@ void putIdentity(DcmDataset &d, const CaptureLabels &labels, const char *sopClas
         put(d, DCM_StudyDescription, labels.studyDescription);
         put(d, DCM_SeriesDescription, labels.seriesDescription);
         put(d, DCM_DerivationDescription, labels.derivation);
-        put(d, DCM_ImageComments, "Not for diagnostic use");
+        std::string comments = "Not for diagnostic use";
+        for (const std::string &warning : labels.warnings)
+            comments += "\r\n" + warning;
+        put(d, DCM_ImageComments, comments);
     }
     put(d, DCM_AccessionNumber, "");
     put(d, DCM_Modality, "OT");

@@ -27,8 +27,8 @@ constexpr double startSeconds = 30.0; // on a loaded machine
 constexpr double slackSeconds = 10.0; // beyond the helper's own patience
 constexpr double cancelSeconds = 4.0; // the helper gives the server two
 
-constexpr std::uint64_t mostBytes = std::uint64_t(1)
-                                    << 36; // of an object; more is an attack on the disk
+constexpr std::uint64_t maxBytes = std::uint64_t(1)
+                                   << 36; // of an object; more is an attack on the disk
 
 void logConfinement(int bits) {
     static std::once_flag once;
@@ -165,13 +165,13 @@ Message Link::converse(const task::Progress &progress, Receiver *receiver,
             break;
         case Kind::progress:
             if (receiver != nullptr && m_isArriving && message.number > 0 &&
-                message.number <= mostBytes)
+                message.number <= maxBytes)
                 receiver->receive(message.number);
             break;
         case Kind::arrival:
         case Kind::received:
             if (receiver == nullptr || m_isArriving != (message.kind == Kind::received) ||
-                message.number > mostBytes)
+                message.number > maxBytes)
                 fail({Kind::done, 0, 0, {}});
             take(*packet, *receiver);
             break;

@@ -58,15 +58,21 @@ int JsonLines::of(std::string pointer) const {
 
 bool JsonLines::key(string_t &name) {
     m_levels.back().key = name;
+    // Only one of them would count, and nothing would tell which.
+    if (!m_levels.back().names.insert(name).second) {
+        m_failure = task::because::memberIsGivenTwice(name);
+        return false;
+    }
     return true;
 }
 
 bool JsonLines::parse_error(std::size_t, const std::string &,
                             const nlohmann::json::exception &error) {
     // "parse error at line 3, column 5: what", or "what".
-    m_failure = jsonFault(error);
-    if (m_failure.rfind("parse error at", 0) == 0)
-        m_failure = m_failure.substr(m_failure.find(": ") + 2);
+    std::string fault = jsonFault(error);
+    if (fault.rfind("parse error at", 0) == 0)
+        fault = fault.substr(fault.find(": ") + 2);
+    m_failure = task::because::inWords(fault);
     return false;
 }
 
@@ -90,11 +96,11 @@ bool JsonLines::value() {
 
 bool JsonLines::open(bool isArray) {
     if (m_levels.size() >= deepest) {
-        m_failure = "it is nested too deeply";
+        m_failure = task::because::inWords("it is nested too deeply");
         return false;
     }
     m_lines[pointer()] = m_line;
-    m_levels.push_back({isArray, 0, {}});
+    m_levels.push_back({isArray, 0, {}, {}});
     return true;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,8 @@ public:
     explicit JsonLines(const std::string &text);
     /// The line of a value, or of the nearest enclosing one.
     int of(std::string pointer) const;
-    /// Why parsing stopped; empty if it did not.
-    const std::string &failure() const { return m_failure; }
+    /// Why parsing stopped, if it did.
+    const std::optional<task::Reason> &failure() const { return m_failure; }
     /// The last line that was read.
     int line() const { return m_line; }
 
@@ -27,7 +29,8 @@ private:
     struct Level {
         bool isArray = false;
         std::size_t index = 0;
-        std::string key;
+        std::string key;             ///< of an object: the last one
+        std::set<std::string> names; ///< of an object: all so far
     };
     bool null() override { return value(); }
     bool boolean(bool) override { return value(); }
@@ -52,7 +55,7 @@ private:
     int m_line = 1;
     std::vector<Level> m_levels;
     std::map<std::string, int> m_lines;
-    std::string m_failure;
+    std::optional<task::Reason> m_failure;
 };
 
 /// What `read` makes of the whole of a JSON text. *Throws* Error{unusable}, naming the line, for
@@ -61,8 +64,8 @@ template <class F> auto readJson(const std::string &text, F &&read) {
     using task::Error;
     using task::ErrorCode;
     const JsonLines lines(text);
-    if (!lines.failure().empty())
-        throw Error(ErrorCode::unusable, task::because::atLine(lines.line(), lines.failure()));
+    if (lines.failure())
+        throw Error(ErrorCode::unusable, task::because::atLine(lines.line(), *lines.failure()));
     try {
         const nlohmann::json whole = nlohmann::json::parse(text);
         return read(JsonValue(whole));

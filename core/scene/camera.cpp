@@ -6,7 +6,9 @@
 #include <cmath>
 #include <string>
 
+#include <glm/common.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "core/task/error.h"
 
@@ -63,6 +65,17 @@ std::string dicomOrientation(const glm::dvec3 &right, const glm::dvec3 &up) {
     return letters;
 }
 
+BoxShadow shadowOf(const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
+                   const glm::dquat &orientation) {
+    const glm::dmat3 axes = glm::mat3_cast(orientation);
+    const glm::dvec3 half = 0.5 * (highMm - lowMm), middle = 0.5 * (highMm + lowMm);
+    const auto along = [&](int axis) -> glm::dvec2 {
+        return {glm::dot(axes[axis], middle), glm::dot(glm::abs(axes[axis]), half)};
+    };
+    const glm::dvec2 u = along(0), v = along(1);
+    return {{u.x, v.x}, {u.y, v.y}};
+}
+
 Camera defaultCamera(const volume::Lattice &lattice) {
     Camera camera;
     camera.orientation = viewOrientation(StandardView::front);
@@ -71,10 +84,36 @@ Camera defaultCamera(const volume::Lattice &lattice) {
     if (pixels > largestImageSize)
         throw task::Error(task::ErrorCode::usage,
                           task::because::volumeNeedsALargerImage(largestImageSize));
+    camera.width = camera.height = evenPixels(pixels);
+    return camera;
+}
+
+int evenPixels(double pixels) {
     // Without this margin, rounding could push an exact integer to the next even size.
     const int size = int(std::ceil(pixels - 1e-6));
-    camera.width = camera.height = std::max(2, size + size % 2);
-    return camera;
+    return std::max(2, size + size % 2);
+}
+
+void fitToBox(std::span<Camera> cameras, const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
+              FitBy by) {
+    constexpr double shareOfPicture = 0.93;
+    if (!glm::all(glm::lessThan(lowMm, highMm)))
+        return;
+    glm::dvec2 halfMm(0.0);
+    for (Camera &camera : cameras) {
+        const BoxShadow shadow = shadowOf(lowMm, highMm, camera.orientation);
+        camera.panMm = shadow.middleMm;
+        halfMm = glm::max(halfMm, shadow.halfMm);
+    }
+    const glm::dvec2 roomMm = 2.0 / shareOfPicture * halfMm;
+    for (Camera &camera : cameras) {
+        if (by == FitBy::pixel) {
+            camera.pixelMm = std::max(roomMm.x / camera.width, roomMm.y / camera.height);
+        } else {
+            camera.width = std::min(camera.width, evenPixels(roomMm.x / camera.pixelMm));
+            camera.height = std::min(camera.height, evenPixels(roomMm.y / camera.pixelMm));
+        }
+    }
 }
 
 } // namespace pellucid::scene

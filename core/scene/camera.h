@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
 #include <string>
 
 #include <glm/gtc/quaternion.hpp>
@@ -46,10 +47,30 @@ std::string patientLetters(const glm::dvec3 &direction);
 /// columns: "L\F", with H and F for superior and inferior.
 std::string dicomOrientation(const glm::dvec3 &right, const glm::dvec3 &up);
 
+/// The shadow of a box in a parallel projection: its middle and half its sides, along image right
+/// and up. *Units*: mm, from the middle of the volume.
+struct BoxShadow {
+    glm::dvec2 middleMm{0.0}, halfMm{0.0};
+};
+/// *Units*: corners in mm (LPS), from the middle of the volume.
+BoxShadow shadowOf(const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
+                   const glm::dquat &orientation);
+
 /// The front view with pixels of the lattice's shortest step and the smallest even square size that
 /// contains every view of the lattice. *Throws* Error{usage} if that is more than
 /// `largestImageSize`.
 Camera defaultCamera(const volume::Lattice &lattice);
+
+/// The smallest even number of pixels that is at least `pixels`, but for rounding, and 2.
+int evenPixels(double pixels);
+
+/// What changes where a picture is fitted to something.
+enum class FitBy { pixel, size };
+/// Lets a box fill the pictures of cameras that have one size, and one size of a pixel, and still
+/// do. It lies in the middle of each; in the largest, it leaves a margin of a few percent. A
+/// picture does not get larger; nothing changes for an empty box. *Units*: as `shadowOf`.
+void fitToBox(std::span<Camera> cameras, const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
+              FitBy by);
 
 /// The largest width and height of an image.
 inline constexpr int largestImageSize = 16384;

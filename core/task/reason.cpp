@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <iterator>
 
 namespace pellucid::task {
 
@@ -14,12 +15,13 @@ namespace {
 struct Sentence {
     std::string_view name, english;
 };
-constexpr std::array sentences{
+// Not std::array, whose size Clang cannot deduce from so many.
+constexpr Sentence sentences[]{
 #define PELLUCID_REASON(name, english) Sentence{#name, english},
 #include "core/task/reasons.inc"
 #undef PELLUCID_REASON
 };
-static_assert(sentences.size() == std::size_t(Reason::Id::count));
+static_assert(std::size(sentences) == std::size_t(Reason::Id::count));
 
 const Sentence &sentenceOf(Reason::Id id) {
     return sentences[std::size_t(id)];
@@ -86,9 +88,9 @@ public:
         if (depth > deepest)
             return std::nullopt;
         const std::string_view name = m_rest.substr(0, m_rest.find_first_of(" ;"));
-        const auto known = std::find_if(sentences.begin(), sentences.end(),
+        const auto known = std::find_if(std::begin(sentences), std::end(sentences),
                                         [&](const Sentence &s) { return s.name == name; });
-        if (known == sentences.end())
+        if (known == std::end(sentences))
             return std::nullopt;
         m_rest.remove_prefix(name.size());
         std::vector<Argument> arguments;
@@ -100,7 +102,7 @@ public:
         }
         if (!take(";"))
             return std::nullopt;
-        return Reason(Reason::Id(known - sentences.begin()), std::move(arguments));
+        return Reason(Reason::Id(known - std::begin(sentences)), std::move(arguments));
     }
     bool isAtEnd() const { return m_rest.empty(); }
 

@@ -92,6 +92,11 @@ TEST_F(Batch, MakesTheSameHoweverItIsDividedUp) {
     const json report = json::parse(r.out);
     EXPECT_EQ(report["studies"], 6);
     EXPECT_EQ(report["done"], 6);
+    ASSERT_EQ(report["finished"].size(), 6U);
+    for (const json &study : report["finished"]) {
+        EXPECT_TRUE(fs::exists(folder / "one" / study["study"].get<std::string>() / "done.json"));
+        EXPECT_GT(study["predicted_error"], 0.0);
+    }
     EXPECT_TRUE(report["failed"].empty());
     const auto truth = contentsOf(folder / "one");
     EXPECT_GE(truth.size(), 6U * 15U);
@@ -216,6 +221,72 @@ TEST_F(Batch, PassesOverStudiesWithoutSuchASeries) {
     EXPECT_EQ(entries(folder / "out"), 0U);
 }
 
+// A look that shows nothing of a study, or is for others, makes no picture of it.
+TEST_F(Batch, ALookThatDoesNotSuitIsAFailure) {
+    const fs::path in = studies(1);
+    const auto fails = [&](const std::string &outputs, const std::string &part) {
+        const auto r = batch(recipe(outputs), in, folder / "out");
+        EXPECT_EQ(r.exitCode, 7) << r.out;
+        EXPECT_NE(r.error.find(part), std::string::npos) << r.error;
+        EXPECT_EQ(entries(folder / "out"), 0U);
+    };
+    writeText(folder / "empty.json",
+              R"({"schema": "pellucid-preset/1", "name": "Empty", "modality": "CT", "classes": [
+                  {"name": "Nothing", "range": [9000, 9500], "weight": 1, "color": "#ffffff"}]})");
+    fails(R"({"look": "empty.json", "size": 32})", "no value is in a shown class");
+    fails(R"({"size": 32}, {"name": "b", "look": "MR: brain", "size": 32})", "b: ");
+}
+
+// Who looks at a picture later has no record of the batch.
+TEST_F(Batch, PicturesNameTheirErrorAndWarnings) {
+    const fs::path in = studies(1);
+    std::vector<fs::path> slices(fs::directory_iterator(in / "0"), {});
+    std::sort(slices.begin(), slices.end());
+    fs::remove(slices[slices.size() / 2]); // a gap
+    ASSERT_EQ(
+        batch(recipe(R"({"view": "front", "size": 32, "format": "dicom"})"), in, folder / "out")
+            .exitCode,
+        0);
+    const fs::path made = fs::directory_iterator(folder / "out")->path() / "front.dcm";
+    const std::string text = readText(made);
+    EXPECT_NE(text.find("predicted error 0."), std::string::npos);
+    EXPECT_NE(text.find("Not for diagnostic use\r\n"), std::string::npos);
+}
+
+// Pictures that fit the body show it larger, and the same of it.
+TEST_F(Batch, PicturesFitTheBody) {
+    const fs::path in = studies(1, "--kind chest --size 64x64x64 --spacing 6,6,6");
+    const fs::path made =
+        recipe(R"({"view": "left", "format": "npy", "fit": "body", "size": 100, "name": "sized"},
+                  {"view": "left", "format": "npy", "fit": "body", "name": "free"},
+                  {"view": "left", "format": "npy", "name": "whole"})");
+    ASSERT_EQ(batch(made, in, folder / "out").exitCode, 0);
+    const fs::path study = fs::directory_iterator(folder / "out")->path();
+    const auto massOf = [&](const std::string &name) {
+        int height = 0, width = 0;
+        const auto values = readNpy(study / (name + ".npy"), height, width);
+        const double pixelMm = json::parse(readText(study / (name + ".json")))["pixel_mm"];
+        double sum = 0.0;
+        for (const float value : values)
+            sum += value;
+        return std::pair(sum * pixelMm * pixelMm, width);
+    };
+    const auto [whole, wholeWidth] = massOf("whole");
+    for (const char *const name : {"sized", "free"}) {
+        const auto [mass, width] = massOf(name);
+        EXPECT_NEAR(mass, whole, 5e-3 * whole) << name; // nothing of the body is cut off
+        EXPECT_LT(width, wholeWidth) << name;
+    }
+    // The command line fits in the same way.
+    int height = 0, width = 0;
+    const auto single = picture(in, "--view left --fit body");
+    const auto values = readNpy(study / "free.npy", height, width);
+    ASSERT_EQ(single.size(), values.size());
+    expectOneLine(cli("render " + quoted(in) + " -o " + quoted(folder / "x.npy") +
+                      " --fit body --size 64 --pixel-mm 2"),
+                  2, "--fit");
+}
+
 // Results replace results only.
 TEST_F(Batch, ReplacesNothingButResults) {
     const fs::path in = studies(1);
@@ -230,6 +301,17 @@ TEST_F(Batch, ReplacesNothingButResults) {
     EXPECT_NE(r.error.find(uid), std::string::npos) << r.error;
     EXPECT_EQ(readText(images / "1.dcm"), "an image that was retrieved");
     EXPECT_EQ(entries(images), 1U);
+    // Someone's notes beside the results are not lost.
+    const fs::path results = folder / "out" / uid;
+    writeText(results / "notes.txt", "looks odd");
+    writeText(results / ".DS_Store", ""); // a file manager looked at them
+    const auto kept = batch(made, in, folder / "out");
+    EXPECT_EQ(kept.exitCode, 7) << kept.error;
+    EXPECT_NE(kept.error.find("contains 'notes.txt', which is no result"), std::string::npos)
+        << kept.error;
+    EXPECT_EQ(readText(results / "notes.txt"), "looks odd");
+    fs::remove(results / "notes.txt");
+    EXPECT_EQ(batch(made, in, folder / "out").exitCode, 0);
 }
 
 // A damaged slice is told of.
@@ -304,6 +386,12 @@ TEST_F(Batch, RefusesWhatMakesNoSense) {
     const fs::path empty = folder / "empty";
     fs::create_directory(empty);
     EXPECT_EQ(batch(made, empty, folder / "out").exitCode, 3);
+    ASSERT_EQ(batch(recipe(R"({"view": "front", "size": 32, "format": "dicom"})"), in,
+                    folder / "captures")
+                  .exitCode,
+              0);
+    expectOneLine(batch(made, folder / "captures", folder / "captures"), 3,
+                  "contains nothing outside the folder of results");
     // A part without studies is no failure.
     int none = 0;
     for (int shard = 0; shard < 50; ++shard)

@@ -138,7 +138,7 @@ void writeRecipes(const fs::path &folder) {
     writeText(folder / "smallest",
               R"({"recipe": 1, "outputs": [{"view": "front", "format": "npy"}]})");
     writeText(folder / "views", R"({"recipe": 1, "series": {"modality": ["CT", "MR"],
-        "slice_mm": [0.5, 3], "description": "*a?", "least_slices": 9}, "outputs": [
+        "slice_mm": [0.5, 3], "description": "*a?", "min_slices": 9}, "outputs": [
         {"name": "a", "views": {"size": [9, 8], "views": ["RAO30", {"primary_deg": 5}]}},
         {"name": "b", "turntable": 7, "view": "LAO30,CRA20", "format": "mp4", "size": 12},
         {"name": "c", "look": "Bone", "tolerance": "fine", "pixel_mm": 0.5, "deidentify": true,

@@ -421,7 +421,7 @@ TEST_F(Pacs, ASeriesIsSeenLongBeforeItIsHere) {
     const fs::path sent = series("S", slices, 512);
     put(server, sent);
     test::Proxy proxy(orthanc.port());
-    proxy.set({.bytesPerSecond = 100e6 / 8.0 / server.connections});
+    proxy.set({.bytesPerSecond = 100e6 / 8.0});
     server.peer.port = proxy.port();
     const std::string study = studyIn(sent);
     using Clock = std::chrono::steady_clock;

@@ -165,7 +165,7 @@ private:
 struct Mischief {
     long cutAfter = -1, stallAfter = -1, flipAt = -1;
     int delayMs = 0;             ///< of each direction
-    double bytesPerSecond = 0.0; ///< from the server, of each connection; 0: no limit
+    double bytesPerSecond = 0.0; ///< from the server, of all connections together; 0: no limit
 };
 
 /// Stands between the program and a server. Thread-safe.
@@ -234,9 +234,9 @@ private:
         using Clock = std::chrono::steady_clock;
         std::array<std::vector<Parcel>, 2> queues; // to the server, to the client
         long fromServer = 0;
-        std::vector<char> buffer(1 << 16);
+        // Connections that share a line take turns.
+        std::vector<char> buffer(mischief.bytesPerSecond > 0.0 ? 1 << 13 : 1 << 16);
         bool isStalled = false;
-        Clock::time_point lastDue = Clock::now();
         constexpr std::size_t mostWaiting = 4; // then the server has to wait
         while (!stop.stop_requested()) {
             for (int way = 0; way < 2; ++way)
@@ -286,11 +286,12 @@ private:
                 }
                 auto due = Clock::now() + std::chrono::milliseconds(mischief.delayMs);
                 if (from == 1 && mischief.bytesPerSecond > 0.0) {
-                    lastDue =
-                        std::max(lastDue, Clock::now()) +
+                    const std::lock_guard lock(m_mutex);
+                    m_lineIsFree =
+                        std::max(m_lineIsFree, Clock::now()) +
                         std::chrono::duration_cast<Clock::duration>(
                             std::chrono::duration<double>(double(got) / mischief.bytesPerSecond));
-                    due = std::max(due, lastDue);
+                    due = std::max(due, m_lineIsFree);
                 }
                 queues[std::size_t(from)].push_back({due, std::move(bytes)});
             }
@@ -306,6 +307,7 @@ private:
     int m_serverPort, m_port = 0, m_socket;
     std::mutex m_mutex;
     Mischief m_mischief;
+    std::chrono::steady_clock::time_point m_lineIsFree; ///< for the next byte from the server
     std::string m_fromProgram;
     std::atomic<int> m_connections = 0;
     std::vector<std::jthread> m_threads;

@@ -235,7 +235,7 @@ def rendered_in(log):
 
 def counts(line):
     """Of a last line: studies rendered, studies of the shard, studies that were done before."""
-    match = re.match(r"(\d+) of (\d+) done(?:, (\d+) were done before)?; [\d.]+ s$", line)
+    match = re.match(r"(\d+) of (\d+) stud(?:y|ies) done(?:, (\d+) done before)?; [\d.]+ s$", line)
     check(match, f"not the end of a batch: {line}")
     return int(match[1]), int(match[2]), int(match[3] or 0)
 

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace pellucid::ui {
 
@@ -23,16 +21,14 @@ Pose fitted(const Pose &pose, const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
     constexpr double shareOfPane = 0.9;
     Pose fit = pose;
     fit.isFitted = true;
-    const glm::dvec3 half = 0.5 * (highMm - lowMm), middle = 0.5 * (highMm + lowMm);
-    if (!(std::min({half.x, half.y, half.z}) > 0.0))
+    if (!glm::all(glm::lessThan(lowMm, highMm)))
         return fit;
-    const glm::dmat3 axes = glm::mat3_cast(pose.orientation);
-    const auto reach = [&](const glm::dvec3 &axis) { return glm::dot(glm::abs(axis), half); };
-    const double pixelMm = std::max(2.0 * reach(axes[0]) / std::max(1.0, paneSize.width()),
-                                    2.0 * reach(axes[1]) / std::max(1.0, paneSize.height())) /
+    const scene::BoxShadow shadow = scene::shadowOf(lowMm, highMm, pose.orientation);
+    const double pixelMm = std::max(2.0 * shadow.halfMm.x / std::max(1.0, paneSize.width()),
+                                    2.0 * shadow.halfMm.y / std::max(1.0, paneSize.height())) /
                            shareOfPane;
     fit.zoom = std::clamp(fitMm / pixelMm, minZoom, maxZoom);
-    fit.panMm = {glm::dot(axes[0], middle), glm::dot(axes[1], middle)};
+    fit.panMm = shadow.middleMm;
     return fit;
 }
 

@@ -8,6 +8,9 @@ namespace pellucid::ui {
 dicom::CaptureLabels studyLabels(const Document &document) {
     const StudyFacts &study = document.sources().at(std::size_t(document.currentSource())).study;
     dicom::CaptureLabels labels;
+    if (document.volume())
+        for (const task::Reason &warning : document.volume()->notes().warnings)
+            labels.warnings.push_back(warning.english());
     if (!study.hasPatient())
         return labels;
     labels.patientId = study.patientId.toStdString();

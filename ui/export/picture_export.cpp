@@ -356,8 +356,8 @@ std::optional<task::Reason> obstacle(const PictureExport &what, const Panes &pan
     if (what.format == PictureFormat::captureLoop &&
         dicom::CaptureLoop::bytesOf(what.frameCount, camera.height * what.scale,
                                     camera.width * what.scale,
-                                    isGrey) > dicom::CaptureLoop::mostBytes)
-        return because::loopIsTooLarge(dicom::CaptureLoop::mostBytes >> 20);
+                                    isGrey) > dicom::CaptureLoop::maxBytes)
+        return because::loopIsTooLarge(dicom::CaptureLoop::maxBytes >> 20);
     if (std::max(camera.width, camera.height) * what.scale > scene::largestImageSize)
         return because::picturesHaveAtMost(scene::largestImageSize);
     return {};

@@ -74,8 +74,18 @@ TEST(Recipe, FaultsAreNamedWithTheirLines) {
         {"{\"recipe\": 1, \"outputs\": [{\"tolerance\": \"best\"}]}", "use one of draft"},
         {"{\"recipe\": 1, \"outputs\": [{\"turntable\": 1}]}", "from 2 to 3600"},
         {"{\"recipe\": 1, \"outputs\": [{\"name\": \"../x\"}]}", "/outputs/0/name"},
-        {"{\"recipe\": 1, \"outputs\": [{\"name\": \"done\"}]}", "another output"},
-        {"{\"recipe\": 1, \"outputs\": [{}, {}]}", "the name 'picture'"},
+        {"{\"recipe\": 1, \"outputs\": [{\"name\": \"Done\"}]}", "is reserved"},
+        {"{\"recipe\": 1, \"outputs\": [{}, {}]}", "/outputs/1: needs a name: 'picture'"},
+        {"{\"recipe\": 1, \"outputs\": [{\"view\": \"AP\"}, {\"name\": \"ap\"}]}",
+         "/outputs/1/name: the name 'ap' is that"},
+        {"{\"recipe\": 1, \"outputs\": [{}],\n\"outputs\": [{}]}",
+         "line 2: the member 'outputs' is given twice"},
+        {"{\"recipe\": 1, \"outputs\": [{\"deidentify\": true}]}", "/outputs/0/deidentify: is for"},
+        {"{\"recipe\": 1, \"outputs\": [{\"fit\": \"body\", \"size\": 9, \"pixel_mm\": 1}]}",
+         "/outputs/0/fit: cannot be met"},
+        {"{\"recipe\": 1, \"outputs\": [{\"fit\": \"body\", \"size\": 9, \"views\": "
+         "[{\"matrix\": [[1,0,0,0],[0,1,0,0],[0,0,0,1]]}]}]}",
+         "/outputs/0/fit: cannot be met: matrices"},
         {"{\"recipe\": 1, \"outputs\": [{\"look\": \"nothing like this\"}]}", "/outputs/0/look"},
         {"{\"recipe\": 1, \"outputs\": [{\"turntable\": 3, \"name\": \"a\"},\n"
          "{\"name\": \"a_0002\"}]}",
@@ -144,6 +154,46 @@ TEST(Recipe, ViewsTurnAndFitTheVolume) {
     EXPECT_EQ(recipe.outputs[3].views.size(), 2U);
 }
 
+// What its view is called names an output without a name.
+TEST(Recipe, AnglesNameAnOutput) {
+    const Recipe recipe = read(R"({"recipe": 1, "outputs": [{"view": "LAO 30, CRA 20"}]})");
+    EXPECT_EQ(filesOf(recipe.outputs.front()), std::vector<std::string>{"LAO_30,_CRA_20.png"});
+}
+
+TEST(Recipe, ABodyFillsAllViewsOfAnOutput) {
+    const Recipe recipe = read(R"({"recipe": 1, "outputs": [
+        {"name": "sized", "turntable": 8, "fit": "body", "size": [120, 200]},
+        {"name": "free", "turntable": 8, "fit": "body", "pixel_mm": 0.5}]})");
+    const volume::Volume volume = volumeOf({60, 60, 60}, {2.0, 2.0, 2.0});
+    scene::Exposure exposure;
+    exposure.lowMm = {-30.0, -10.0, -50.0};
+    exposure.highMm = {20.0, 5.0, 10.0};
+    for (const Output &output : recipe.outputs) {
+        scene::Scene scene = sceneOf(output, volume);
+        const auto whole = camerasOf(output, scene, volume.lattice());
+        EXPECT_EQ(whole.front().panMm, glm::dvec2(0.0)); // nothing is known of the body
+        scene.tone.exposure = exposure;
+        const auto cameras = camerasOf(output, scene, volume.lattice());
+        double fullest = 0.0;
+        for (const scene::Camera &camera : cameras) {
+            EXPECT_EQ(camera.pixelMm, cameras.front().pixelMm);
+            EXPECT_EQ(camera.width, cameras.front().width);
+            EXPECT_LE(camera.width, whole.front().width);
+            // Every corner is in the picture.
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::dvec3 p((corner & 1) ? -30.0 : 20.0, (corner & 2) ? -10.0 : 5.0,
+                                   (corner & 4) ? -50.0 : 10.0);
+                const double u = (glm::dot(camera.axes()[0], p) - camera.panMm.x) / camera.pixelMm,
+                             v = (glm::dot(camera.axes()[1], p) - camera.panMm.y) / camera.pixelMm;
+                fullest = std::max(
+                    {fullest, 2.0 * std::abs(u) / camera.width, 2.0 * std::abs(v) / camera.height});
+            }
+        }
+        EXPECT_LE(fullest, 0.95);
+        EXPECT_GE(fullest, 0.88); // it fills the largest picture
+    }
+}
+
 // The window writes recipes that the command line reads.
 TEST(Recipe, OfASceneMakesItsLookOfOtherStudies) {
     scene::Scene scene;
@@ -161,6 +211,8 @@ TEST(Recipe, OfASceneMakesItsLookOfOtherStudies) {
     EXPECT_EQ(output.format, Format::captureLoop);
     EXPECT_EQ(output.views.size(), 36U);
     EXPECT_TRUE(output.isDeidentified);
+    EXPECT_EQ(output.fit, Fit::body); // as the window does
+    EXPECT_FALSE(read(recipeOf(scene, look, Format::png, 0, true)).outputs[0].isDeidentified);
     const scene::Scene made = sceneOf(output, volumeOf({20, 30, 40}, {1.0, 1.0, 2.0}));
     EXPECT_NEAR(std::abs(glm::dot(made.camera.orientation, scene.camera.orientation)), 1.0, 1e-12);
     EXPECT_EQ(made.look.classes, look.look.classes);
@@ -197,6 +249,9 @@ TEST(Recipe, TheSchemaIsThatOfTheReader) {
     const auto formats = schema["properties"]["outputs"]["items"]["properties"]["format"]["enum"]
                              .get<std::set<std::string>>();
     EXPECT_EQ(namesIn(faultOf(R"({"recipe": 1, "outputs": [{"format": "x"}]})")), formats);
+    const auto fits = schema["properties"]["outputs"]["items"]["properties"]["fit"]["enum"]
+                          .get<std::set<std::string>>();
+    EXPECT_EQ(namesIn(faultOf(R"({"recipe": 1, "outputs": [{"fit": "x"}]})")), fits);
 }
 
 TEST(Recipe, ChoosesTheSeriesThatItAsksFor) {
@@ -225,7 +280,7 @@ TEST(Recipe, ChoosesTheSeriesThatItAsksFor) {
     add(std::string(60, 'a').c_str(), "CT", 5, 1.0);
     EXPECT_THROW(chosen({.description = "*a*a*a*a*a*a*a*a*a*b"}), task::Error); // at once
     EXPECT_THROW(chosen({.modalities = {"PT"}}), task::Error);
-    EXPECT_THROW(chosen({.leastSlices = 500}), task::Error);
+    EXPECT_THROW(chosen({.minSlices = 500}), task::Error);
     // The first of equals, whatever the order of the files: that with the smaller UID.
     add("Also thin chest", "CT", 300, 0.8);
     EXPECT_EQ(chosen({.modalities = {"CT"}}), "Also thin chest");

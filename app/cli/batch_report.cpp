@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/batch_report.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "app/cli/json_text.h"
+#include "app/cli/terminal.h"
+#include "core/task/error.h"
+
+namespace pellucid::cli {
+
+namespace {
+
+namespace because = task::because;
+using nlohmann::json;
+using task::Error;
+using task::ErrorCode;
+
+json jsonOf(const std::vector<dicom::Skipped> &skipped) {
+    json files = json::array();
+    for (const dicom::Skipped &one : skipped)
+        files.push_back({{"path", one.path.string()}, {"reason", one.reason.english()}});
+    return files;
+}
+
+std::string studiesText(std::size_t count) {
+    return fmt::format("{} {}", count, count == 1 ? "study" : "studies");
+}
+
+} // namespace
+
+void BatchReport::begin(std::size_t studies, std::vector<dicom::Skipped> damaged,
+                        std::vector<dicom::Skipped> unused) {
+    m_studies = studies;
+    m_damaged = std::move(damaged);
+    m_unused = std::move(unused);
+}
+
+void BatchReport::finished(const std::string &key, const batch::DoneRecord &record,
+                           double seconds) {
+    const std::lock_guard lock(m_mutex);
+    ++m_done;
+    double error = 0.0;
+    std::vector<std::string> told; // what concerns all outputs, once
+    for (const batch::DoneRecord::MadeOutput &output : record.outputs) {
+        error = std::max(error, output.predictedError);
+        for (const std::string &warning : output.warnings)
+            if (std::find(told.begin(), told.end(), warning) == told.end()) {
+                told.push_back(warning);
+                warn(key + ": " + output.name + ": " + warning);
+            }
+    }
+    if (m_isJson) {
+        m_finished.push_back({{"study", key},
+                              {"series", record.seriesUid},
+                              {"predicted_error", error},
+                              {"warnings", told},
+                              {"seconds", seconds}});
+        return;
+    }
+    std::puts(printable(fmt::format("{} of {}: {}: outputs: {}; {:.2f} s, error at most {:.2g}",
+                                    m_done + m_doneBefore + m_failures.size() + m_passedOver.size(),
+                                    m_studies, key, record.outputs.size(), seconds, error))
+                  .c_str());
+    std::fflush(stdout);
+}
+
+void BatchReport::wasDoneBefore() {
+    const std::lock_guard lock(m_mutex);
+    ++m_doneBefore;
+}
+
+void BatchReport::passedOver(const std::string &key) {
+    const std::lock_guard lock(m_mutex);
+    m_passedOver.push_back(key);
+}
+
+void BatchReport::failed(const std::string &key, const std::string &reason) {
+    const std::lock_guard lock(m_mutex);
+    m_failures.push_back({key, reason});
+    if (!m_isJson) {
+        std::puts(printable(key + ": failed").c_str());
+        std::fflush(stdout);
+    }
+    warn(reason.find(key) == std::string::npos ? key + ": " + reason : reason);
+}
+
+void BatchReport::print(const std::string &recipe, double seconds) {
+    std::sort(m_failures.begin(), m_failures.end(),
+              [](const Failure &a, const Failure &b) { return a.key < b.key; });
+    std::sort(m_passedOver.begin(), m_passedOver.end());
+    std::sort(m_finished.begin(), m_finished.end(),
+              [](const json &a, const json &b) { return a["study"] < b["study"]; });
+    if (m_isJson) {
+        json failures = json::array();
+        for (const Failure &failure : m_failures)
+            failures.push_back({{"study", failure.key}, {"reason", failure.reason}});
+        std::puts(jsonText({{"studies", m_studies},
+                            {"done", m_done},
+                            {"finished", m_finished},
+                            {"skipped", m_doneBefore},
+                            {"failed", failures},
+                            {"without_such_a_series", m_passedOver},
+                            {"damaged_files", jsonOf(m_damaged)},
+                            {"unused_files", jsonOf(m_unused)},
+                            {"recipe", recipe},
+                            {"seconds", seconds}})
+                      .c_str());
+        return;
+    }
+    std::string text = fmt::format("{} of {} done", m_done, studiesText(m_studies));
+    if (m_doneBefore > 0)
+        text += fmt::format(", {} done before", m_doneBefore);
+    if (!m_failures.empty())
+        text += fmt::format(", {} failed", m_failures.size());
+    if (!m_passedOver.empty())
+        text += fmt::format(", {} without a series that the recipe asks for", m_passedOver.size());
+    if (!m_damaged.empty())
+        text += fmt::format("; damaged files: {}", m_damaged.size());
+    std::puts(fmt::format("{}; {:.1f} s", text, seconds).c_str());
+}
+
+void BatchReport::requireAllDone() const {
+    if (!m_failures.empty())
+        throw Error(ErrorCode::incomplete,
+                    because::inWords(
+                        fmt::format("{} of {} failed", m_failures.size(), studiesText(m_studies))));
+    if (!m_damaged.empty())
+        throw Error(
+            ErrorCode::incomplete,
+            because::inWords(fmt::format("damaged files: {}; the first: {}", m_damaged.size(),
+                                         m_damaged.front().reason.english())),
+            m_damaged.front().path);
+}
+
+} // namespace pellucid::cli
