@@ -3325,6 +3325,42 @@
         <source>must be a list of length %1</source>
         <translation>須為長度 %1 的清單</translation>
     </message>
+    <message>
+        <source>needs a name: &apos;%1&apos;, which its view gives it, is that of another output</source>
+        <translation>需要名稱：其視角所給的「%1」已是另一個輸出的名稱</translation>
+    </message>
+    <message>
+        <source>the name &apos;%1&apos; is reserved for the record of the results</source>
+        <translation>名稱「%1」保留給結果的紀錄</translation>
+    </message>
+    <message>
+        <source>cannot be met: leave out pixel_mm, or size</source>
+        <translation>無法達成：請省略 pixel_mm 或 size</translation>
+    </message>
+    <message>
+        <source>cannot be met: matrices say what a picture contains</source>
+        <translation>無法達成：影像的內容由矩陣決定</translation>
+    </message>
+    <message>
+        <source>is for the formats dicom and dicom-loop: other formats contain no identity</source>
+        <translation>僅用於 dicom 與 dicom-loop 格式：其他格式不含身分</translation>
+    </message>
+    <message>
+        <source>contains &apos;%1&apos;, which is no result: it would be lost</source>
+        <translation>含有並非結果的「%1」，取代時會遺失</translation>
+    </message>
+    <message>
+        <source>no study matches</source>
+        <translation>沒有符合的檢查</translation>
+    </message>
+    <message>
+        <source>contains nothing outside the folder of results</source>
+        <translation>在結果資料夾之外沒有任何內容</translation>
+    </message>
+    <message>
+        <source>the member &apos;%1&apos; is given twice</source>
+        <translation>成員「%1」出現兩次</translation>
+    </message>
 </context>
 <context>
     <name>RegionTexts</name>
