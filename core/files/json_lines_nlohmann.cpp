@@ -72,7 +72,7 @@ bool JsonLines::parse_error(std::size_t, const std::string &,
     std::string fault = jsonFault(error);
     if (fault.rfind("parse error at", 0) == 0)
         fault = fault.substr(fault.find(": ") + 2);
-    m_failure = task::because::inWords(fault);
+    m_failure = task::because::isNoJson(fault);
     return false;
 }
 
@@ -96,7 +96,7 @@ bool JsonLines::value() {
 
 bool JsonLines::open(bool isArray) {
     if (m_levels.size() >= deepest) {
-        m_failure = task::because::inWords("it is nested too deeply");
+        m_failure = task::because::nestsTooDeeply;
         return false;
     }
     m_lines[pointer()] = m_line;

@@ -3361,6 +3361,14 @@
         <source>the member &apos;%1&apos; is given twice</source>
         <translation>成員「%1」出現兩次</translation>
     </message>
+    <message>
+        <source>lists and objects are nested too deeply</source>
+        <translation>清單與物件的巢狀層數過深</translation>
+    </message>
+    <message>
+        <source>not JSON: %1</source>
+        <translation>不是 JSON：%1</translation>
+    </message>
 </context>
 <context>
     <name>RegionTexts</name>
