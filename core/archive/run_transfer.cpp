@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/archive/run_transfer.h"
 
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
@@ -14,6 +19,22 @@ namespace because = task::because;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds recordedEvery(250);
+
+// Whether earlier runs have brought anything. The count of a run that was killed may be too old.
+bool hasBroughtFiles(const Transfer &transfer) {
+    if (transfer.received > 0 || transfer.total == 0)
+        return transfer.received > 0;
+    const std::filesystem::path study = transfer.folder / transfer.wanted.studyUid;
+    const std::vector<std::string> &series = transfer.wanted.seriesUids;
+    const auto isThere = [](const std::filesystem::path &folder) {
+        std::error_code unknown;
+        return std::filesystem::exists(folder, unknown);
+    };
+    return series.empty() ? isThere(study)
+                          : std::any_of(series.begin(), series.end(), [&](const std::string &uid) {
+                                return isThere(study / uid);
+                            });
+}
 
 } // namespace
 
@@ -81,7 +102,11 @@ RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &ser
             log.finish(id, TransferState::waiting, reached, seconds(), {});
         throw;
     } catch (const task::Error &error) {
-        log.finish(id, TransferState::incomplete, reached, seconds(), error.reason().encoded());
+        // Another attempt would end in the same way. What has arrived stays listed.
+        if (error.reason().is(because::serverHasNoSuchStudy) && !hasBroughtFiles(*transfer))
+            log.remove(id);
+        else
+            log.finish(id, TransferState::incomplete, reached, seconds(), error.reason().encoded());
         throw;
     }
 }

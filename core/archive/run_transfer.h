@@ -11,7 +11,8 @@ std::filesystem::path libraryObjectFolder();
 
 /// Does a transfer of the log, and records how far it came, so that it is continued after a kill.
 /// Stops if the transfer is cancelled in the log, by any program. Objects for the library are
-/// recorded as arrivals. *Throws* as `retrieve`; Error{usage} if another program is doing it.
+/// recorded as arrivals. A transfer of which the server has nothing, and nothing has ever arrived,
+/// is removed from the log. *Throws* as `retrieve`; Error{usage} if another program is doing it.
 RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &server,
                             const RetrievalObserver &observer = {},
                             const task::Progress &progress = {},

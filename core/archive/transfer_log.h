@@ -61,6 +61,8 @@ public:
     void update(std::int64_t id, const RetrievalState &state, double seconds);
     void finish(std::int64_t id, TransferState state, const RetrievalState &reached, double seconds,
                 const std::string &reason);
+    /// Removes a claimed transfer, unless it has been claimed again.
+    void remove(std::int64_t id);
     void cancel(std::int64_t id);
     /// It waits again, and now somebody waits for it.
     void retry(std::int64_t id);

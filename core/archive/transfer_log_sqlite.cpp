@@ -291,6 +291,12 @@ void TransferLog::finish(std::int64_t id, TransferState state, const RetrievalSt
     finish.run();
 }
 
+void TransferLog::remove(std::int64_t id) {
+    Statement remove(m_database.get(), m_file, "DELETE FROM transfers WHERE id = ? AND run = ?");
+    remove.bind(id).bind(m_runs[id].number);
+    remove.run();
+}
+
 void TransferLog::cancel(std::int64_t id) {
     Statement update(m_database.get(), m_file, "UPDATE transfers SET state = ? WHERE id = ?");
     update.bind(std::int64_t(TransferState::cancelled)).bind(id);

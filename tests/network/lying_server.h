@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <sstream>
@@ -27,11 +28,13 @@ public:
         : m_get(std::move(get)), m_server([this, instances](ScriptedAssociation &association,
                                                             const ScriptedRequest &request) {
               if (request.field == command::findRequest)
-                  list(association, request, instances);
+                  list(association, request, m_hasStudy ? instances : 0);
               else if (request.field == command::getRequest)
                   m_get(association, request, split(request.text(0x00080018)));
           }) {}
     int port() const { return m_server.port(); }
+    /// From now on, it has no study.
+    void forgetStudy() { m_hasStudy = false; }
 
     /// The object as it would be true.
     static DicomWriter object(const std::string &uid) {
@@ -71,12 +74,13 @@ private:
                 row.put({0x0020, 0x0013}, "IS", std::to_string(n + 1));
                 association.answer(request, 0xff00, row);
             }
-        else
+        else if (instances > 0)
             association.answer(request, 0xff00, row);
         association.answer(request, 0);
     }
 
     Get m_get;
+    std::atomic<bool> m_hasStudy = true;
     ScriptedServer m_server; // last: its threads use the others
 };
 

@@ -8,18 +8,23 @@
 #include <future>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <random>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "core/archive/listener.h"
 #include "core/archive/receiving.h"
 #include "core/archive/retrieval.h"
+#include "core/archive/run_transfer.h"
 #include "core/archive/search.h"
 #include "core/archive/sending.h"
+#include "core/archive/transfer_log.h"
 #include "core/dicom/arriving_series.h"
 #include "core/dicom/load_volume.h"
 #include "core/task/error.h"
+#include "tests/network/lying_server.h"
 #include "tests/network/pacs.h"
 #include "tests/network/scripted_server.h"
 #include "tests/support/command.h"
@@ -265,6 +270,7 @@ TEST_F(Pacs, CommandsTakeAStudyFromAServer) {
         EXPECT_EQ(run("get s --study " + studyIn(sent) + " --series " + series).exitCode, 3)
             << series;
     }
+    EXPECT_EQ(run("transfers list").out, ""); // none of it can be tried again
     ASSERT_EQ(
         run("server add dead --dicom X@127.0.0.1:" + std::to_string(test::freePort())).exitCode, 0);
     EXPECT_EQ(run("info --from dead --study 1.2.3.4").exitCode, 6);
@@ -310,6 +316,64 @@ TEST_F(Pacs, KillsLoseNothing) {
         EXPECT_EQ(dataSetsIn(to), expected);
         fs::remove_all(to);
     }
+    ::unsetenv("XDG_DATA_HOME");
+}
+
+// A study that the server does not have leaves nothing to try again. What has arrived before stays,
+// with the reason.
+TEST_F(PacsScripted, AStudyThatIsNotThereLeavesNoTransfer) {
+    ::setenv("XDG_DATA_HOME", (m_folder / "data").c_str(), 1);
+    std::atomic<std::size_t> most = 0; // objects that the server sends
+    LyingServer server(6, [&](ScriptedAssociation &association, const ScriptedRequest &request,
+                              const std::vector<std::string> &uids) {
+        const std::size_t count = std::min(uids.size(), most.load());
+        for (std::size_t n = 0; n < count; ++n)
+            LyingServer::sendTruly(association, uids[n]);
+        association.endGet(request, 0, int(count));
+    });
+    archive::Server at = serverAt(server.port(), "LIES");
+    at.connections = 1;
+    archive::TransferLog log(m_folder / "transfers.sqlite");
+    const auto run = [&](const std::string &to) {
+        archive::Transfer transfer;
+        transfer.server = at.name;
+        transfer.wanted.studyUid = LyingServer::study;
+        transfer.folder = m_folder / to;
+        const std::int64_t id = log.add(transfer);
+        std::optional<task::Reason> failure;
+        try {
+            archive::runTransfer(log, id, at);
+        } catch (const task::Error &error) {
+            failure = error.reason();
+        }
+        return std::pair(log.transfer(id), failure);
+    };
+    const auto isRefused = [](const std::optional<task::Reason> &failure) {
+        return failure && failure->is(because::serverHasNoSuchStudy);
+    };
+    const auto nothing = run("nothing");
+    EXPECT_FALSE(nothing.second) << nothing.second->english();
+    ASSERT_TRUE(nothing.first.has_value()); // it may still come
+    EXPECT_EQ(nothing.first->total, 6U);
+    most = 2;
+    const auto begun = run("part");
+    EXPECT_FALSE(begun.second) << begun.second->english();
+    EXPECT_EQ(begun.first->received, 2U);
+    server.forgetStudy();
+    for (const std::string to : {"new", "nothing"}) {
+        const auto refused = run(to);
+        EXPECT_TRUE(isRefused(refused.second)) << to;
+        EXPECT_FALSE(refused.first.has_value()) << to;
+    }
+    const auto kept = run("part");
+    EXPECT_TRUE(isRefused(kept.second));
+    ASSERT_TRUE(kept.first.has_value());
+    EXPECT_EQ(kept.first->state, archive::TransferState::incomplete);
+    EXPECT_EQ(kept.first->received, 2U);
+    EXPECT_EQ(kept.first->total, 6U);
+    EXPECT_TRUE(isRefused(task::Reason::decoded(kept.first->reason)));
+    EXPECT_EQ(filesIn(m_folder / "part").size(), 2U);
+    EXPECT_EQ(log.transfers().size(), 1U);
     ::unsetenv("XDG_DATA_HOME");
 }
 

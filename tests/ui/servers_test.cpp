@@ -246,6 +246,24 @@ private slots:
                                  patienceMs);
     }
 
+    // Another attempt would fail as well: the reason is shown, and nothing stays in the list.
+    void aStudyThatTheServerDoesNotHaveIsNotListed() {
+        addServer("archive", m_dcmqrscp->port());
+        std::vector<task::Reason> failures;
+        QObject context;
+        connect(&bench().transfers, &ui::TransferQueue::failed, &context,
+                [&](const task::Reason &what) { failures.push_back(what); });
+        ui::RemoteStudy study;
+        study.study.uid = "1.2.3.4";
+        study.servers = {"archive"};
+        bench().transfers.add(study, &mainWindow());
+        QCOMPARE(bench().transfers.transfers().size(), std::size_t(1));
+        QTRY_COMPARE_WITH_TIMEOUT(failures.size(), std::size_t(1), patienceMs);
+        QVERIFY(failures.front().is(task::because::serverHasNoSuchStudy));
+        QVERIFY(bench().transfers.transfers().empty());
+        QCOMPARE(find<QTreeWidget>("transfersTree")->topLevelItemCount(), 0);
+    }
+
     // A picture of an open study goes to a server without a file on this computer.
     void aPictureIsSentToAServer() {
         const Dcmqrscp archives;

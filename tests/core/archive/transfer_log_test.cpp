@@ -77,6 +77,20 @@ TEST(TransferLog, AnAttemptThatIsOverDoesNotEndTheNext) {
     EXPECT_EQ(first.transfer(id)->state, TransferState::complete);
 }
 
+// What another attempt has taken over is its own to remove.
+TEST(TransferLog, OnlyTheLastAttemptRemovesATransfer) {
+    const test::TemporaryFolder folder;
+    TransferLog first(folder / "transfers.sqlite"), second(folder / "transfers.sqlite");
+    const std::int64_t id = first.add(sample());
+    ASSERT_TRUE(first.claim(id));
+    second.retry(id);
+    ASSERT_TRUE(second.claim(id));
+    first.remove(id);
+    EXPECT_TRUE(second.hasClaim(id));
+    second.remove(id);
+    EXPECT_FALSE(first.transfer(id).has_value());
+}
+
 // A transfer belongs to one program, until that has ended.
 TEST(TransferLog, AKilledProgramReleasesItsTransfer) {
     const test::TemporaryFolder folder;
