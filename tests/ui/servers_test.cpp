@@ -246,6 +246,27 @@ private slots:
                                  patienceMs);
     }
 
+    // The command line may retrieve into the library before the workstation has ever been started.
+    void aStudyThatCameBeforeTheFirstStartIsListed() {
+        forgetEverything();
+        const auto folder = archive::libraryObjectFolder() / "1.2.3" / "1.2.3.1";
+        std::filesystem::create_directories(folder);
+        {
+            archive::TransferLog log(archive::TransferLog::fileOfUser());
+            for (const auto &file : filesOfHead()) {
+                const auto to = folder / file.filename();
+                std::filesystem::copy_file(file, to);
+                log.addArrival({to, "1.2.3", "1.2.3.1", file.stem().string(), "", 1}, "archive");
+            }
+        }
+        restart();
+        QTRY_COMPARE_WITH_TIMEOUT(rows(), QStringList{"Secret Name"}, patienceMs);
+        QCOMPARE(problems(), QString());
+        QTRY_VERIFY_WITH_TIMEOUT(
+            archive::TransferLog(archive::TransferLog::fileOfUser()).arrivals().empty(),
+            patienceMs);
+    }
+
     // Another attempt would fail as well: the reason is shown, and nothing stays in the list.
     void aStudyThatTheServerDoesNotHaveIsNotListed() {
         addServer("archive", m_dcmqrscp->port());

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <system_error>
+#include <vector>
 
 #include <QDate>
 #include <QRegularExpression>
@@ -177,15 +178,22 @@ fs::path replaceList(const LibraryPlace &place, const std::vector<LibrarySeries>
     return kept;
 }
 
-// Whether there are copies without a list, as after a power failure.
-bool hasCopiesWithoutList(const LibraryPlace &place) {
+// Whether there are copies without a list, as after a power failure. Folders with unlisted files do
+// not count: they are there before the first list is.
+bool hasCopiesWithoutList(const LibraryPlace &place, const std::vector<fs::path> &unlisted) {
     std::error_code none, failed;
     const auto bytes = fs::file_size(place.listFile(), none);
     if (!none && bytes > 0)
         return false;
+    std::set<fs::path> known{place.incomingFolder()};
+    for (const fs::path &file : unlisted) {
+        const fs::path inside = file.lexically_relative(place.copiesFolder());
+        if (!inside.empty())
+            known.insert(place.copiesFolder() / *inside.begin());
+    }
     for (fs::directory_iterator entry(place.copiesFolder(), failed), end; !failed && entry != end;
          entry.increment(failed))
-        if (entry->path() != place.incomingFolder())
+        if (!known.contains(entry->path()))
             return true;
     return false;
 }
@@ -198,12 +206,12 @@ OpenedLibrary listInMemory(OpenedLibrary opened, const task::Reason &reason) {
 
 } // namespace
 
-OpenedLibrary openLibrary(const fs::path &folder) {
+OpenedLibrary openLibrary(const fs::path &folder, const std::vector<fs::path> &unlisted) {
     OpenedLibrary opened;
     opened.place.folder = folder;
     std::error_code failed;
     fs::create_directories(folder, failed);
-    const bool hadNoList = hasCopiesWithoutList(opened.place);
+    const bool hadNoList = hasCopiesWithoutList(opened.place, unlisted);
     if (hadNoList) {
         try {
             files::AtomicFile(opened.place.rebuiltMark()).commit();

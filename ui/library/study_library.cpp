@@ -8,10 +8,11 @@
 
 namespace pellucid::ui {
 
-StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
+StudyLibrary::StudyLibrary(const std::vector<std::filesystem::path> &unlisted, QObject *parent)
+    : QObject(parent) {
     OpenedLibrary opened;
     if (const auto data = files::userDataFolder()) {
-        opened = openLibrary(*data / "library");
+        opened = openLibrary(*data / "library", unlisted);
     } else {
         opened.place.inMemory = true;
         opened.notices.push_back({{}, task::because::noDataFolder});

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <QObject>
 
@@ -20,7 +22,9 @@ namespace pellucid::ui {
 class StudyLibrary : public QObject {
     Q_OBJECT
 public:
-    explicit StudyLibrary(QObject *parent = nullptr);
+    /// `unlisted`: as for `openLibrary`.
+    explicit StudyLibrary(const std::vector<std::filesystem::path> &unlisted = {},
+                          QObject *parent = nullptr);
     ~StudyLibrary() override;
 
     /// The notices of `openLibrary`.

@@ -65,6 +65,19 @@ private:
 
 } // namespace
 
+std::vector<std::filesystem::path> unlistedFiles() {
+    std::vector<std::filesystem::path> files;
+    try {
+        if (hasLog())
+            for (const archive::StoredObject &object :
+                 TransferLog(TransferLog::fileOfUser()).arrivals())
+                files.push_back(object.path);
+    } catch (const task::Error &) {
+        // The queue reads it, too.
+    }
+    return files;
+}
+
 TransferQueue::TransferQueue(ServerBook &book, StudyLibrary &library, StudyReceiver &receiver,
                              QObject *parent)
     : QObject(parent), m_book(book), m_library(library), m_receiver(receiver) {

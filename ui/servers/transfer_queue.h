@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <vector>
@@ -21,6 +22,10 @@
 #include "ui/servers/study_receiver.h"
 
 namespace pellucid::ui {
+
+/// The files that came into the library's folder and that the library does not list yet; none if
+/// the log of transfers cannot be read, which `TransferQueue` reports.
+std::vector<std::filesystem::path> unlistedFiles();
 
 /// Retrieves studies from servers into the library, one after the other, each over several
 /// connections. The queue is on disk: a program that starts continues what another one left. What

@@ -4,7 +4,7 @@
 namespace pellucid::ui {
 
 Workbench::Workbench(std::optional<EngineChoice> engine)
-    : card(engine), study(card), serverSearch(servers), receiver(servers),
+    : card(engine), study(card), library(unlistedFiles()), serverSearch(servers), receiver(servers),
       transfers(servers, library, receiver), earlier(library, servers),
       measurements(study.document) {
     study.document.addProblems(library.notices());

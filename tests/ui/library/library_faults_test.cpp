@@ -159,6 +159,35 @@ private slots:
         }
     }
 
+    // What the command line retrieves before the first start is no sign of a lost list.
+    void filesThatWaitToBeListedAreNoLostList() {
+        const LibraryPlace at = place("retrieved");
+        std::vector<fs::path> unlisted;
+        const auto retrieve = [&](const std::string &study) {
+            const fs::path series = at.copiesFolder() / study / (study + ".1");
+            fs::create_directories(series);
+            for (const auto &entry : fs::directory_iterator(m_folder / "head")) {
+                fs::copy_file(entry.path(), series / entry.path().filename());
+                unlisted.push_back(series / entry.path().filename());
+            }
+        };
+        retrieve("1.2.3");
+        retrieve("1.2.4");
+        const OpenedLibrary first = openLibrary(at.folder, unlisted);
+        QVERIFY(first.notices.empty());
+        QVERIFY(!first.mayLackCopies);
+        QVERIFY(!fs::exists(at.rebuiltMark()));
+        // One of them has been listed since: then a list is lost.
+        fs::remove(at.listFile());
+        std::erase_if(unlisted, [](const fs::path &file) {
+            return file.string().find("/1.2.4/") != std::string::npos;
+        });
+        const OpenedLibrary later = openLibrary(at.folder, unlisted);
+        QVERIFY(later.mayLackCopies);
+        QCOMPARE(later.notices.size(), std::size_t(1));
+        QVERIFY(later.notices[0].reason.is(task::because::libraryWasEmpty));
+    }
+
     void twoProgramsRebuildOneListOnce() {
         const LibraryPlace at = place("two");
         Library(at).put(many(1500, 20));
