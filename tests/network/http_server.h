@@ -4,24 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <functional>
-#include <future>
 #include <map>
-#include <memory>
 #include <mutex>
-#include <poll.h>
-#include <set>
-#include <stop_token>
 #include <string>
 #include <sys/socket.h>
-#include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
-#include <vector>
+#include <utility>
 
 #include "tests/network/servers.h"
 
@@ -102,39 +91,14 @@ class HttpServer {
 public:
     using Handler = std::function<HttpAnswer(const HttpRequest &)>;
     explicit HttpServer(Handler handler)
-        : m_handler(std::move(handler)), m_socket(listenOn(m_port)),
-          m_acceptor([this](const std::stop_token &stop) { acceptAll(stop); }) {}
-    ~HttpServer() {
-        m_acceptor.request_stop();
-        m_acceptor.join();
-        for (const int client : m_clients)
-            ::shutdown(client, SHUT_RDWR);
-        m_threads.clear();
-        for (const int client : m_clients)
-            ::close(client);
-        ::close(m_socket);
-    }
-    HttpServer(const HttpServer &) = delete;
-    HttpServer &operator=(const HttpServer &) = delete;
-    std::string url() const { return "http://127.0.0.1:" + std::to_string(m_port); }
+        : m_handler(std::move(handler)), m_acceptor([this](int client) { serve(client); }) {}
+    std::string url() const { return "http://127.0.0.1:" + std::to_string(m_acceptor.port()); }
     std::size_t requestCount() {
         const std::lock_guard lock(m_mutex);
         return m_count;
     }
 
 private:
-    void acceptAll(const std::stop_token &stop) {
-        while (!stop.stop_requested()) {
-            pollfd waiting{m_socket, POLLIN, 0};
-            if (::poll(&waiting, 1, 20) <= 0)
-                continue;
-            const int client = ::accept4(m_socket, nullptr, nullptr, SOCK_CLOEXEC);
-            if (client < 0)
-                continue;
-            m_clients.push_back(client); // closed at the end, so that no number is used twice
-            m_threads.emplace_back([this, client] { serve(client); });
-        }
-    }
     void serve(int client) {
         std::string bytes;
         const auto more = [&] {
@@ -190,12 +154,9 @@ private:
     }
 
     Handler m_handler;
-    int m_port = 0, m_socket;
     std::mutex m_mutex; // one request at a time
     std::size_t m_count = 0;
-    std::vector<int> m_clients; // of the acceptor, until it has ended
-    std::vector<std::jthread> m_threads;
-    std::jthread m_acceptor;
+    Acceptor m_acceptor; // last: its threads use the others
 };
 
 } // namespace pellucid::test

@@ -10,7 +10,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <sys/socket.h>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -23,6 +22,7 @@
 #include "core/archive/server.h"
 #include "core/archive/transfer_log.h"
 #include "core/system/log.h"
+#include "tests/network/http_server.h"
 #include "tests/network/pacs.h"
 #include "tests/network/processes.h"
 #include "tests/support/command.h"
@@ -122,43 +122,6 @@ void writeStudy(const fs::path &folder, const Words &words, const std::string &s
     }
 }
 
-// Answers one HTTP request: the login is refused.
-class RefusingWebServer {
-public:
-    RefusingWebServer()
-        : m_listening(listenOn(m_port)), m_thread([this](const std::stop_token &stop) {
-              while (!stop.stop_requested()) {
-                  pollfd waiting{m_listening, POLLIN, 0};
-                  if (::poll(&waiting, 1, 20) <= 0)
-                      continue;
-                  const int client = ::accept4(m_listening, nullptr, nullptr, SOCK_CLOEXEC);
-                  std::array<char, 4096> buffer{};
-                  ssize_t got = 0;
-                  while (m_request.find("\r\n\r\n") == std::string::npos &&
-                         (got = ::recv(client, buffer.data(), buffer.size(), 0)) > 0)
-                      m_request.append(buffer.data(), std::size_t(got));
-                  constexpr std::string_view answer = "HTTP/1.1 401 Unauthorized\r\n"
-                                                      "Content-Length: 0\r\n"
-                                                      "Connection: close\r\n\r\n";
-                  ::send(client, answer.data(), answer.size(), MSG_NOSIGNAL);
-                  ::close(client);
-              }
-          }) {}
-    ~RefusingWebServer() {
-        m_thread.request_stop();
-        m_thread.join();
-        ::close(m_listening);
-    }
-    int port() const { return m_port; }
-    /// What came. *Requires*: the program has got its answer.
-    const std::string &request() const { return m_request; }
-
-private:
-    int m_port = 0, m_listening;
-    std::string m_request;
-    std::jthread m_thread;
-};
-
 } // namespace
 
 TEST_F(Pacs, NeitherPatientsNorSecretsShowOutside) {
@@ -183,9 +146,12 @@ TEST_F(Pacs, NeitherPatientsNorSecretsShowOutside) {
     server.peer.secret = words.password;
     auto list = archive::ServerList::ofUser();
     list.put(server);
-    const RefusingWebServer refusing;
-    archive::Server web{"web", archive::webPeer("http://127.0.0.1:" +
-                                                std::to_string(refusing.port()) + "/dicom-web")};
+    std::string authorization; // as the web server gets it
+    HttpServer refusing([&](const HttpRequest &request) {
+        authorization = request.header("authorization");
+        return HttpAnswer{401, "text/plain", "", ""};
+    });
+    archive::Server web{"web", archive::webPeer(refusing.url() + "/dicom-web")};
     web.peer.authentication = exchange::Authentication::bearer;
     web.peer.secret = words.token;
     list.put(web);
@@ -230,7 +196,8 @@ TEST_F(Pacs, NeitherPatientsNorSecretsShowOutside) {
 
     // All of this was used: the servers got it, and the objects contain it.
     EXPECT_NE(proxy.fromProgram().find(words.password), std::string::npos);
-    EXPECT_NE(refusing.request().find(words.token), std::string::npos);
+    EXPECT_GT(refusing.requestCount(), 0U);
+    EXPECT_NE(authorization.find(words.token), std::string::npos);
     EXPECT_EQ(dataSetsIn(received.folder()), dataSetsIn(sent));
     EXPECT_EQ(dataSetsIn(transfer.folder), dataSetsIn(sent));
     EXPECT_TRUE(words.isIn(readText(filesIn(received.folder()).front())));

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <poll.h>
+#include <stdexcept>
 #include <string>
 #include <sys/socket.h>
-#include <thread>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
-#include "tests/network/servers.h"
+#include "tests/network/acceptor.h"
 #include "tests/support/dicom_writer.h"
 
 /// A DICOM server of the tests, written byte by byte without any library that could correct what it
@@ -317,49 +313,16 @@ private:
     std::map<std::string, std::uint8_t> m_contexts;
 };
 
-/// Listens, and runs a script for each request, in a thread of each association. C-ECHO is
-/// answered.
+/// Runs a script for each request, in a thread of each association. C-ECHO is answered.
 class ScriptedServer {
 public:
     using Script = std::function<void(ScriptedAssociation &, const ScriptedRequest &)>;
     explicit ScriptedServer(Script script, ScriptedAssociation::Results results = {})
-        : m_script(std::move(script)), m_results(std::move(results)), m_socket(listenOn(m_port)),
-          m_acceptor([this](const std::stop_token &stop) { acceptAll(stop); }) {}
-    ~ScriptedServer() {
-        m_acceptor.request_stop();
-        m_acceptor.join();
-        {
-            const std::lock_guard lock(m_mutex);
-            for (const int client : m_clients)
-                ::shutdown(client, SHUT_RDWR);
-        }
-        m_threads.clear();
-        for (const int client : m_clients)
-            ::close(client);
-        ::close(m_socket);
-    }
-    ScriptedServer(const ScriptedServer &) = delete;
-    ScriptedServer &operator=(const ScriptedServer &) = delete;
-    int port() const { return m_port; }
+        : m_script(std::move(script)), m_results(std::move(results)),
+          m_acceptor([this](int client) { serve(client); }) {}
+    int port() const { return m_acceptor.port(); }
 
 private:
-    void acceptAll(const std::stop_token &stop) {
-        while (!stop.stop_requested()) {
-            pollfd waiting{m_socket, POLLIN, 0};
-            if (::poll(&waiting, 1, 20) <= 0)
-                continue;
-            const int client = ::accept4(m_socket, nullptr, nullptr, SOCK_CLOEXEC);
-            if (client < 0)
-                continue;
-            const int on = 1;
-            ::setsockopt(client, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-            {
-                const std::lock_guard lock(m_mutex);
-                m_clients.push_back(client);
-            }
-            m_threads.emplace_back([this, client] { serve(client); });
-        }
-    }
     void serve(int client) const {
         try {
             ScriptedAssociation association(client, m_results);
@@ -372,16 +335,11 @@ private:
         } catch (const ProgramHasGone &) {
         } catch (const std::out_of_range &) { // what the program sent is shorter than it says
         }
-        ::shutdown(client, SHUT_RDWR);
     }
 
     Script m_script;
     ScriptedAssociation::Results m_results;
-    int m_port = 0, m_socket;
-    std::mutex m_mutex;
-    std::vector<int> m_clients; // closed at the end, so that no number is used twice
-    std::vector<std::jthread> m_threads;
-    std::jthread m_acceptor;
+    Acceptor m_acceptor; // last: its threads use the others
 };
 
 } // namespace pellucid::test

@@ -18,31 +18,14 @@
 #include <string>
 #include <sys/socket.h>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
 #include <vector>
 
+#include "tests/network/acceptor.h"
 #include "tests/support/temporary_folder.h"
 
 /// Real servers for tests, and what stands between them and the program.
 namespace pellucid::test {
-
-inline int listenOn(int &port) {
-    const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    const int on = 1;
-    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    sockaddr_in at{};
-    at.sin_family = AF_INET;
-    at.sin_port = htons(std::uint16_t(port));
-    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (::bind(socket, reinterpret_cast<sockaddr *>(&at), sizeof at) != 0 ||
-        ::listen(socket, 64) != 0)
-        throw std::runtime_error("no port");
-    socklen_t size = sizeof at;
-    ::getsockname(socket, reinterpret_cast<sockaddr *>(&at), &size);
-    port = ntohs(at.sin_port);
-    return socket;
-}
 
 inline int connectTo(int port) {
     const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -171,18 +154,9 @@ struct Mischief {
 /// Stands between the program and a server. Thread-safe.
 class Proxy {
 public:
-    explicit Proxy(int serverPort) : m_serverPort(serverPort), m_socket(listenOn(m_port)) {
-        m_acceptor = std::jthread([this](const std::stop_token &stop) { accept(stop); });
-    }
-    ~Proxy() {
-        m_acceptor.request_stop();
-        m_acceptor.join();
-        for (auto &thread : m_threads)
-            thread.request_stop();
-        m_threads.clear();
-        ::close(m_socket);
-    }
-    int port() const { return m_port; }
+    explicit Proxy(int serverPort)
+        : m_serverPort(serverPort), m_acceptor([this](int client) { serve(client); }) {}
+    int port() const { return m_acceptor.port(); }
     /// For connections from now on.
     void set(const Mischief &mischief) {
         const std::lock_guard lock(m_mutex);
@@ -196,32 +170,18 @@ public:
     }
 
 private:
-    void accept(const std::stop_token &stop) {
-        while (!stop.stop_requested()) {
-            pollfd waiting{m_socket, POLLIN, 0};
-            if (::poll(&waiting, 1, 20) <= 0)
-                continue;
-            const int client = ::accept4(m_socket, nullptr, nullptr, SOCK_CLOEXEC);
-            const int server = connectTo(m_serverPort);
-            if (client < 0 || server < 0) {
-                ::close(client);
-                continue;
-            }
-            const int on = 1;
-            ::setsockopt(client, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-            ++m_connections;
-            Mischief mischief;
-            {
-                const std::lock_guard lock(m_mutex);
-                mischief = m_mischief;
-            }
-            m_threads.emplace_back(
-                [this, client, server, mischief](const std::stop_token &stopping) {
-                    pass(client, server, mischief, stopping);
-                    ::close(client);
-                    ::close(server);
-                });
+    void serve(int client) {
+        const int server = connectTo(m_serverPort);
+        if (server < 0)
+            return;
+        ++m_connections;
+        Mischief mischief;
+        {
+            const std::lock_guard lock(m_mutex);
+            mischief = m_mischief;
         }
+        pass(client, server, mischief);
+        ::close(server);
     }
 
     // Bytes on their way, with the moment of their arrival.
@@ -230,7 +190,8 @@ private:
         std::vector<char> bytes;
     };
 
-    void pass(int client, int server, const Mischief &mischief, const std::stop_token &stop) {
+    // Returns when one side has closed the connection.
+    void pass(int client, int server, const Mischief &mischief) {
         using Clock = std::chrono::steady_clock;
         std::array<std::vector<Parcel>, 2> queues; // to the server, to the client
         long fromServer = 0;
@@ -238,7 +199,7 @@ private:
         std::vector<char> buffer(mischief.bytesPerSecond > 0.0 ? 1 << 13 : 1 << 16);
         bool isStalled = false;
         constexpr std::size_t mostWaiting = 4; // then the server has to wait
-        while (!stop.stop_requested()) {
+        for (;;) {
             for (int way = 0; way < 2; ++way)
                 while (!queues[std::size_t(way)].empty() &&
                        queues[std::size_t(way)].front().due <= Clock::now()) {
@@ -304,14 +265,13 @@ private:
         }
     }
 
-    int m_serverPort, m_port = 0, m_socket;
+    int m_serverPort;
     std::mutex m_mutex;
     Mischief m_mischief;
     std::chrono::steady_clock::time_point m_lineIsFree; ///< for the next byte from the server
     std::string m_fromProgram;
     std::atomic<int> m_connections = 0;
-    std::vector<std::jthread> m_threads;
-    std::jthread m_acceptor;
+    Acceptor m_acceptor; // last: its threads use the others
 };
 
 } // namespace pellucid::test
