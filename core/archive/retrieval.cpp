@@ -8,8 +8,10 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "core/archive/listener.h"
 #include "core/archive/login.h"
@@ -179,7 +181,9 @@ private:
     void connect() {
         if (m_link)
             return;
-        m_connection.peer = authenticated(m_server, m_progress, m_refusedToken);
+        m_connection.peer = authenticated(m_server, m_progress,
+                                          m_refusedTokens.empty() ? "" : m_refusedTokens.back());
+        m_receivedBefore = m_work.receivedBefore(m_connection.peer.secret);
         m_link = std::make_unique<exchange::Link>(m_connection, m_progress);
     }
     void take(const Batch &batch) {
@@ -197,7 +201,7 @@ private:
             if (error.code() != ErrorCode::unusable || error.reason().is(because::loginHasExpired))
                 throw;
             if (isTokenRefused(m_server, error) && mayRenew()) {
-                m_refusedToken = m_connection.peer.secret;
+                m_refusedTokens.push_back(m_connection.peer.secret);
                 m_link.reset();
                 m_work.putBack(batch);
                 return;
@@ -215,10 +219,14 @@ private:
                 m_work.failed(batch, error.reason());
         }
     }
-    // A renewed token that is refused before anything has come is refused for good.
-    bool mayRenew() {
-        const std::size_t received = m_work.receivedCount();
-        return std::exchange(m_receivedAtRenewal, received) != received;
+    // A renewed token that is refused before anything has come with it is refused for good. Other
+    // connections count: they may have renewed this token, and used it to its end. So is one that
+    // the login server gives again.
+    bool mayRenew() const {
+        return m_refusedTokens.empty() ||
+               (m_work.receivedCount() > m_receivedBefore &&
+                std::find(m_refusedTokens.begin(), m_refusedTokens.end(),
+                          m_connection.peer.secret) == m_refusedTokens.end());
     }
     void pause(std::chrono::milliseconds duration) const {
         const auto end = Clock::now() + duration;
@@ -234,8 +242,8 @@ private:
     std::unique_ptr<exchange::Link> m_link;
     Objects m_objects;
     exchange::Connection m_connection;
-    std::string m_refusedToken;
-    std::optional<std::size_t> m_receivedAtRenewal;
+    std::vector<std::string> m_refusedTokens; ///< the last one at the end
+    std::size_t m_receivedBefore = 0;         ///< before the token was used
     std::string m_destinationAe;
     bool m_mayMove;
     std::optional<Error> m_failure;

@@ -182,6 +182,11 @@ std::size_t RetrievalWork::receivedCount() {
     return m_state.received;
 }
 
+std::size_t RetrievalWork::receivedBefore(const std::string &token) {
+    const std::lock_guard lock(m_mutex);
+    return m_receivedBefore.try_emplace(token, m_state.received).first->second;
+}
+
 bool RetrievalWork::fillQueueAgain(const std::vector<Instance> &instances) {
     const std::lock_guard lock(m_mutex);
     const bool isRefused = std::any_of(m_reasons.begin(), m_reasons.end(), [](const auto &reason) {

@@ -68,6 +68,8 @@ public:
     void stop(std::exception_ptr failure);
     void rethrow();
     std::size_t receivedCount();
+    /// How many objects had come when a connection was first about to use this access token.
+    std::size_t receivedBefore(const std::string &token);
 
     /// Asks once more for what the server refused. False if it refused nothing.
     bool fillQueueAgain(const std::vector<Instance> &instances);
@@ -90,6 +92,7 @@ private:
     std::size_t m_unwanted = 0;
     int m_refusals = 0;
     std::size_t m_receivedAtRefusal = 0;
+    std::map<std::string, std::size_t> m_receivedBefore; ///< by access token
     bool m_offersNoGet = false;
     std::exception_ptr m_failure;
 };

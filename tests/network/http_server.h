@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <functional>
+#include <future>
 #include <map>
 #include <mutex>
 #include <string>
@@ -34,6 +35,7 @@ struct HttpRequest {
 struct HttpAnswer {
     int status = 200;
     std::string type = "application/json", body, location;
+    std::shared_future<void> after{}; ///< the answer waits for it, and others do not
 };
 
 inline std::string urlDecoded(const std::string &text) {
@@ -127,6 +129,8 @@ private:
                 ++m_count;
                 answer = m_handler(request);
             }
+            if (answer.after.valid())
+                answer.after.wait();
             sendAll(client, "HTTP/1.1 " + std::to_string(answer.status) +
                                 " Answer\r\nContent-Type: " + answer.type +
                                 "\r\nContent-Length: " + std::to_string(answer.body.size()) +

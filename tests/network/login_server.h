@@ -173,6 +173,12 @@ public:
         const std::lock_guard lock(m_mutex);
         m_every = count;
     }
+    // Answers requests for objects, one at a time; nothing: the answer is as usual.
+    using Script = std::function<std::optional<HttpAnswer>(const HttpRequest &)>;
+    void setScript(Script script) {
+        const std::lock_guard lock(m_mutex);
+        m_script = std::move(script);
+    }
     // Sends everyone elsewhere.
     void moveTo(const std::string &url) {
         const std::lock_guard lock(m_mutex);
@@ -202,6 +208,9 @@ private:
         const std::lock_guard lock(m_mutex);
         if (!m_elsewhere.empty())
             return {302, "text/plain", "", m_elsewhere + request.target};
+        if (m_script && request.path().find("/instances/") != std::string::npos)
+            if (const auto scripted = m_script(request))
+                return *scripted;
         if (!m_tokens.accepts(request.header("authorization"))) {
             ++m_refusals;
             return {401, "text/plain", "", ""};
@@ -258,6 +267,7 @@ private:
     Tokens &m_tokens;
     std::mutex m_mutex;
     std::string m_elsewhere;
+    Script m_script;
     int m_every = 0, m_served = 0, m_refusals = 0;
     std::multiset<std::string> m_sent;
     std::set<std::string> m_stored;

@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <poll.h>
 #include <set>
 #include <stop_token>
@@ -66,8 +67,9 @@ protected:
     void SetUp() override {
         m_server = {"Web", archive::webPeer(m_web.url())};
         m_server.peer.authentication = exchange::Authentication::oauth;
-        m_server.peer.connectSeconds = 5.0;
-        m_server.peer.silenceSeconds = 10.0;
+        // No test waits for them: they are for a loaded machine.
+        m_server.peer.connectSeconds = 60.0;
+        m_server.peer.silenceSeconds = 60.0;
         m_server.loginSettings.issuer = m_login.url();
         m_server.loginSettings.clientId = "pellucid";
         m_server.loginSettings.scope = "openid offline_access";
@@ -243,6 +245,42 @@ TEST_F(OAuth, ATokenThatExpiresIsRenewedInTheMiddleAndNothingIsLost) {
     EXPECT_TRUE(sending.notSent.empty()) << sending.notSent.front().reason.english();
     EXPECT_EQ(sending.state.sent, std::size_t(objects));
     EXPECT_EQ(m_web.stored().size(), std::size_t(objects));
+}
+
+// A connection that learns late that its token is refused gets the one that another connection has
+// renewed. The server may have ended that, too, after it has brought objects.
+TEST_F(OAuth, ATokenThatAnotherConnectionHasUsedUpIsRenewed) {
+    logIn();
+    m_server.connections = 2;
+    std::promise<void> late, other;
+    const std::shared_future<void> beforeLate = late.get_future(), beforeOther = other.get_future();
+    const auto refusal = [](const std::shared_future<void> &after) {
+        return HttpAnswer{401, "text/plain", "", "", after};
+    };
+    int withFirst = 0, withSecond = 0;
+    m_web.setScript([&](const HttpRequest &request) -> std::optional<HttpAnswer> {
+        constexpr int objectsOfSecond = 3;
+        const std::string token = request.header("authorization");
+        if (token == "Bearer access-token-1") // the late one waits for its refusal
+            return refusal(++withFirst == 1 ? beforeLate : std::shared_future<void>());
+        if (token != "Bearer access-token-2" || ++withSecond <= objectsOfSecond)
+            return std::nullopt;
+        // The other one has used it up, and waits in turn, so that nothing more comes before the
+        // late one meets the end of this token, too.
+        if (withSecond == objectsOfSecond + 1) {
+            late.set_value();
+            return refusal(beforeOther);
+        }
+        if (withSecond == objectsOfSecond + 2)
+            other.set_value();
+        return refusal({});
+    });
+    const archive::RetrievalReport report = get(m_server, webStudy);
+    m_web.setScript({});
+    EXPECT_TRUE(report.isComplete()) << report.lacking.front().reason.english();
+    EXPECT_EQ(report.state.received, std::size_t(objects));
+    EXPECT_EQ(m_web.sent().size(), std::size_t(objects));
+    EXPECT_EQ(m_tokens.issued(), 3);
 }
 
 // A program that starts has only the refresh token of the keychain.
