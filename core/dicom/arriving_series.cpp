@@ -193,11 +193,12 @@ void ArrivingSeries::showPartial(std::size_t stride, const task::Progress &progr
             numbers.emplace(m_paths[n], n);
             paths.push_back(m_paths[n]);
         }
-    const Catalogue catalogue = scan(paths, progress, {.decoded = &m_decoded});
+    // Most gaps are slices that have yet to come.
+    const Catalogue catalogue =
+        scan(paths, progress, {.decoded = &m_decoded, .slices = Slices::arriving});
     if (catalogue.empty())
         return;
-    // With its holes: most of them are slices that have yet to come.
-    const VolumeEntry &entry = *defaultSelection(catalogue, Holes::fill).volume;
+    const VolumeEntry &entry = *defaultSelection(catalogue).volume;
     std::vector<Slice> slices;
     for (const FrameReference &frame : entry.frames) {
         const auto header = m_decoded.header(frame.path);

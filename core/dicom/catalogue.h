@@ -38,6 +38,10 @@ struct StackGeometry {
     std::vector<double> frameOffsetsMm;
 };
 
+/// `arriving`: others come between the slices that are there. Gaps then mean nothing: a stack is
+/// neither split nor refused because of them, and counts as evenly spaced.
+enum class Slices { all, arriving };
+
 /// Frames that make one volume or, without positions, a set of images.
 struct VolumeEntry {
     /// Distinguishes it from the other volumes of its series; empty if it is the only one.

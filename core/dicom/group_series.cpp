@@ -146,9 +146,9 @@ std::vector<Frames> spacesOf(Frames block, std::vector<task::Reason> &warnings) 
     return {std::move(block)};
 }
 
-VolumeEntry volumeOf(const Part &part) {
+VolumeEntry volumeOf(const Part &part, Slices slices = Slices::all) {
     VolumeEntry entry = entryFrom(part);
-    StackResult stack = stackGeometry(part.frames);
+    StackResult stack = stackGeometry(part.frames, slices);
     if (stack.refusal)
         makeImages(entry, part.frames, *stack.refusal);
     else
@@ -181,7 +181,9 @@ VolumeEntry runOf(const Part &part, std::size_t first, std::size_t end) {
 
 // The volumes of a part: its stack; or, if slices are missing, the runs between the holes, and the
 // whole stack with its holes filled.
-std::vector<VolumeEntry> volumesOf(const Part &part) {
+std::vector<VolumeEntry> volumesOf(const Part &part, Slices slices) {
+    if (slices == Slices::arriving)
+        return {volumeOf(part, slices)};
     const auto runs = runsOf(part.frames);
     if (runs.size() == 1)
         return {volumeOf(part)};
@@ -266,7 +268,8 @@ Frames framesOf(const std::vector<SeriesFile> &files) {
 }
 
 // Adds the stacks of frames whose geometry is known.
-void addVolumes(const Frames &frames, const task::Progress &progress, Stacks &stacks) {
+void addVolumes(const Frames &frames, Slices slices, const task::Progress &progress,
+                Stacks &stacks) {
     for (const Frames &images : blocksOf(frames, sameBlock, progress)) {
         std::vector<task::Reason> warnings;
         for (Frames &block : spacesOf(images, warnings)) {
@@ -278,7 +281,7 @@ void addVolumes(const Frames &frames, const task::Progress &progress, Stacks &st
             std::map<std::pair<std::size_t, bool>, std::size_t> runs;
             for (const Part &part : parts) {
                 progress.check();
-                std::vector<VolumeEntry> volumes = volumesOf(part);
+                std::vector<VolumeEntry> volumes = volumesOf(part, slices);
                 for (std::size_t n = 0; n < volumes.size(); ++n) {
                     VolumeEntry &entry = volumes[n];
                     entry.notes.warnings.insert(entry.notes.warnings.begin(), warnings.begin(),
@@ -334,15 +337,15 @@ std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frame
 }
 
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
-                                     std::vector<Skipped> &skipped,
-                                     const task::Progress &progress) {
+                                     std::vector<Skipped> &skipped, const task::Progress &progress,
+                                     Slices slices) {
     Frames placed, unplaced;
     for (PlacedFrame &frame : framesOf(files))
         (missingGeometry(frame.header) ? unplaced : placed).push_back(std::move(frame));
     dropCopies(placed, skipped);
     dropCopies(unplaced, skipped);
     Stacks stacks;
-    addVolumes(placed, progress, stacks);
+    addVolumes(placed, slices, progress, stacks);
     addImages(unplaced, progress, stacks);
     nameStacks(stacks);
     std::vector<VolumeEntry> entries;

@@ -22,7 +22,8 @@ struct SeriesFile {
 /// orientation become sets of images that contain the reason. *Throws* Cancelled.
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                                      std::vector<Skipped> &skipped,
-                                     const task::Progress &progress = {});
+                                     const task::Progress &progress = {},
+                                     Slices slices = Slices::all);
 
 /// Whether a frame is a picture for planning a scan (scout, topogram), by its ImageType.
 bool isLocalizer(const FrameHeader &frame);

@@ -366,11 +366,11 @@ SeriesSorter sortFiles(const std::vector<fs::path> &paths, std::vector<FileConte
     return sorter;
 }
 
-Series seriesOf(const std::vector<SeriesFile> &files, std::vector<Skipped> &skipped,
+Series seriesOf(const std::vector<SeriesFile> &files, Slices slices, std::vector<Skipped> &skipped,
                 const task::Progress &progress) {
     const InstanceHeader &h = files.front().header;
     Series series{h.seriesUid, h.seriesDescription, h.modality,
-                  h.bodyPart,  h.seriesNumber,      groupSeries(files, skipped, progress),
+                  h.bodyPart,  h.seriesNumber,      groupSeries(files, skipped, progress, slices),
                   {}};
     addFiles(series, files);
     HeadersByPath headers;
@@ -408,7 +408,7 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
         sortFiles(list.found, std::move(contents), catalogue, segmentations);
     Studies studies(catalogue);
     for (const std::vector<SeriesFile> &files : sorter.series()) {
-        Series series = seriesOf(files, catalogue.skipped, progress);
+        Series series = seriesOf(files, options.slices, catalogue.skipped, progress);
         studies.of(files.front().header).series.push_back(std::move(series));
     }
     for (const SeriesFile &file : segmentations) {

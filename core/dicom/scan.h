@@ -19,6 +19,8 @@ struct ScanOptions {
     /// The files are part of what was opened last, such as an archive whose studies are scanned one
     /// by one: the same decoders read them, see `Decoder::beginOpening`.
     bool isSameSource = false;
+    /// Whether the files are all slices of their series.
+    Slices slices = Slices::all;
 };
 
 /// Searches files, folders (recursively, without following links to folders), DICOMDIRs, ZIP

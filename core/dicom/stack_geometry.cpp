@@ -155,7 +155,7 @@ public:
         m_gaps = gapsOf(m_depths);
     }
 
-    void place() {
+    void place(Slices slices) {
         if (m_frames.size() == 1) {
             placeSingle();
             return;
@@ -163,7 +163,9 @@ public:
         m_result.refusal = findAxis();
         if (m_result.refusal)
             return;
-        if (auto grid = evenGrid(m_depths, m_gaps))
+        if (slices == Slices::arriving)
+            placeSlices(0.0, m_depths.back() / double(m_gaps.size()), long(m_frames.size()));
+        else if (auto grid = evenGrid(m_depths, m_gaps))
             placeOnGrid(std::move(*grid));
         else if (const auto line = anchoredLine(m_depths))
             resampleOnto(*line);
@@ -296,12 +298,12 @@ bool isStackWarning(const task::Reason &warning) {
            warning.is(because::orientationsDiffer) || warning.is(because::pixelSpacingsDiffer);
 }
 
-StackResult stackGeometry(const std::vector<PlacedFrame> &frames) {
+StackResult stackGeometry(const std::vector<PlacedFrame> &frames, Slices slices) {
     StackResult result;
     try {
         const Plane plane = meanPlane(frames);
         result.warnings = jitterWarnings(frames, plane);
-        StackPlacement(frames, plane, result).place();
+        StackPlacement(frames, plane, result).place(slices);
     } catch (const task::Error &error) {
         result.refusal = error.reason();
     }

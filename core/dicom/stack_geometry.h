@@ -58,7 +58,7 @@ std::vector<std::pair<std::size_t, std::size_t>> runsOf(const std::vector<Placed
 /// least squares. Missing slices are interpolated linearly. Uneven stacks are resampled to the
 /// smallest gap that occurs more than once, on a grid through the longest run of such gaps, with a
 /// warning that names the files where the distance changes.
-StackResult stackGeometry(const std::vector<PlacedFrame> &frames);
+StackResult stackGeometry(const std::vector<PlacedFrame> &frames, Slices slices = Slices::all);
 
 /// Whether a warning comes from `stackGeometry`.
 bool isStackWarning(const task::Reason &warning);

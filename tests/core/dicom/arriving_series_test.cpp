@@ -5,7 +5,9 @@
 #include <chrono>
 #include <condition_variable>
 #include <fstream>
+#include <future>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include <glm/geometric.hpp>
@@ -179,6 +181,45 @@ TEST(ArrivingSeries, PartsAreInPlaceAndBecomeFiner) {
                          : 0;
         EXPECT_GE(means, slices / 2 - 4);
     }
+}
+
+// Several connections bring slices in any order. Whatever gaps the first ones leave, they are shown
+// in the box of the whole.
+TEST(ArrivingSeries, TheGapsOfTheFirstSlicesMeanNothing) {
+    const test::TemporaryFolder folder;
+    const auto files = filesOfSeries(folder / "series", unevenValues());
+    const auto catalogue = dicom::scan({folder / "series"});
+    const volume::Lattice whole = dicom::defaultSelection(catalogue).volume->geometry.lattice;
+    // Two gaps without a common step; two runs; a run beside a single slice.
+    const std::vector<std::vector<std::size_t>> bursts{
+        {0, 64, 62}, {0, 64, 62, 8}, {0, 64, 48, 56}};
+    for (const bool isReversed : {false, true})
+        for (const std::vector<std::size_t> &burst : bursts) {
+            SCOPED_TRACE(testing::PrintToString(burst) + (isReversed ? ", reversed" : ""));
+            std::vector<fs::path> listed = files;
+            if (isReversed) // numbers may run against the positions
+                std::reverse(listed.begin(), listed.end());
+            ArrivingSeries series(listed.size());
+            for (const std::size_t n : burst)
+                series.add(n, listed[n]);
+            std::optional<PartialVolume> first;
+            std::promise<void> isShown;
+            const std::future<void> shown = isShown.get_future();
+            std::jthread sender([&] {
+                shown.wait_for(std::chrono::seconds(60)); // a loaded machine
+                for (std::size_t n = 0; n < listed.size(); ++n)
+                    series.add(n, listed[n]);
+            });
+            (void)series.load({}, [&](const PartialVolume &part, const task::Progress &) {
+                if (first)
+                    return;
+                first.emplace(part);
+                isShown.set_value();
+            });
+            ASSERT_TRUE(first.has_value());
+            EXPECT_EQ(first->slices, burst.size());
+            EXPECT_TRUE(first->volume.lattice().fillsSameBox(whole));
+        }
 }
 
 TEST(ArrivingSeries, WhatDoesNotComeOrCannotBeReadLacks) {
