@@ -52,6 +52,9 @@ archive::SearchTerms termsFrom(const std::vector<std::string> &texts) {
                         because::inWords("--find: '" + text +
                                          "' is not TERM=VALUE with one of the terms name, id, "
                                          "date, modality, study, series and accession"));
+        if (!known->second->empty())
+            throw Error(ErrorCode::usage, because::inWords("--find: '" + text.substr(0, equals) +
+                                                           "' is given twice"));
         *known->second = text.substr(equals + 1);
     }
     if (!terms.seriesUid.empty()) { // of one study, as servers need it

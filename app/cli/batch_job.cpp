@@ -139,7 +139,7 @@ private:
                                     englishTexts(m_volume->notes().warnings)};
         for (const std::string &warning : renderer.warnings())
             made.warnings.push_back(warning);
-        m_labels.warnings = made.warnings; // without names of files
+        m_labels.warnings = made.warnings;
         std::vector<Named> unused;
         for (const dicom::Skipped &skipped : m_study.catalogue.skipped)
             unused.push_back(
@@ -155,6 +155,7 @@ private:
         const std::vector<scene::Camera> cameras =
             batch::camerasOf(output, scene, m_volume->lattice());
         scene.camera = cameras.front();
+        renderer.requireRoomFor(scene.camera);
         const std::vector<std::string> files = batch::filesOf(output);
         beginFile(output, scene, files.front(), cameras.size(), isGrey);
         for (std::size_t view = 0; view < cameras.size(); ++view) {
@@ -162,28 +163,31 @@ private:
             const picture::ProjectionImage image = renderer.image(scene.camera);
             made.predictedError =
                 std::max(made.predictedError, renderer.renderer().lastViewError());
+            if (const std::string missed = renderer.warningOfView(); !missed.empty())
+                m_labels.warnings.push_back(missed), made.warnings.push_back(missed);
             add(output, scene, image, files[files.size() > 1 ? view : 0], int(view),
                 renderer.renderer().lastViewError());
         }
         endFile(output, scene, files.front(), made.predictedError);
-        if (const std::string missed = renderer.warningOfViews(); !missed.empty())
-            made.warnings.push_back(missed);
         return made;
     }
 
     dicom::CaptureLabels labelsFor(const Output &output, int view, double predictedError) const {
         dicom::CaptureLabels labels =
             output.isDeidentified ? dicom::deidentified(m_labels) : m_labels;
-        // Another version may make other pixels, which need other UIDs.
-        const std::string of = fmt::format("{} {} {} {}", PELLUCID_VERSION, m_recipe.digest,
-                                           m_images, m_study.study.uid);
+        // Another version may make other pixels, which need other UIDs, and so do other warnings:
+        // some name files.
+        std::string of = fmt::format("{} {} {} {}", PELLUCID_VERSION, m_recipe.digest, m_images,
+                                     m_study.study.uid);
+        for (const std::string &warning : labels.warnings)
+            of += "\n" + warning;
         labels.seriesUid = batch::derivedUid(fmt::format("series {} {}", of, output.name));
         labels.instanceUid =
             batch::derivedUid(fmt::format("instance {} {} {}", view, of, output.name));
         if (output.isDeidentified)
             labels.studyUid = batch::derivedUid("study " + of);
         labels.isDated = false;
-        labels.derivation += fmt::format(", predicted error {:.2g} (relative L2)", predictedError);
+        labels.derivation = derivationText(predictedError);
         labels.seriesDescription = output.name;
         labels.instanceNumber = view + 1;
         return labels;
@@ -285,15 +289,17 @@ private:
 DoneRecord renderStudy(const batch::Recipe &recipe, const StudyToRender &study,
                        const fs::path &folder, batch::MemoryShares &memory, const CardChoice &card,
                        const Context &context) {
-    StudyRun run(study, recipe, folder, memory, 0, card, context);
-    try {
-        return run.run();
-    } catch (const Error &error) {
-        if (error.code() != ErrorCode::outOfMemory || run.memoryBytes() >= memory.bytes())
-            throw;
-    }
+    {
+        StudyRun run(study, recipe, folder, memory, 0, card, context);
+        try {
+            return run.run();
+        } catch (const Error &error) {
+            if (error.code() != ErrorCode::outOfMemory || run.memoryBytes() >= memory.bytes())
+                throw;
+        }
+    } // what it was writing goes
     for (const fs::directory_entry &made : fs::directory_iterator(folder))
-        fs::remove(made.path());
+        fs::remove_all(made.path());
     return StudyRun(study, recipe, folder, memory, memory.bytes(), card, context).run();
 }
 

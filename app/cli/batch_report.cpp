@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "app/cli/json_text.h"
 #include "app/cli/terminal.h"
@@ -44,21 +45,17 @@ void BatchReport::finished(const std::string &key, const batch::DoneRecord &reco
     const std::lock_guard lock(m_mutex);
     ++m_done;
     double error = 0.0;
-    std::vector<std::string> told; // what concerns all outputs, once
+    std::vector<std::string> reported; // what concerns all outputs, once
     for (const batch::DoneRecord::MadeOutput &output : record.outputs) {
         error = std::max(error, output.predictedError);
         for (const std::string &warning : output.warnings)
-            if (std::find(told.begin(), told.end(), warning) == told.end()) {
-                told.push_back(warning);
+            if (std::find(reported.begin(), reported.end(), warning) == reported.end()) {
+                reported.push_back(warning);
                 warn(key + ": " + output.name + ": " + warning);
             }
     }
     if (m_isJson) {
-        m_finished.push_back({{"study", key},
-                              {"series", record.seriesUid},
-                              {"predicted_error", error},
-                              {"warnings", told},
-                              {"seconds", seconds}});
+        m_finished.push_back({key, record.seriesUid, error, seconds, std::move(reported)});
         return;
     }
     std::puts(printable(fmt::format("{} of {}: {}: outputs: {}; {:.2f} s, error at most {:.2g}",
@@ -93,14 +90,20 @@ void BatchReport::print(const std::string &recipe, double seconds) {
               [](const Failure &a, const Failure &b) { return a.key < b.key; });
     std::sort(m_passedOver.begin(), m_passedOver.end());
     std::sort(m_finished.begin(), m_finished.end(),
-              [](const json &a, const json &b) { return a["study"] < b["study"]; });
+              [](const Finished &a, const Finished &b) { return a.key < b.key; });
     if (m_isJson) {
-        json failures = json::array();
+        json finished = json::array(), failures = json::array();
+        for (const Finished &study : m_finished)
+            finished.push_back({{"study", study.key},
+                                {"series", study.seriesUid},
+                                {"predicted_error", study.predictedError},
+                                {"warnings", study.warnings},
+                                {"seconds", study.seconds}});
         for (const Failure &failure : m_failures)
             failures.push_back({{"study", failure.key}, {"reason", failure.reason}});
         std::puts(jsonText({{"studies", m_studies},
                             {"done", m_done},
-                            {"finished", m_finished},
+                            {"finished", finished},
                             {"skipped", m_doneBefore},
                             {"failed", failures},
                             {"without_such_a_series", m_passedOver},

@@ -6,21 +6,19 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "core/batch/done_record.h"
 #include "core/dicom/catalogue.h"
 
 namespace pellucid::cli {
 
-/// What becomes of the studies of a batch, told while it happens and summed up at its end.
-/// Thread-safe, but for `begin` and what comes after the work.
+/// Reports each study of a batch as it ends, and sums up at the end. Thread-safe, except `begin`,
+/// `print` and `requireAllDone`.
 class BatchReport {
 public:
     /// As one JSON object at the end, or a line for each study.
     explicit BatchReport(bool isJson) : m_isJson(isJson) {}
 
-    /// `damaged`: files that count as failures; `unused`: others that are no images.
+    /// `damaged`: files that count as failures; `unused`: intact files that are not images.
     void begin(std::size_t studies, std::vector<dicom::Skipped> damaged,
                std::vector<dicom::Skipped> unused);
 
@@ -39,6 +37,11 @@ private:
     struct Failure {
         std::string key, reason;
     };
+    struct Finished {
+        std::string key, seriesUid;
+        double predictedError = 0.0, seconds = 0.0;
+        std::vector<std::string> warnings;
+    };
 
     bool m_isJson;
     std::size_t m_studies = 0;
@@ -47,7 +50,7 @@ private:
     std::size_t m_done = 0, m_doneBefore = 0;
     std::vector<Failure> m_failures;
     std::vector<std::string> m_passedOver;
-    nlohmann::json m_finished = nlohmann::json::array(); ///< for the JSON object
+    std::vector<Finished> m_finished; ///< for the JSON object
 };
 
 } // namespace pellucid::cli

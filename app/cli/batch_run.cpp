@@ -100,9 +100,9 @@ public:
         m_items = m_source->list();
         const bool isEmpty = m_items.empty(); // a part of a batch may have nothing to do
         std::erase_if(m_items, [&](const BatchItem &item) { return !isOfShard(item.key); });
-        sortUnused();
+        beginReport();
         if (isEmpty)
-            requireServer();
+            reportNoStudies();
         renderAll();
         m_report.print(m_recipe.digest, watch.lapMs() / 1000.0);
         if (m_fatal)
@@ -206,6 +206,7 @@ private:
                 return;
             }
         }
+        batch::requireReplaceable(m_out / item.key); // before anything is retrieved
         m_source->open(item, [&](const StudyToRender &study) {
             batch::StudyResults results(m_out, item.key);
             DoneRecord record =
@@ -236,7 +237,7 @@ private:
 
     // Damaged files count as failures, because a study may consist of them. Which one is not known:
     // each part of a batch counts its share.
-    void sortUnused() {
+    void beginReport() {
         std::vector<Named> named;
         std::vector<dicom::Skipped> damaged, unused;
         for (const dicom::Skipped &skipped : m_source->skipped()) {
@@ -264,10 +265,12 @@ private:
         return batch::shardOf(key, m_options.shard.count) == m_options.shard.index;
     }
 
-    // On a server, a night may have brought nothing.
-    void requireServer() const {
+    // A nightly query may match nothing, but a study that is named must be there.
+    void reportNoStudies() const {
         if (m_options.from.empty())
             throw Error(ErrorCode::unusable, because::holdsNoUsableImages, m_options.paths.front());
+        if (!m_options.terms.studyUid.empty() || !m_options.terms.accession.empty())
+            throw Error(ErrorCode::unusable, because::noStudyMatches, m_options.from);
         warn(m_options.from + ": " + task::Reason(because::noStudyMatches).english());
     }
 

@@ -27,8 +27,9 @@ struct BatchOptions {
 };
 
 /// Renders the studies by the recipe, and prints what was done. *Throws* Error{usage},
-/// Error{unusable} if there is no study; Error{incomplete} if some failed or files are damaged;
-/// Error{output}, Error{unreachable} for the servers; Cancelled.
+/// Error{unusable} if the paths contain no study, or the server has not the one that is named;
+/// Error{incomplete} if some failed or files are damaged; Error{output}, Error{unreachable} for the
+/// servers; Cancelled.
 void runBatch(const BatchOptions &options, const Context &context);
 
 } // namespace pellucid::cli

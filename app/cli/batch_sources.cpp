@@ -37,9 +37,9 @@ std::string safeName(const std::string &text) {
 
 // The key of a file without a study. Files in other folders may have the same name.
 std::string keyOf(const fs::path &file) {
-    constexpr std::size_t digits = 8;
+    constexpr std::size_t digits = 8, maxBytes = 200; // a folder's name may have 255
     const std::string path = dicom::resolved(file).string();
-    return safeName(file.filename().string()) + "-" +
+    return safeName(file.filename().string()).substr(0, maxBytes) + "-" +
            system::contentDigest(std::as_bytes(std::span(path))).substr(0, digits);
 }
 
@@ -84,7 +84,8 @@ public:
         for (std::size_t n = 0; n < m_index.studies.size(); ++n) {
             const dicom::IndexedStudy &study = m_index.studies[n];
             items.push_back(
-                {exchange::isUid(study.uid) ? study.uid : keyOf(study.files.front()), n});
+                {exchange::isUid(study.uid) ? study.uid : keyOf(m_names.named(study.files.front())),
+                 n});
         }
         std::stable_sort(items.begin(), items.end(),
                          [](const BatchItem &a, const BatchItem &b) { return a.key < b.key; });
@@ -109,7 +110,12 @@ public:
         const dicom::Study &study = studyOf(catalogue, indexed.uid, patient);
         use({catalogue, *patient, study, digestOf(item)});
     }
-    std::vector<dicom::Skipped> skipped() const override { return m_index.skipped; }
+    std::vector<dicom::Skipped> skipped() const override {
+        std::vector<dicom::Skipped> skipped = m_index.skipped;
+        for (dicom::Skipped &one : skipped)
+            one.path = m_names.named(one.path);
+        return skipped;
+    }
 
 private:
     // They would be inputs of the next run.

@@ -80,6 +80,11 @@ void writeImage(const fs::path &path, const picture::ProjectionImage &image,
     }
 }
 
+std::string derivationText(double predictedError) {
+    return fmt::format("{}, predicted error {:.2g} (relative L2)",
+                       dicom::CaptureLabels().derivation, predictedError);
+}
+
 fs::path framePath(const fs::path &out, int frame) {
     return out.parent_path() /
            fmt::format("{}_{:04d}{}", out.stem().string(), frame, out.extension().string());

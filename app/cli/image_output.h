@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -25,6 +26,9 @@ bool isDisplayed(const std::filesystem::path &out);
 void writeImage(const std::filesystem::path &path, const picture::ProjectionImage &image,
                 const scene::Scene &scene, const volume::Lattice &patient,
                 const dicom::CaptureLabels &labels);
+
+/// How a picture was derived, for its Derivation Description. `predictedError`: relative L2.
+std::string derivationText(double predictedError);
 
 /// OUT_0007.png for frame 7.
 std::filesystem::path framePath(const std::filesystem::path &out, int frame);

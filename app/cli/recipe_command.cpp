@@ -27,8 +27,7 @@ void addRecipeCommand(CLI::App &app, const Context &) {
         const batch::Recipe recipe = batch::readRecipe(*file);
         for (const batch::Output &output : recipe.outputs)
             if (output.format == batch::Format::video && !files::VideoFile::isAvailable())
-                warn(output.name + ": " +
-                     task::Reason(because::videosNeedFfmpeg).english()); // on this machine
+                warn(output.name + ": " + task::Reason(because::videosNeedFfmpeg).english());
         std::puts(printable(*file + " is a recipe").c_str());
     });
     CLI::App *explain = c->add_subcommand("explain", "Say what a recipe makes, a line each");

@@ -58,7 +58,7 @@ public:
                              shadingFor(m_options.scene, m_command, m_preset).isGrey());
         if (m_options.fit == "body" && hasSize() && m_command.count("--pixel-mm") > 0)
             throw Error(ErrorCode::usage,
-                        because::inWords("--fit: cannot be met with a size and --pixel-mm"));
+                        because::inWords("--fit: leave out --pixel-mm: the size is given"));
         if (!m_options.views.empty())
             readViews(out);
         m_card = chooseCard(m_options.engine, frames());
@@ -147,6 +147,8 @@ private:
     }
 
     void prepare() {
+        if (m_options.fit == "body")
+            m_scene.tone.exposure.reset(); // the scene may be of another study
         const bool isGiven = m_command.count("--memory") > 0;
         m_renderer.emplace(
             m_scene, Subject{volume(), m_segments, m_options.input.path},
@@ -177,6 +179,7 @@ private:
             task::Progress(m_context.stop).check();
             Stopwatch watch;
             labels.instanceNumber = frame + 1;
+            labels.derivation = derivationText(m_renderer->renderer().lastViewError());
             const fs::path &file = m_outs[std::size_t(frame)];
             writeImage(turn ? turn->aside(file) : file, image, turned, volume().lattice(), labels);
             m_writeMs += watch.lapMs();
@@ -189,8 +192,7 @@ private:
         for (int frame = 0; frame < frames(); ++frame) {
             scene::Camera &camera = m_cameras.emplace_back(m_scene.camera);
             camera.orientation =
-                glm::angleAxis(glm::radians(360.0 * frame / frames()), glm::dvec3(0, 0, 1)) *
-                m_scene.camera.orientation;
+                scene::turnedAboutLongAxis(camera.orientation, 360.0 * frame / frames());
         }
         if (m_options.fit != "body")
             return;
@@ -358,9 +360,10 @@ void addRenderCommand(CLI::App &app, const Context &context) {
              "C-arm; writes one array (.npy), and the geometry of each view beside it (.json)")
             ->check(notEmpty())
             ->excludes(turntable);
-    c->add_option("--fit", o->fit,
-                  "What the picture has room for: 'volume', the whole volume from every side "
-                  "(default), or 'body', the body from these views")
+    c->add_option(
+         "--fit", o->fit,
+         "What fills the picture: 'volume', the whole volume from every side (default), or "
+         "'body', the body from its views")
         ->check(CLI::IsMember({"volume", "body"}))
         ->excludes(matrix);
     c->add_flag("--deidentify", o->isDeidentified,

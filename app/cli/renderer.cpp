@@ -45,6 +45,14 @@ double exactError(const scene::Scene &scene, const std::vector<plan::FieldSummar
     return composition.errorFactor() * worst;
 }
 
+void requireWithin(std::size_t needed, std::size_t limit) {
+    if (needed > limit)
+        throw task::Error(
+            task::ErrorCode::outOfMemory,
+            task::because::inWords(fmt::format("the pictures need {} MB, but only {} MB are left",
+                                               (needed >> 20) + 1, limit >> 20)));
+}
+
 } // namespace
 
 CardChoice chooseCard(const std::string &engine, int frames) {
@@ -81,6 +89,7 @@ Renderer::Renderer(const scene::Scene &scene, Sources sources, const plan::Budge
     : m_scene(scene), m_progress(context.stop),
       m_images(std::size_t(
           prepare::compositionOf(sources.fields.channels.size(), scene.shading).images)),
+      m_limit(limit),
       m_fitting(prepare::planWithin(
           scene::planningScene(scene, sources.shaded.fields.front().values.lattice()),
           sources.shaded, sources.summaries, budget, m_progress)),
@@ -92,15 +101,23 @@ Renderer::Renderer(const scene::Scene &scene, Sources sources, const plan::Budge
     const bool mustPlan = !scene.interpolation.isPlanned() ||
                           scene.plannedFor == scene::PlannedFor::volume || m_fitting.reduction > 1;
     const bool isPlanned = isMet || mustPlan || exactBytes > budget.bytes;
-    if (const std::size_t needed = isPlanned ? m_fitting.plan.bytes : exactBytes; needed > limit)
-        throw task::Error(
-            task::ErrorCode::outOfMemory,
-            task::because::inWords(fmt::format("the pictures need {} MB, but only {} MB are left",
-                                               (needed >> 20) + 1, limit >> 20)));
+    requireWithin(isPlanned ? m_fitting.plan.bytes : exactBytes, limit);
     if (isPlanned)
         preparePlanned(std::move(sources));
     else
         prepareExact(std::move(sources), exactBytes);
+}
+
+void Renderer::requireRoomFor(const scene::Camera &camera) const {
+    if (isExact())
+        return; // it needs the same for every camera of this size
+    const auto framesOf = [&](const scene::Camera &one) {
+        return plan::frameBytes(
+            plan::sliceGrid(one, m_fitting.plan.fieldOfView, m_lattice, m_scene.image), one,
+            int(m_images));
+    };
+    requireWithin(m_bytes - std::min(m_bytes, framesOf(m_scene.camera)) + framesOf(camera),
+                  m_limit);
 }
 
 Renderer::Sources Renderer::sourcesOf(const scene::Scene &scene, classify::ShownFields fields,

@@ -50,6 +50,10 @@ public:
     /// Bytes of the spectra on the card; 0 without a card.
     std::size_t cardBytes() const { return m_card ? m_card->textures().bytes() : 0; }
 
+    /// *Throws* Error{outOfMemory} if the pictures of a camera need more than the limit, although
+    /// those of the scene's camera do not.
+    void requireRoomFor(const scene::Camera &camera) const;
+
     /// `times` receives the times of this image, all channels together.
     picture::ProjectionImage image(const scene::Camera &camera, picture::FrameTimes &times);
 
@@ -101,7 +105,7 @@ private:
 
     const scene::Scene &m_scene;
     task::Progress m_progress;
-    std::size_t m_images, m_bytes = 0;
+    std::size_t m_images, m_bytes = 0, m_limit;
     prepare::FittingPlan m_fitting;
     volume::Lattice m_lattice; ///< of the rendered fields
     double m_predictedError = 0.0;

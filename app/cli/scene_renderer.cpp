@@ -42,7 +42,7 @@ void SceneRenderer::makeFields(const MemoryLimit &memory) {
                                          (m_held >> 20) + 1, *m_given >> 20)),
             m_subject.path);
     m_fields = fieldsFor(m_scene, volume, m_subject.segments, m_context);
-    m_whyEmpty = whyEmpty(m_scene, volume, m_fields);
+    m_whyEmpty = cli::whyEmpty(m_scene, volume, m_fields);
     if (!memory.decides) {
         m_budget.bytes = std::numeric_limits<std::size_t>::max();
         m_limit = std::size_t(*memory.bytes - std::min<std::uint64_t>(*memory.bytes, m_held));
@@ -125,18 +125,26 @@ std::vector<std::string> SceneRenderer::warnings() const {
     return warnings;
 }
 
+std::string SceneRenderer::warningOfView() const {
+    return missedText(m_renderer->lastViewError(), m_renderer->wasWhole());
+}
+
 std::string SceneRenderer::warningOfViews() const {
+    return missedText(m_viewError, m_isWhole);
+}
+
+std::string SceneRenderer::missedText(double error, std::optional<bool> isWhole) const {
     const bool isMissed =
-        m_viewError > m_scene.tolerance && m_renderer->predictedError() <= m_scene.tolerance;
+        error > m_scene.tolerance && m_renderer->predictedError() <= m_scene.tolerance;
     if (!isMissed)
         return {};
-    return m_isWhole == false
+    return isWhole == false
                ? fmt::format("the tolerance of {:.2g} is met for the whole volume, but {:.2g} is "
                              "predicted for this part",
-                             m_scene.tolerance, m_viewError)
+                             m_scene.tolerance, error)
                : fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted for this "
                              "picture",
-                             m_scene.tolerance, m_viewError);
+                             m_scene.tolerance, error);
 }
 
 void SceneRenderer::takeErrors() {

@@ -46,6 +46,8 @@ public:
     SceneRenderer(const SceneRenderer &) = delete; // the renderer refers to the planned scene
     SceneRenderer &operator=(const SceneRenderer &) = delete;
 
+    /// *Throws* as `Renderer::requireRoomFor`.
+    void requireRoomFor(const scene::Camera &camera) const { m_renderer->requireRoomFor(camera); }
     /// *Throws* Error{outOfMemory}, Cancelled.
     picture::ProjectionImage image(const scene::Camera &camera);
     /// The scene's own exposure or, measured once, that of the study.
@@ -57,6 +59,8 @@ public:
     std::vector<std::string> warnings() const;
     /// Why the pictures show nothing; empty if they do. One of the warnings.
     const std::string &whyEmpty() const { return m_whyEmpty; }
+    /// A warning about the last picture; empty if it keeps the tolerance.
+    std::string warningOfView() const;
     /// A warning about the pictures so far; empty if they keep the tolerance.
     std::string warningOfViews() const;
 
@@ -76,6 +80,7 @@ private:
     void prepare();
     bool mayPlanCloser() const;
     void takeErrors();
+    std::string missedText(double error, std::optional<bool> isWhole) const;
 
     scene::Scene m_scene;
     scene::Scene m_planned; ///< with a smaller tolerance, if a part of the volume needs one

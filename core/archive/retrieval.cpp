@@ -30,8 +30,8 @@ using task::Error;
 using task::ErrorCode;
 using Clock = std::chrono::steady_clock;
 
+constexpr std::size_t firstSlices = 2; // at both ends
 // Connections that are lost one after the other, without any object between.
-constexpr std::size_t firstShown = 2; // the slices at both ends
 constexpr int maxFailures = 3, maxRefusals = 3;
 constexpr std::chrono::milliseconds pauses[maxFailures]{std::chrono::milliseconds(300),
                                                         std::chrono::milliseconds(1500),
@@ -85,7 +85,7 @@ public:
         if (server.retrieve == RetrieveMethod::move ||
             server.peer.protocol != exchange::Protocol::dicom)
             return;
-        for (int n = 0; n < std::min(int(firstShown), server.connections - 1); ++n) // one lists
+        for (int n = 0; n < std::min(int(firstSlices), server.connections - 1); ++n) // one lists
             m_links.push_back(std::async(std::launch::async, [&server, &progress] {
                 return std::make_unique<exchange::Link>(
                     exchange::Connection{server.peer, Purpose::get}, progress);
@@ -128,11 +128,11 @@ public:
           m_destinationAe(std::move(destinationAe)),
           m_mayMove(purpose == Purpose::get && server.retrieve == RetrieveMethod::automatic) {}
 
-    /// `awaited`: objects that come before this connection asks for any.
+    /// `awaited`: the objects that come first. Later connections wait for them, so that the first
+    /// slices get the whole bandwidth.
     void run(std::size_t awaited) {
         try {
-            if (awaited > 0)
-                connectAndAwait(awaited);
+            m_work.awaitReceived(awaited);
             takeAll();
         } catch (...) {
             m_work.stop(std::current_exception());
@@ -169,14 +169,6 @@ private:
                 pause(pauses[failures]);
             }
         }
-    }
-    // The line is free for the objects that are shown first.
-    void connectAndAwait(std::size_t objects) {
-        try {
-            connect();
-        } catch (const Error &) { // tried again with a batch
-        }
-        m_work.awaitReceived(objects);
     }
     void connect() {
         if (m_link)
@@ -219,9 +211,8 @@ private:
                 m_work.failed(batch, error.reason());
         }
     }
-    // A renewed token that is refused before anything has come with it is refused for good. Other
-    // connections count: they may have renewed this token, and used it to its end. So is one that
-    // the login server gives again.
+    // A renewed token is refused for good if nothing has come with it since any connection first
+    // used it, or if the login server issues it again.
     bool mayRenew() const {
         return m_refusedTokens.empty() ||
                (m_work.receivedCount() > m_receivedBefore &&
@@ -255,7 +246,7 @@ void runWorkers(const Server &server, Purpose purpose, const std::vector<std::st
                 const std::vector<std::string> &syntaxes, const std::string &destinationAe,
                 EarlyLinks *early, RetrievalWork &work, const task::Progress &progress) {
     // A connection costs round trips, which a few objects do not repay.
-    const std::size_t useful = (work.missing() + minOfABatch - 1) / minOfABatch;
+    const std::size_t useful = (work.missing() + firstBatchSize - 1) / firstBatchSize;
     const std::size_t count = std::min<std::size_t>(useful, std::size_t(server.connections));
     std::vector<std::unique_ptr<Worker>> workers;
     for (std::size_t n = 0; n < count; ++n)
@@ -266,7 +257,7 @@ void runWorkers(const Server &server, Purpose purpose, const std::vector<std::st
         std::vector<std::jthread> threads;
         for (std::size_t n = 1; n < workers.size(); ++n)
             threads.emplace_back(
-                [n, worker = workers[n].get()] { worker->run(n < firstShown ? 0 : firstShown); });
+                [n, worker = workers[n].get()] { worker->run(n < firstSlices ? 0 : firstSlices); });
         if (!workers.empty())
             workers.front()->run(0);
     }

@@ -15,8 +15,8 @@ namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
-constexpr std::size_t mostOfABatch = 32;
-constexpr std::size_t mostUnwanted = 1000; // objects
+constexpr std::size_t maxBatchSize = 32;
+constexpr std::size_t maxUnwanted = 1000; // objects
 
 } // namespace
 
@@ -74,7 +74,7 @@ std::optional<ObjectFolder::Place> RetrievalWork::placeOf(const std::string &uid
     const auto missing = m_missing.find(uid);
     if (missing != m_missing.end())
         return ObjectFolder::Place{missing->second.studyUid, missing->second.seriesUid};
-    if (++m_unwanted > mostUnwanted + m_state.wanted)
+    if (++m_unwanted > maxUnwanted + m_state.wanted)
         throw Error(ErrorCode::unusable, because::serverSendsTooMuch);
     return std::nullopt;
 }
@@ -163,12 +163,14 @@ void RetrievalWork::refuseAll(const Batch &batch, const task::Reason &reason) {
 void RetrievalWork::offersNoGet() {
     const std::lock_guard lock(m_mutex);
     m_offersNoGet = true;
+    m_received.notify_all();
 }
 
 void RetrievalWork::stop(std::exception_ptr failure) {
     const std::lock_guard lock(m_mutex);
     if (!m_failure)
         m_failure = std::move(failure);
+    m_received.notify_all();
 }
 
 void RetrievalWork::rethrow() {
@@ -218,7 +220,7 @@ void RetrievalWork::fillQueue(const std::vector<Instance> &instances) {
         while (end < instances.size() && instances[end].seriesUid == instances[begin].seriesUid)
             ++end;
         const std::size_t count = end - begin;
-        const std::size_t largest = std::clamp(count / 16, minOfABatch, mostOfABatch);
+        const std::size_t largest = std::clamp(count / 16, firstBatchSize, maxBatchSize);
         // Dealt out among the connections: together they bring coarse slices before fine ones.
         const Batch empty{instances[begin].studyUid, instances[begin].seriesUid, {}};
         std::vector<Batch> hands(m_connections, empty);
@@ -235,7 +237,7 @@ void RetrievalWork::fillQueue(const std::vector<Instance> &instances) {
                 continue;
             hands[dealt++ % hands.size()].uids.push_back(uid);
             // Small ones first: what is shown is coarse at first, and must not wait.
-            const std::size_t size = ++taken <= count / 8 + 2 ? minOfABatch : largest;
+            const std::size_t size = ++taken <= count / 8 + 2 ? firstBatchSize : largest;
             if (dealt >= size * hands.size())
                 flush();
         }

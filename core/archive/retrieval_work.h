@@ -23,8 +23,8 @@ struct Batch {
     std::vector<std::string> uids;
 };
 
-/// The most instances that a first batch has; a connection is worth while for so many.
-inline constexpr std::size_t minOfABatch = 8;
+/// The size of the first batches; fewer objects do not repay a connection.
+inline constexpr std::size_t firstBatchSize = 8;
 
 /// The state of a retrieval, shared by its connections: what lacks and why, and the queue of
 /// batches from coarse to fine. Thread-safe, but for `classes`, `needsMove` and `useMove`, which

@@ -22,8 +22,10 @@ constexpr std::chrono::milliseconds recordedEvery(250);
 
 // Whether earlier runs have brought anything. The count of a run that was killed may be too old.
 bool hasBroughtFiles(const Transfer &transfer) {
-    if (transfer.received > 0 || transfer.total == 0)
-        return transfer.received > 0;
+    if (transfer.received > 0)
+        return true;
+    if (transfer.total == 0)
+        return false; // nothing was even listed
     const std::filesystem::path study = transfer.folder / transfer.wanted.studyUid;
     const std::vector<std::string> &series = transfer.wanted.seriesUids;
     const auto isThere = [](const std::filesystem::path &folder) {

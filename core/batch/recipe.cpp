@@ -185,7 +185,7 @@ std::vector<std::string> explained(const Recipe &recipe) {
     if (choice.sliceMm)
         series += fmt::format(", with slices {:g} to {:g} mm apart", (*choice.sliceMm)[0],
                               (*choice.sliceMm)[1]);
-    series += fmt::format(", at least {}", choice.minSlices);
+    series += fmt::format(", with at least {} slices", choice.minSlices);
     std::vector<std::string> lines{series};
     for (const Output &output : recipe.outputs) {
         const std::size_t views = output.views.size();

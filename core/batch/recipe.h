@@ -26,7 +26,7 @@ struct SeriesChoice {
 
 enum class Format { png, png16, npy, nrrd, capture, captureLoop, video };
 
-/// What a picture has room for: the whole volume from every side, or the body from its views.
+/// What fills a picture: the whole volume from every side, or the body from its views.
 enum class Fit { volume, body };
 
 /// What is made of a series: pictures of one look from some directions, in one format.
@@ -77,8 +77,8 @@ std::vector<std::string> filesOf(const Output &output);
 /// The scene of an output for a volume; its camera is that of the first view. *Throws* Error{usage}
 /// if the volume needs a larger picture than there can be, or as scene::validate.
 scene::Scene sceneOf(const Output &output, const volume::Volume &volume);
-/// The cameras of all views; they have one size, and one size of a pixel. To fit the body, the
-/// scene's tone has the exposure of the study.
+/// The cameras of all views; they have one size, and one size of a pixel. *Requires*, if the output
+/// fits the body: `scene.tone.exposure` is that of the study.
 std::vector<scene::Camera> camerasOf(const Output &output, const scene::Scene &scene,
                                      const volume::Lattice &patient);
 
@@ -87,7 +87,7 @@ std::vector<scene::Camera> camerasOf(const Output &output, const scene::Scene &s
 dicom::Selection choose(const SeriesChoice &choice, const dicom::Patient &patient,
                         const dicom::Study &study);
 
-/// One line for each output, as a person reads it.
+/// One line for the series, and one for each output.
 std::vector<std::string> explained(const Recipe &recipe);
 
 } // namespace pellucid::batch

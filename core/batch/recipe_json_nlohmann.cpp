@@ -189,8 +189,7 @@ private:
         const int count = turn ? turn.wholeNumber(2, maxTurnViews) : 1;
         output.isTurn = bool(turn);
         for (int n = 0; n < count; ++n)
-            output.views.push_back(
-                {glm::angleAxis(glm::radians(360.0 * n / count), glm::dvec3(0, 0, 1)) * first, {}});
+            output.views.push_back({scene::turnedAboutLongAxis(first, 360.0 * n / count), {}});
     }
 
     static glm::dquat viewFrom(const JsonValue &in) {
@@ -215,7 +214,7 @@ private:
                 const int side = size.wholeNumber(1, scene::largestImageSize);
                 output.size = {side, side};
             }
-        } else if (!output.size && output.scene) {
+        } else if (!output.size && output.scene && !(in["fit"] && in["pixel_mm"])) {
             output.size = {output.scene->camera.width, output.scene->camera.height};
         }
         if (const JsonValue pixel = in["pixel_mm"]) {
@@ -259,6 +258,7 @@ private:
             name = in["view"].text();
         std::replace_if(
             name.begin(), name.end(), [](char c) { return !isSafe(c); }, '_');
+        name.resize(std::min(name.size(), maxNameBytes));
         if (!take(name))
             in.refuse(because::needsANameOfItsOwn(name));
         return name;

@@ -36,13 +36,15 @@ fs::path unfinishedIn(const fs::path &out) {
     return out / (std::string(".unfinished-") + name.data());
 }
 
-bool isOfAFileManager(const std::string &name) {
-    return name.front() == '.' || name == "Thumbs.db" || name == "desktop.ini";
+// What file managers and network file systems leave in a folder.
+bool isOfTheSystem(const std::string &name) {
+    return name == ".DS_Store" || name == ".directory" || name == "Thumbs.db" ||
+           name == "desktop.ini" || name.starts_with("._") || name.starts_with(".nfs");
 }
 
-// Only results are replaced, not images that happen to be there, nor a file that someone else put
-// among them.
-void requireOwn(const fs::path &place) {
+} // namespace
+
+void requireReplaceable(const fs::path &place) {
     std::error_code unknown;
     const bool isFree = !fs::exists(fs::symlink_status(place, unknown)) ||
                         (fs::is_directory(place, unknown) && fs::is_empty(place, unknown));
@@ -57,12 +59,10 @@ void requireOwn(const fs::path &place) {
         results.insert(file.name);
     for (const fs::directory_entry &entry : fs::directory_iterator(place, unknown))
         if (const std::string name = entry.path().filename().string();
-            !results.contains(name) && !isOfAFileManager(name))
+            !results.contains(name) && !isOfTheSystem(name))
             throw task::Error(task::ErrorCode::unusable, because::holdsOtherThanResults(name),
                               place);
 }
-
-} // namespace
 
 void removeUnfinished(const fs::path &out) {
     const fs::path unfinished = unfinishedIn(out);
@@ -74,7 +74,7 @@ void removeUnfinished(const fs::path &out) {
 StudyResults::StudyResults(const fs::path &out, const std::string &key)
     : m_place(out / key), m_aside(unfinishedIn(out), files::SessionFolder::Parent::goes),
       m_folder(m_aside.path() / "results") {
-    requireOwn(m_place); // before anything is rendered
+    requireReplaceable(m_place);
     std::error_code failed;
     fs::create_directory(m_folder, failed);
     if (failed)
@@ -105,7 +105,7 @@ void StudyResults::publish(DoneRecord record) {
     std::error_code failed;
     fs::rename(m_folder, m_place, failed); // succeeds if there is none, or an empty one
     if (failed) {
-        requireOwn(m_place);
+        requireReplaceable(m_place);
         if (exchange(m_folder, m_place))
             failed.clear();
         else

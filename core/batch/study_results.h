@@ -10,13 +10,17 @@
 
 namespace pellucid::batch {
 
+/// Whether the folder of a study, if there is one, may be replaced: it is empty, or contains
+/// results only. *Throws* Error{unusable} if not.
+void requireReplaceable(const std::filesystem::path &place);
+
 /// The results of one study, which get their folder when all of them are there. Until then, and if
 /// the program is killed, the results of an earlier run stay; on file systems that cannot exchange
 /// two folders at once, a kill at the end may leave neither. Several machines may share the folder.
 class StudyResults {
 public:
     /// *Shape*: `key`: the name of the study's folder in `out`. *Throws* Error{output};
-    /// Error{unusable} if something else has that name.
+    /// as requireReplaceable.
     StudyResults(const std::filesystem::path &out, const std::string &key);
 
     /// Where to write the results.

@@ -38,8 +38,8 @@ struct StackGeometry {
     std::vector<double> frameOffsetsMm;
 };
 
-/// `arriving`: others come between the slices that are there. Gaps then mean nothing: a stack is
-/// neither split nor refused because of them, and counts as evenly spaced.
+/// `arriving`: more slices will come between these. Gaps mean nothing: a stack is neither split nor
+/// refused because of them, and counts as evenly spaced.
 enum class Slices { all, arriving };
 
 /// Frames that make one volume or, without positions, a set of images.

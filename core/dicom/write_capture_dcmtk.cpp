@@ -77,8 +77,10 @@ void putIdentity(DcmDataset &d, const CaptureLabels &labels, const char *sopClas
         put(d, DCM_SeriesDescription, labels.seriesDescription);
         put(d, DCM_DerivationDescription, labels.derivation);
         std::string comments = "Not for diagnostic use";
+        constexpr std::size_t maxBytes = 10240; // of Long Text
         for (const std::string &warning : labels.warnings)
-            comments += "\r\n" + warning;
+            if (comments.size() + warning.size() + 2 <= maxBytes)
+                comments += "\r\n" + warning;
         put(d, DCM_ImageComments, comments);
     }
     put(d, DCM_AccessionNumber, "");

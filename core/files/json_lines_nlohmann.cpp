@@ -58,7 +58,7 @@ int JsonLines::of(std::string pointer) const {
 
 bool JsonLines::key(string_t &name) {
     m_levels.back().key = name;
-    // Only one of them would count, and nothing would tell which.
+    // Only one of the two would be used, without notice.
     if (!m_levels.back().names.insert(name).second) {
         m_failure = task::because::memberIsGivenTwice(name);
         return false;

@@ -65,8 +65,8 @@ std::string dicomOrientation(const glm::dvec3 &right, const glm::dvec3 &up) {
     return letters;
 }
 
-BoxShadow shadowOf(const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
-                   const glm::dquat &orientation) {
+ProjectedBox projectBox(const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
+                        const glm::dquat &orientation) {
     const glm::dmat3 axes = glm::mat3_cast(orientation);
     const glm::dvec3 half = 0.5 * (highMm - lowMm), middle = 0.5 * (highMm + lowMm);
     const auto along = [&](int axis) -> glm::dvec2 {
@@ -74,6 +74,10 @@ BoxShadow shadowOf(const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
     };
     const glm::dvec2 u = along(0), v = along(1);
     return {{u.x, v.x}, {u.y, v.y}};
+}
+
+glm::dquat turnedAboutLongAxis(const glm::dquat &orientation, double degrees) {
+    return glm::angleAxis(glm::radians(degrees), glm::dvec3(0, 0, 1)) * orientation;
 }
 
 Camera defaultCamera(const volume::Lattice &lattice) {
@@ -96,19 +100,20 @@ int evenPixels(double pixels) {
 
 void fitToBox(std::span<Camera> cameras, const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
               FitBy by) {
-    constexpr double shareOfPicture = 0.93;
+    constexpr double shareOfPicture = 0.93, maxZoom = 8.0; // frames grow with its square
     if (!glm::all(glm::lessThan(lowMm, highMm)))
         return;
     glm::dvec2 halfMm(0.0);
     for (Camera &camera : cameras) {
-        const BoxShadow shadow = shadowOf(lowMm, highMm, camera.orientation);
-        camera.panMm = shadow.middleMm;
-        halfMm = glm::max(halfMm, shadow.halfMm);
+        const ProjectedBox box = projectBox(lowMm, highMm, camera.orientation);
+        camera.panMm = box.middleMm;
+        halfMm = glm::max(halfMm, box.halfMm);
     }
     const glm::dvec2 roomMm = 2.0 / shareOfPicture * halfMm;
     for (Camera &camera : cameras) {
         if (by == FitBy::pixel) {
-            camera.pixelMm = std::max(roomMm.x / camera.width, roomMm.y / camera.height);
+            camera.pixelMm = std::max(
+                {roomMm.x / camera.width, roomMm.y / camera.height, camera.pixelMm / maxZoom});
         } else {
             camera.width = std::min(camera.width, evenPixels(roomMm.x / camera.pixelMm));
             camera.height = std::min(camera.height, evenPixels(roomMm.y / camera.pixelMm));

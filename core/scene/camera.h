@@ -43,32 +43,38 @@ glm::dquat viewOrientation(StandardView view, const ViewAngles &angles = {});
 /// S I, the strongest component first.
 std::string patientLetters(const glm::dvec3 &direction);
 
+/// The orientation after a turn about the patient's long axis. *Units*: degrees, from above
+/// anticlockwise.
+glm::dquat turnedAboutLongAxis(const glm::dquat &orientation, double degrees);
+
 /// DICOM's Patient Orientation of a picture (PS3.3 C.7.6.1.1.1), the directions of its rows and
 /// columns: "L\F", with H and F for superior and inferior.
 std::string dicomOrientation(const glm::dvec3 &right, const glm::dvec3 &up);
 
-/// The shadow of a box in a parallel projection: its middle and half its sides, along image right
-/// and up. *Units*: mm, from the middle of the volume.
-struct BoxShadow {
+/// A box in a parallel projection: its middle and half its sides, along image right and up.
+/// *Units*: mm, from the middle of the volume.
+struct ProjectedBox {
     glm::dvec2 middleMm{0.0}, halfMm{0.0};
 };
 /// *Units*: corners in mm (LPS), from the middle of the volume.
-BoxShadow shadowOf(const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
-                   const glm::dquat &orientation);
+ProjectedBox projectBox(const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
+                        const glm::dquat &orientation);
 
 /// The front view with pixels of the lattice's shortest step and the smallest even square size that
 /// contains every view of the lattice. *Throws* Error{usage} if that is more than
 /// `largestImageSize`.
 Camera defaultCamera(const volume::Lattice &lattice);
 
-/// The smallest even number of pixels that is at least `pixels`, but for rounding, and 2.
+/// The smallest even number of pixels, 2 or more, that covers `pixels`. An excess below 1e-6 is
+/// rounding.
 int evenPixels(double pixels);
 
-/// What changes where a picture is fitted to something.
+/// What is adjusted to fit a box: the size of a pixel, or the size of the picture.
 enum class FitBy { pixel, size };
-/// Lets a box fill the pictures of cameras that have one size, and one size of a pixel, and still
-/// do. It lies in the middle of each; in the largest, it leaves a margin of a few percent. A
-/// picture does not get larger; nothing changes for an empty box. *Units*: as `shadowOf`.
+/// Centers a box in the picture of each camera, and chooses one pixel or one size so that it fills
+/// the largest but for a margin of 3.5 % on each side. Pixels never get smaller than an eighth, and
+/// pictures never get more pixels. Does nothing for an empty box. *Units*: as `projectBox`.
+/// *Requires*: the cameras have one size and one pixel.
 void fitToBox(std::span<Camera> cameras, const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
               FitBy by);
 

@@ -101,7 +101,8 @@ void agreeOnPixel(ViewList &list) {
         const double here = pixelMmOf(*view.matrix);
         if (list.pixelMm && std::abs(here - *list.pixelMm) > rounding * *list.pixelMm)
             refuse(because::pixelsOfViewsDiffer);
-        list.pixelMm = here;
+        if (!list.pixelMm)
+            list.pixelMm = here;
     }
 }
 

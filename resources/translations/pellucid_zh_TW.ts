@@ -3326,28 +3326,12 @@
         <translation>須為長度 %1 的清單</translation>
     </message>
     <message>
-        <source>needs a name: &apos;%1&apos;, which its view gives it, is that of another output</source>
-        <translation>需要名稱：其視角所給的「%1」已是另一個輸出的名稱</translation>
-    </message>
-    <message>
         <source>the name &apos;%1&apos; is reserved for the record of the results</source>
         <translation>名稱「%1」保留給結果的紀錄</translation>
     </message>
     <message>
-        <source>cannot be met: leave out pixel_mm, or size</source>
-        <translation>無法達成：請省略 pixel_mm 或 size</translation>
-    </message>
-    <message>
-        <source>cannot be met: matrices say what a picture contains</source>
-        <translation>無法達成：影像的內容由矩陣決定</translation>
-    </message>
-    <message>
         <source>is for the formats dicom and dicom-loop: other formats contain no identity</source>
         <translation>僅用於 dicom 與 dicom-loop 格式：其他格式不含身分</translation>
-    </message>
-    <message>
-        <source>contains &apos;%1&apos;, which is no result: it would be lost</source>
-        <translation>含有並非結果的「%1」，取代時會遺失</translation>
     </message>
     <message>
         <source>no study matches</source>
@@ -3368,6 +3352,22 @@
     <message>
         <source>not JSON: %1</source>
         <translation>不是 JSON：%1</translation>
+    </message>
+    <message>
+        <source>needs a name: its default, &apos;%1&apos;, is the name of another output</source>
+        <translation>需要名稱：預設名稱「%1」已是另一個輸出的名稱</translation>
+    </message>
+    <message>
+        <source>cannot be met: leave out pixel_mm or size</source>
+        <translation>無法達成：請省略 pixel_mm 或 size</translation>
+    </message>
+    <message>
+        <source>cannot be met: the matrices determine what a picture contains</source>
+        <translation>無法達成：影像的內容由矩陣決定</translation>
+    </message>
+    <message>
+        <source>contains &apos;%1&apos;, which is not a result and would be lost</source>
+        <translation>含有並非結果的「%1」，取代時會遺失</translation>
     </message>
 </context>
 <context>

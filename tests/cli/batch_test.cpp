@@ -237,7 +237,7 @@ TEST_F(Batch, ALookThatDoesNotSuitIsAFailure) {
     fails(R"({"size": 32}, {"name": "b", "look": "MR: brain", "size": 32})", "b: ");
 }
 
-// Who looks at a picture later has no record of the batch.
+// A picture may be seen without the record of its batch.
 TEST_F(Batch, PicturesNameTheirErrorAndWarnings) {
     const fs::path in = studies(1);
     std::vector<fs::path> slices(fs::directory_iterator(in / "0"), {});
@@ -314,7 +314,7 @@ TEST_F(Batch, ReplacesNothingButResults) {
     EXPECT_EQ(batch(made, in, folder / "out").exitCode, 0);
 }
 
-// A damaged slice is told of.
+// A missing slice is reported.
 TEST_F(Batch, WarningsOfTheVolumeAreInTheRecord) {
     const fs::path in = studies(1);
     std::vector<fs::path> slices(fs::directory_iterator(in / "0"), {});

@@ -65,8 +65,10 @@ private:
             if (::poll(&waiting, 1, 20) <= 0)
                 continue;
             const int client = ::accept4(m_socket, nullptr, nullptr, SOCK_CLOEXEC);
-            if (client < 0)
+            if (client < 0) { // too many descriptors, perhaps
+                ::usleep(20000);
                 continue;
+            }
             const int on = 1;
             ::setsockopt(client, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
             m_clients.push_back(client); // closed at the end, so that no number is used twice

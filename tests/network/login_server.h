@@ -173,7 +173,7 @@ public:
         const std::lock_guard lock(m_mutex);
         m_every = count;
     }
-    // Answers requests for objects, one at a time; nothing: the answer is as usual.
+    // Answers requests for objects, one at a time; nothing: the default answer.
     using Script = std::function<std::optional<HttpAnswer>(const HttpRequest &)>;
     void setScript(Script script) {
         const std::lock_guard lock(m_mutex);

@@ -23,12 +23,12 @@ Pose fitted(const Pose &pose, const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
     fit.isFitted = true;
     if (!glm::all(glm::lessThan(lowMm, highMm)))
         return fit;
-    const scene::BoxShadow shadow = scene::shadowOf(lowMm, highMm, pose.orientation);
-    const double pixelMm = std::max(2.0 * shadow.halfMm.x / std::max(1.0, paneSize.width()),
-                                    2.0 * shadow.halfMm.y / std::max(1.0, paneSize.height())) /
+    const scene::ProjectedBox box = scene::projectBox(lowMm, highMm, pose.orientation);
+    const double pixelMm = std::max(2.0 * box.halfMm.x / std::max(1.0, paneSize.width()),
+                                    2.0 * box.halfMm.y / std::max(1.0, paneSize.height())) /
                            shareOfPane;
     fit.zoom = std::clamp(fitMm / pixelMm, minZoom, maxZoom);
-    fit.panMm = shadow.middleMm;
+    fit.panMm = box.middleMm;
     return fit;
 }
 

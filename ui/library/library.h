@@ -56,8 +56,8 @@ struct OpenedLibrary {
 /// Opens the library in a folder, or creates one. A damaged list is kept under a different name,
 /// and its readable rows go into a new list. If the folder cannot be written, or the list is from a
 /// newer version of the program, the list is in memory. Reports all this in the notices instead of
-/// throwing. `unlisted`: files that came without the list, such as from a server, and wait to be
-/// listed: they do not mean that a list is lost.
+/// throwing. `unlisted`: files that wait to be listed, such as those from a server; they are no
+/// sign of a lost list.
 OpenedLibrary openLibrary(const std::filesystem::path &folder,
                           const std::vector<std::filesystem::path> &unlisted = {});
 

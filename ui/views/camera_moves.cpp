@@ -67,9 +67,7 @@ Pose orbited(const Pose &pose, const QPoint &delta, const glm::dvec3 &pivotMm) {
 }
 
 Pose turnedAroundPatient(const Pose &pose, double degrees, const glm::dvec3 &pivotMm) {
-    return turnedTo(pose,
-                    glm::angleAxis(glm::radians(degrees), glm::dvec3(0, 0, 1)) * pose.orientation,
-                    pivotMm);
+    return turnedTo(pose, scene::turnedAboutLongAxis(pose.orientation, degrees), pivotMm);
 }
 
 Pose panned(const Pose &pose, const QPoint &delta, double pixelMm) {
