@@ -287,6 +287,32 @@ TEST_F(Batch, PicturesFitTheBody) {
                   2, "--fit");
 }
 
+// Volumes in an archive have the same names in every run, and however the batch is divided up.
+TEST_F(Batch, VolumesInAnArchiveAreFoundAgain) {
+    if (std::system("command -v zip >/dev/null") != 0)
+        GTEST_SKIP() << "zip is not installed";
+    const fs::path in = studies(2), packed = folder / "packed";
+    fs::create_directory(packed);
+    for (const char *const name : {"0", "1"})
+        ASSERT_EQ(cli("volume " + quoted(in / name) + " -o " +
+                      quoted(packed / (std::string(220, name[0]) + ".nrrd")))
+                      .exitCode,
+                  0);
+    const fs::path archive = folder / "volumes.zip";
+    ASSERT_EQ(
+        std::system(("cd " + quoted(packed) + " && zip -q " + quoted(archive) + " *").c_str()), 0);
+    const fs::path made = recipe(R"({"view": "front", "format": "npy", "size": 32})");
+    const auto done = [&](const std::string &options, const char *what) {
+        const auto r = batch(made, archive, folder / "out", options + " --json");
+        EXPECT_EQ(r.exitCode, 0) << r.error;
+        return json::parse(r.out)[what].get<int>();
+    };
+    EXPECT_EQ(done("", "done"), 2);
+    EXPECT_EQ(done("--resume", "skipped"), 2);
+    EXPECT_EQ(done("--shard 0/2", "done") + done("--shard 1/2", "done"), 2);
+    EXPECT_EQ(entries(folder / "out"), 2U);
+}
+
 // Results replace results only.
 TEST_F(Batch, ReplacesNothingButResults) {
     const fs::path in = studies(1);
@@ -376,6 +402,10 @@ TEST_F(Batch, RefusesWhatMakesNoSense) {
     refuses("--jobs 0", "--jobs");
     refuses("--find modality=CT", "--from");
     refuses("--send nobody", "--send");
+    expectOneLine(cli("batch " + quoted(made) +
+                      " --from nobody --out x --find modality=CT --find "
+                      "modality=MR"),
+                  2, "given twice");
     recipe(R"({"view": "front", "size": 32, "format": "dicom"})");
     refuses("--send nobody", "nobody");
     EXPECT_FALSE(fs::exists(folder / "out"));

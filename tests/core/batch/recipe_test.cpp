@@ -158,6 +158,9 @@ TEST(Recipe, ViewsTurnAndFitTheVolume) {
 TEST(Recipe, AnglesNameAnOutput) {
     const Recipe recipe = read(R"({"recipe": 1, "outputs": [{"view": "LAO 30, CRA 20"}]})");
     EXPECT_EQ(filesOf(recipe.outputs.front()), std::vector<std::string>{"LAO_30,_CRA_20.png"});
+    const Recipe spaces =
+        read(R"({"recipe": 1, "outputs": [{"view": "LAO30)" + std::string(300, ' ') + R"("}]})");
+    EXPECT_LT(filesOf(spaces.outputs.front()).front().size(), 100U);
 }
 
 TEST(Recipe, ABodyFillsAllViewsOfAnOutput) {
