@@ -289,8 +289,6 @@ TEST_F(Batch, PicturesFitTheBody) {
 
 // Volumes in an archive have the same names in every run, and however the batch is divided up.
 TEST_F(Batch, VolumesInAnArchiveAreFoundAgain) {
-    if (std::system("command -v zip >/dev/null") != 0)
-        GTEST_SKIP() << "zip is not installed";
     const fs::path in = studies(2), packed = folder / "packed";
     fs::create_directory(packed);
     for (const char *const name : {"0", "1"})
@@ -299,8 +297,10 @@ TEST_F(Batch, VolumesInAnArchiveAreFoundAgain) {
                       .exitCode,
                   0);
     const fs::path archive = folder / "volumes.zip";
-    ASSERT_EQ(
-        std::system(("cd " + quoted(packed) + " && zip -q " + quoted(archive) + " *").c_str()), 0);
+    ASSERT_EQ(std::system(("cd " + quoted(packed) + " && python3 -m zipfile -c " + quoted(archive) +
+                           " *.nrrd")
+                              .c_str()),
+              0);
     const fs::path made = recipe(R"({"view": "front", "format": "npy", "size": 32})");
     const auto done = [&](const std::string &options, const char *what) {
         const auto r = batch(made, archive, folder / "out", options + " --json");
