@@ -226,11 +226,11 @@ private:
         }
         if (const JsonValue fit = in["fit"]) {
             output.fit = fit.meaning(fits);
-            if (output.size && output.pixelMm)
-                fit.refuse(because::fitHasNoChoice);
             if (std::any_of(output.views.begin(), output.views.end(),
                             [](const ViewList::View &view) { return view.matrix.has_value(); }))
                 fit.refuse(because::matricesDecideTheFit);
+            if (output.size && output.pixelMm)
+                fit.refuse(because::fitHasNoChoice);
         }
     }
 

@@ -333,7 +333,7 @@ TEST_F(Batch, ReplacesNothingButResults) {
     writeText(results / ".DS_Store", ""); // a file manager looked at them
     const auto kept = batch(made, in, folder / "out");
     EXPECT_EQ(kept.exitCode, 7) << kept.error;
-    EXPECT_NE(kept.error.find("contains 'notes.txt', which is no result"), std::string::npos)
+    EXPECT_NE(kept.error.find("contains 'notes.txt', which is not a result"), std::string::npos)
         << kept.error;
     EXPECT_EQ(readText(results / "notes.txt"), "looks odd");
     fs::remove(results / "notes.txt");

@@ -75,7 +75,7 @@ TEST(Recipe, FaultsAreNamedWithTheirLines) {
         {"{\"recipe\": 1, \"outputs\": [{\"turntable\": 1}]}", "from 2 to 3600"},
         {"{\"recipe\": 1, \"outputs\": [{\"name\": \"../x\"}]}", "/outputs/0/name"},
         {"{\"recipe\": 1, \"outputs\": [{\"name\": \"Done\"}]}", "is reserved"},
-        {"{\"recipe\": 1, \"outputs\": [{}, {}]}", "/outputs/1: needs a name: 'picture'"},
+        {"{\"recipe\": 1, \"outputs\": [{}, {}]}", "/outputs/1: needs a name: its default, 'picture'"},
         {"{\"recipe\": 1, \"outputs\": [{\"view\": \"AP\"}, {\"name\": \"ap\"}]}",
          "/outputs/1/name: the name 'ap' is that"},
         {"{\"recipe\": 1, \"outputs\": [{}],\n\"outputs\": [{}]}",
