@@ -49,6 +49,18 @@ void putSamples(DcmDataset &dataset, const DecodedImage &image) {
     }
 }
 
+// Pictures in color are no slices, and only sent: their frames are not compared with the header as
+// those of slices. DCMTK's codecs make RGB of them.
+void decodeColors(DcmDataset &dataset, const InstanceHeader &h) {
+    require(dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr));
+    DcmElement *pixels = nullptr;
+    require(dataset.findAndGetElement(DCM_PixelData, pixels));
+    const double needed =
+        double(h.rows) * h.columns * h.samplesPerPixel * h.declaredFrames * (h.bitsAllocated / 8.0);
+    if (needed < 1.0 || double(pixels->getLength(EXS_LittleEndianExplicit)) < needed)
+        throw Error(ErrorCode::unusable, because::compressedImageContradictsHeader);
+}
+
 std::vector<std::byte> written(DcmFileFormat &format, E_TransferSyntax syntax) {
     require(format.validateMetaInfo(syntax, EWM_createNewMeta));
     std::vector<std::byte> out;
@@ -76,12 +88,17 @@ std::vector<std::byte> rewritten(std::span<const std::byte> bytes, const std::st
     DcmDataset &dataset = file.dataset();
     if (!isNative(file.syntaxUid)) {
         const InstanceHeader header = headerOf(file, bytes.size());
-        if (const auto reason = whyUnusable(header))
-            throw Error(ErrorCode::unusable, *reason);
-        const DecodedImage image = decodePixels(file, bytes.size(), header);
-        // DCMTK's codecs have put the samples into the data set, ours have not.
-        if (isJpeg2000(file.syntaxUid) || isJpegXl(file.syntaxUid))
-            putSamples(dataset, image);
+        // DCMTK's codecs put the samples into the data set, ours do not.
+        const bool isByDcmtk = !isJpeg2000(file.syntaxUid) && !isJpegXl(file.syntaxUid);
+        if (isByDcmtk && header.samplesPerPixel == 3) {
+            decodeColors(dataset, header);
+        } else {
+            if (const auto reason = whyUnusable(header))
+                throw Error(ErrorCode::unusable, *reason);
+            const DecodedImage image = decodePixels(file, bytes.size(), header);
+            if (!isByDcmtk)
+                putSamples(dataset, image);
+        }
     }
     require(dataset.chooseRepresentation(syntax, nullptr));
     return written(*file.format, syntax);

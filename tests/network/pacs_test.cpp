@@ -23,6 +23,7 @@
 #include "core/archive/transfer_log.h"
 #include "core/dicom/arriving_series.h"
 #include "core/dicom/load_volume.h"
+#include "core/dicom/write_capture.h"
 #include "core/task/error.h"
 #include "tests/network/lying_server.h"
 #include "tests/network/pacs.h"
@@ -164,6 +165,44 @@ TEST_F(Pacs, RefusedEncodingsAreUncompressedIfAllowed) {
         EXPECT_EQ(report.uncompressed, 4U);
         EXPECT_TRUE(get(server, studyIn(sent), "got" + name).isComplete()) << name;
         EXPECT_EQ(valuesIn(m_folder / ("got" + name)), valuesIn(sent)) << name;
+    }
+}
+
+// Captures in color, too.
+TEST_F(Pacs, RefusedColorsAreUncompressedIfAllowed) {
+    if (!test::isInstalled("dcmcjpeg") || !test::isInstalled("dcmcrle"))
+        GTEST_SKIP() << "dcmtk is not installed";
+    test::Dcmqrscp dcmqrscp;
+    archive::Server server = serverAt(dcmqrscp.port(), "COMMON");
+    const auto run = [](const std::string &command) {
+        EXPECT_EQ(test::run(command).exitCode, 0) << command;
+    };
+    for (const auto &[compress, uncompress] :
+         {std::pair("dcmcrle", "dcmdrle"), std::pair("dcmcjpeg +eb", "dcmdjpeg")}) {
+        const fs::path of = m_folder / uncompress, sent = of / "sent", plain = of / "plain";
+        fs::create_directories(sent);
+        fs::create_directories(plain);
+        constexpr int height = 20, width = 31;
+        std::vector<std::uint8_t> rgba(std::size_t(4) * height * width);
+        for (std::size_t n = 0; n < rgba.size(); ++n)
+            rgba[n] = std::uint8_t(n % 4 == 3 ? 255 : n * (n % 4 + 1));
+        dicom::CaptureLabels labels;
+        labels.patientId = "COLORS";
+        labels.studyUid = "1.2.826.0.1.3680043.2.1143.1";
+        dicom::writeCapture(of / "made.dcm", rgba, height, width, labels);
+        run(std::string(compress) + " '" + (of / "made.dcm").string() + "' '" +
+            (sent / "c.dcm").string() + "'");
+        run(std::string(uncompress) + " '" + (sent / "c.dcm").string() + "' '" +
+            (plain / "c.dcm").string() + "'");
+        server.mayUncompress = false;
+        EXPECT_EQ(archive::send(server, {sent}).notSent.size(), 1U) << compress;
+        server.mayUncompress = true;
+        const auto report = archive::send(server, {sent});
+        EXPECT_TRUE(report.notSent.empty()) << compress << report.notSent.front().reason.english();
+        EXPECT_EQ(report.uncompressed, 1U);
+        EXPECT_TRUE(get(server, studyIn(sent), "colors" + std::string(uncompress)).isComplete());
+        EXPECT_EQ(dataSetsIn(m_folder / ("colors" + std::string(uncompress))), dataSetsIn(plain))
+            << compress;
     }
 }
 
