@@ -189,6 +189,7 @@ private:
         labels.isDated = false;
         labels.derivation = derivationText(predictedError);
         labels.seriesDescription = output.name;
+        labels.seriesNumber += int(&output - m_recipe.outputs.data()); // each is a series
         labels.instanceNumber = view + 1;
         return labels;
     }

@@ -45,23 +45,30 @@ void BatchReport::finished(const std::string &key, const batch::DoneRecord &reco
     const std::lock_guard lock(m_mutex);
     ++m_done;
     double error = 0.0;
+    bool isImprecise = false;
     std::vector<std::string> reported; // what concerns all outputs, once
     for (const batch::DoneRecord::MadeOutput &output : record.outputs) {
         error = std::max(error, output.predictedError);
+        isImprecise = isImprecise || output.predictedError > output.tolerance;
         for (const std::string &warning : output.warnings)
             if (std::find(reported.begin(), reported.end(), warning) == reported.end()) {
                 reported.push_back(warning);
                 warn(key + ": " + output.name + ": " + warning);
             }
     }
-    if (m_isJson) {
+    m_imprecise += isImprecise ? 1 : 0;
+    if (m_isJson)
         m_finished.push_back({key, record.seriesUid, error, seconds, std::move(reported)});
+    printLine(fmt::format("{}: outputs: {}; {:.2f} s, error at most {:.2g}", key,
+                          record.outputs.size(), seconds, error));
+}
+
+// The lock is held, and the study counted.
+void BatchReport::printLine(const std::string &text) const {
+    if (m_isJson)
         return;
-    }
-    std::puts(printable(fmt::format("{} of {}: {}: outputs: {}; {:.2f} s, error at most {:.2g}",
-                                    m_done + m_doneBefore + m_failures.size() + m_passedOver.size(),
-                                    m_studies, key, record.outputs.size(), seconds, error))
-                  .c_str());
+    const std::size_t ended = m_done + m_doneBefore + m_failures.size() + m_passedOver.size();
+    std::puts(printable(fmt::format("{} of {}: {}", ended, m_studies, text)).c_str());
     std::fflush(stdout);
 }
 
@@ -73,15 +80,13 @@ void BatchReport::wasDoneBefore() {
 void BatchReport::passedOver(const std::string &key) {
     const std::lock_guard lock(m_mutex);
     m_passedOver.push_back(key);
+    printLine(key + ": no series is one that the recipe asks for");
 }
 
 void BatchReport::failed(const std::string &key, const std::string &reason) {
     const std::lock_guard lock(m_mutex);
     m_failures.push_back({key, reason});
-    if (!m_isJson) {
-        std::puts(printable(key + ": failed").c_str());
-        std::fflush(stdout);
-    }
+    printLine(key + ": failed");
     warn(reason.find(key) == std::string::npos ? key + ": " + reason : reason);
 }
 
@@ -107,6 +112,7 @@ void BatchReport::print(const std::string &recipe, double seconds) {
                             {"skipped", m_doneBefore},
                             {"failed", failures},
                             {"without_such_a_series", m_passedOver},
+                            {"beyond_tolerance", m_imprecise},
                             {"damaged_files", jsonOf(m_damaged)},
                             {"unused_files", jsonOf(m_unused)},
                             {"recipe", recipe},
@@ -121,6 +127,8 @@ void BatchReport::print(const std::string &recipe, double seconds) {
         text += fmt::format(", {} failed", m_failures.size());
     if (!m_passedOver.empty())
         text += fmt::format(", {} without a series that the recipe asks for", m_passedOver.size());
+    if (m_imprecise > 0)
+        text += fmt::format(", {} beyond the tolerance", m_imprecise);
     if (!m_damaged.empty())
         text += fmt::format("; damaged files: {}", m_damaged.size());
     std::puts(fmt::format("{}; {:.1f} s", text, seconds).c_str());

@@ -43,11 +43,14 @@ private:
         std::vector<std::string> warnings;
     };
 
+    void printLine(const std::string &text) const;
+
     bool m_isJson;
     std::size_t m_studies = 0;
     std::vector<dicom::Skipped> m_damaged, m_unused;
     std::mutex m_mutex; ///< of what follows
     std::size_t m_done = 0, m_doneBefore = 0;
+    std::size_t m_imprecise = 0; ///< done, but an output misses its tolerance
     std::vector<Failure> m_failures;
     std::vector<std::string> m_passedOver;
     std::vector<Finished> m_finished; ///< for the JSON object

@@ -63,11 +63,13 @@ void requirePossible(const batch::Recipe &recipe, bool isSent) {
                                      "format dicom or dicom-loop"));
 }
 
-// Whether a file is intact, but no image that can be projected.
+// Whether a file is intact, but no image that can be projected. An archive within a folder may hold
+// studies, and counts with the damaged files.
 bool isOfAnotherKind(const task::Reason &reason) {
-    return reason.is(because::isNotDicom) || reason.is(because::isAnIndex) ||
-           reason.is(because::isAnArchive) || reason.is(because::hasNoPixels) ||
-           reason.is(because::hasNoPixelsBut) || reason.is(because::isASegmentation) ||
+    return reason.is(because::isNotDicom) || reason.is(because::isEmpty) ||
+           reason.is(because::isAnIndex) || reason.is(because::hasNoPixels) ||
+           reason.is(because::hasNoPixelsBut) || reason.is(because::hasUnsupportedBits) ||
+           reason.is(because::hasFloatingPointPixels) || reason.is(because::isASegmentation) ||
            reason.is(because::isAColorImage);
 }
 

@@ -192,10 +192,14 @@ public:
 private:
     task::Progress progress() const { return task::Progress(m_context.stop); }
 
+    // Pictures are left out: what a batch sends back does not change the study.
     static std::string digestOf(const std::vector<archive::Instance> &instances) {
+        static const std::string secondaryCapture = "1.2.840.10008.5.1.4.1.1.7";
         std::vector<std::string> uids;
         for (const archive::Instance &instance : instances)
-            uids.push_back(instance.sopInstanceUid);
+            if (instance.sopClassUid != secondaryCapture &&
+                !instance.sopClassUid.starts_with(secondaryCapture + "."))
+                uids.push_back(instance.sopInstanceUid);
         return batch::digestOf(std::move(uids));
     }
 

@@ -26,7 +26,10 @@ std::vector<std::string> linesByReason(const std::vector<Named> &all, const std:
     std::vector<Group> groups;
     std::map<std::string, std::size_t> indices; // by encoded reason
     for (const Named &one : all) {
-        const auto [known, isNew] = indices.emplace(one.reason.encoded(), groups.size());
+        // Each copy is of another file.
+        const bool isCopy = one.reason.is(task::because::hasInstanceUidOf);
+        const auto [known, isNew] =
+            indices.emplace(isCopy ? std::string() : one.reason.encoded(), groups.size());
         if (isNew)
             groups.push_back({&one});
         Group &group = groups[known->second];
@@ -35,11 +38,13 @@ std::vector<std::string> linesByReason(const std::vector<Named> &all, const std:
     }
     std::vector<std::string> lines;
     for (const Group &group : groups) {
-        const std::string reason = group.first->reason.english();
+        std::string reason = group.first->reason.english();
         if (group.count == 1) {
             lines.push_back(fmt::format("{}: {}: {}", group.first->name, what, reason));
             continue;
         }
+        if (group.first->reason.is(task::because::hasInstanceUidOf))
+            reason = "have the same instance UIDs as others";
         std::string names;
         for (const std::string &name : group.names)
             names += (names.empty() ? "" : ", ") + name;

@@ -296,7 +296,8 @@ void setSize(scene::Camera &camera, const SceneOptions &o, const CLI::App &comma
         throw Error(ErrorCode::usage,
                     because::inWords("--size: '" + o.size +
                                      "' is not whole numbers with 'x' between them"));
-    const auto n = parseNumbers("--size", o.size, 'x', 2);
+    const bool isSquare = o.size.find('x') == std::string::npos;
+    const auto n = parseNumbers("--size", isSquare ? o.size + "x" + o.size : o.size, 'x', 2);
     if (n[0] != std::round(n[0]) || n[1] != std::round(n[1]) || std::min(n[0], n[1]) < 1 ||
         std::max(n[0], n[1]) > scene::largestImageSize)
         throw Error(ErrorCode::usage, because::inWords(fmt::format(

@@ -49,7 +49,7 @@ public:
     explicit Reader(fs::path folder) : m_folder(std::move(folder)) {}
 
     Recipe read(const JsonValue &in) {
-        in.requireOnly({"recipe", "notes", "series", "outputs"});
+        in.requireOnly({"$schema", "recipe", "notes", "series", "outputs"});
         if (in.at("recipe").number() != 1.0)
             in["recipe"].refuse(because::isNot("1"));
         Recipe recipe;
@@ -61,6 +61,7 @@ public:
             in["outputs"].refuse(because::mustNotBeEmpty);
         json whole = json::parse(in.dumped());
         whole.erase("notes"); // nothing depends on them
+        whole.erase("$schema");
         const std::string contents = whole.dump() + m_contents;
         recipe.digest = system::contentDigest(std::as_bytes(std::span(contents)));
         return recipe;
@@ -73,9 +74,9 @@ private:
         if (const JsonValue modality = in["modality"]) {
             if (modality.isList())
                 for (const JsonValue &one : modality.elements())
-                    choice.modalities.push_back(one.text());
+                    choice.modalities.push_back(system::uppercased(one.text()));
             else
-                choice.modalities.push_back(modality.text());
+                choice.modalities.push_back(system::uppercased(modality.text()));
         }
         if (const JsonValue description = in["description"])
             choice.description = description.text();
@@ -132,7 +133,7 @@ private:
                 scene.refuse(because::sceneShowsADifference);
         }
         if (const JsonValue look = in["look"]) {
-            output.look = look.isText() ? look.checked([&] { return presetNamed(look.text()); })
+            output.look = look.isText() ? look.checked([&] { return presetNamed(look); })
                                         : look.checkedText(presets::presetFromJson);
             m_contents += presets::toJson(*output.look);
         }
@@ -275,19 +276,29 @@ private:
                 (in["name"] ? in["name"] : in).refuse(because::nameIsTaken(stem));
     }
 
+    // Names the file that is at fault, too.
+    template <class F> static auto named(const JsonValue &in, const fs::path &path, const F &read) {
+        try {
+            return read();
+        } catch (const task::Error &error) {
+            in.refuse(because::at(path.string(), error.reason()));
+        }
+    }
+
     // The text of a file that the recipe names.
     std::string textOf(const JsonValue &in) {
         const fs::path path = m_folder / in.text();
         const std::string text =
-            in.checked([&] { return files::readText(path, files::maxSceneBytes); });
+            named(in, path, [&] { return files::readText(path, files::maxSceneBytes); });
         m_contents += text;
         return text;
     }
 
-    presets::Preset presetNamed(const std::string &name) const {
+    presets::Preset presetNamed(const JsonValue &in) const {
+        const std::string name = in.text();
         const fs::path path(name);
         if (path.extension() == ".json" || path.has_parent_path())
-            return presets::readPreset(m_folder / path);
+            return named(in, m_folder / path, [&] { return presets::readPreset(m_folder / path); });
         return presets::PresetLibrary::ofUser().get(name).preset;
     }
 

@@ -52,8 +52,7 @@ void requireReplaceable(const fs::path &place) {
         return;
     const auto done = doneIn(place);
     if (!done)
-        throw task::Error(task::ErrorCode::unusable,
-                          task::systemReason(std::make_error_code(std::errc::file_exists)), place);
+        throw task::Error(task::ErrorCode::unusable, because::holdsNoResults, place);
     std::set<std::string> results{doneFile};
     for (const DoneRecord::MadeFile &file : done->files)
         results.insert(file.name);

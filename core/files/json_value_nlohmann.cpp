@@ -28,7 +28,7 @@ void JsonValue::requireOnly(std::initializer_list<const char *> names) const {
         known += (known.empty() ? "" : ", ") + std::string(name);
     for (const auto &[name, value] : members())
         if (std::find(names.begin(), names.end(), name) == names.end())
-            value.refuse(because::isNoneOf(name, known));
+            value.refuse(because::isNoMember(name, known));
 }
 
 std::string JsonValue::dumped() const {

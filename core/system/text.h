@@ -18,6 +18,14 @@ inline std::string lowered(std::string text) {
     return text;
 }
 
+/// ASCII letters in upper case; other characters are unchanged, whatever the locale.
+inline std::string uppercased(std::string text) {
+    for (char &c : text)
+        if (c >= 'a' && c <= 'z')
+            c = char(c - 'a' + 'A');
+    return text;
+}
+
 /// The name itself or, if it is taken, with a number: "liver (2)". It is taken then.
 inline std::string uniqueName(const std::string &name, std::set<std::string> &taken) {
     std::string result = name;

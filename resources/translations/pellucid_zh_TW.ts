@@ -3369,6 +3369,14 @@
         <source>contains &apos;%1&apos;, which is not a result and would be lost</source>
         <translation>含有並非結果的「%1」，取代時會遺失</translation>
     </message>
+    <message>
+        <source>unknown member &apos;%1&apos;: use one of %2</source>
+        <translation>未知的成員「%1」：請使用 %2 之一</translation>
+    </message>
+    <message>
+        <source>is not a folder of results, and would be replaced</source>
+        <translation>不是結果資料夾，將被取代</translation>
+    </message>
 </context>
 <context>
     <name>RegionTexts</name>

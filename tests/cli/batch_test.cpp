@@ -208,6 +208,19 @@ TEST_F(Batch, ListsWhatFailsAndGoesOn) {
     EXPECT_NE(r.error.find("damaged files: 16"), std::string::npos) << r.error;
 }
 
+// What is intact but cannot be projected is no failure; an archive may hold studies.
+TEST_F(Batch, FilesOfOtherKindsAreNoFailures) {
+    const fs::path in = studies(1);
+    writeText(in / ".placeholder", "");
+    const fs::path made = recipe(R"({"view": "front", "size": 32})");
+    EXPECT_EQ(batch(made, in, folder / "out").exitCode, 0);
+    ASSERT_EQ(std::system(("cd " + quoted(in) + " && python3 -m zipfile -c more.zip 0").c_str()),
+              0);
+    const auto r = batch(made, in, folder / "out");
+    EXPECT_EQ(r.exitCode, 7) << r.error;
+    EXPECT_NE(r.error.find("more.zip"), std::string::npos) << r.error;
+}
+
 // A recipe for other studies is no failure of these.
 TEST_F(Batch, PassesOverStudiesWithoutSuchASeries) {
     const fs::path in = studies(2);
@@ -324,7 +337,7 @@ TEST_F(Batch, ReplacesNothingButResults) {
     writeText(images / "1.dcm", "an image that was retrieved");
     const auto r = batch(made, in, folder / "images");
     EXPECT_EQ(r.exitCode, 7) << r.error;
-    EXPECT_NE(r.error.find(uid), std::string::npos) << r.error;
+    EXPECT_NE(r.error.find(uid + ": is not a folder of results"), std::string::npos) << r.error;
     EXPECT_EQ(readText(images / "1.dcm"), "an image that was retrieved");
     EXPECT_EQ(entries(images), 1U);
     // Someone's notes beside the results are not lost.
@@ -420,6 +433,13 @@ TEST_F(Batch, RefusesWhatMakesNoSense) {
                     folder / "captures")
                   .exitCode,
               0);
+    // A square picture needs one number.
+    ASSERT_EQ(
+        cli("render " + quoted(in) + " -o " + quoted(folder / "s.npy") + " --size 40").exitCode, 0);
+    int height = 0, width = 0;
+    readNpy(folder / "s.npy", height, width);
+    EXPECT_EQ(height, 40);
+    EXPECT_EQ(width, 40);
     expectOneLine(batch(made, folder / "captures", folder / "captures"), 3,
                   "contains nothing outside the folder of results");
     // A part without studies is no failure.

@@ -220,7 +220,8 @@ TEST_F(PacsBatch, PicturesThatAreSentAgainAreThereOnce) {
     put(server, sent);
     const std::string study = studyIn(sent);
     add("s", "COMMON", dcmqrscp.port());
-    // With the second recipe, the pictures of earlier runs count as images of the study.
+    // The second recipe asks for no modality, but pictures of earlier runs are no images of the
+    // study.
     std::size_t pictures = 0;
     for (const char *const text : {twoOutputs, onePicture}) {
         const fs::path by = recipe(text);
@@ -229,6 +230,7 @@ TEST_F(PacsBatch, PicturesThatAreSentAgainAreThereOnce) {
             const CommandResult made =
                 batch(by, "--from s --find study=" + study + " --send s" + how);
             EXPECT_EQ(made.exitCode, 0) << made.error;
+            EXPECT_EQ(made.out.find("\"skipped\": 1") != std::string::npos, how != "") << made.out;
             const std::vector<std::string> uids = picturesOf(server, study);
             EXPECT_EQ(uids.size(), pictures);
             EXPECT_EQ(archive::listInstances(server, {study, uids}).size(), pictures);

@@ -75,7 +75,8 @@ TEST(Recipe, FaultsAreNamedWithTheirLines) {
         {"{\"recipe\": 1, \"outputs\": [{\"turntable\": 1}]}", "from 2 to 3600"},
         {"{\"recipe\": 1, \"outputs\": [{\"name\": \"../x\"}]}", "/outputs/0/name"},
         {"{\"recipe\": 1, \"outputs\": [{\"name\": \"Done\"}]}", "is reserved"},
-        {"{\"recipe\": 1, \"outputs\": [{}, {}]}", "/outputs/1: needs a name: its default, 'picture'"},
+        {"{\"recipe\": 1, \"outputs\": [{}, {}]}",
+         "/outputs/1: needs a name: its default, 'picture'"},
         {"{\"recipe\": 1, \"outputs\": [{\"view\": \"AP\"}, {\"name\": \"ap\"}]}",
          "/outputs/1/name: the name 'ap' is that"},
         {"{\"recipe\": 1, \"outputs\": [{}],\n\"outputs\": [{}]}",
@@ -96,7 +97,8 @@ TEST(Recipe, FaultsAreNamedWithTheirLines) {
         {"{\"recipe\": 1, \"outputs\": [{\"size\": 9, \"pixel_mm\": 3, \"views\": "
          "[{\"matrix\": [[1,0,0,0],[0,1,0,0],[0,0,0,1]]}]}]}",
          "/outputs/0/pixel_mm"},
-        {"{\"recipe\": 1, \"outputs\": [{\"scene\": \"missing.json\"}]}", "/outputs/0/scene"},
+        {"{\"recipe\": 1, \"outputs\": [{\"scene\": \"missing.json\"}]}",
+         "/outputs/0/scene: missing.json: "},
         {"{\"recipe\": 1, \"outputs\": [{\"view\": \"left\", \"views\": [\"AP\"]}]}",
          "more than one"},
         {"{\"recipe\": 1, \"outputs\": [{\"views\": []}]}", "/outputs/0/views"},
@@ -114,6 +116,8 @@ TEST(Recipe, TheDigestIsOfTheContent) {
     EXPECT_EQ(read("{ \"outputs\":[ {\"view\":\"left\"} ],\n\n\"recipe\":1}").digest, digest);
     EXPECT_NE(read(R"({"recipe": 1, "outputs": [{"view": "right"}]})").digest, digest);
     EXPECT_EQ(read(R"({"recipe": 1, "notes": "x", "outputs": [{"view": "left"}]})").digest, digest);
+    EXPECT_EQ(read(R"({"$schema": "x", "recipe": 1, "outputs": [{"view": "left"}]})").digest,
+              digest);
     const test::TemporaryFolder folder;
     presets::Preset preset;
     preset.name = "Mine";
@@ -276,6 +280,9 @@ TEST(Recipe, ChoosesTheSeriesThatItAsksFor) {
         return choose(choice, patient, study).series->uid;
     };
     EXPECT_EQ(chosen({}), "T1");
+    EXPECT_EQ(
+        chosen(read(R"({"recipe": 1, "series": {"modality": "ct"}, "outputs": [{}]})").series),
+        "Thin chest"); // codes are in capital letters
     EXPECT_EQ(chosen({.modalities = {"CT"}}), "Thin chest");
     EXPECT_EQ(chosen({.modalities = {"CT"}, .sliceMm = {{3.0, 6.0}}}), "Thick chest");
     EXPECT_EQ(chosen({.description = "*CHEST"}), "Thin chest");
