@@ -113,7 +113,8 @@ void addCameraOptions(CLI::App &command, SceneOptions &options) {
         ->excludes(elevation)
         ->excludes(orientation);
     command.add_option("--size", options.size,
-                       "Image size WIDTHxHEIGHT in pixels; default: large enough for every view");
+                       "Image size WIDTHxHEIGHT in pixels, or one number for both; default: large "
+                       "enough for every view");
     command
         .add_option("--pixel-mm", options.pixelMm,
                     "Pixel size in mm; default: the smallest voxel spacing")
