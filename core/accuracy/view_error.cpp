@@ -50,6 +50,33 @@ double relativeError(double energy, double error) {
     return relativeToShown / std::max(minExact, 1.0 - relativeToShown);
 }
 
+// The part of the window that the fields can reach: the rest is empty, and a picture of a small
+// field with large pixels may be nearly all of it.
+scene::Camera croppedTo(const plan::FieldOfView &fieldOfView, const scene::Camera &camera) {
+    double reachMm = 0.0;
+    for (const auto &spread : fieldOfView.spreads)
+        reachMm = std::max(reachMm, spread->radiusMm + 4.0 * spread->longestStepMm);
+    reachMm += 4.0 * camera.pixelMm;
+    scene::Camera cropped = camera;
+    const auto crop = [&](double &panMm, int &side) {
+        const double half = 0.5 * side * camera.pixelMm, low = std::max(panMm - half, -reachMm),
+                     high = std::min(panMm + half, reachMm);
+        if (high <= low || high - low >= 2.0 * half)
+            return; // nothing is in it, or all of it may be filled
+        side = std::clamp(int(std::ceil((high - low) / camera.pixelMm)), 1, side);
+        panMm = 0.5 * (low + high);
+    };
+    crop(cropped.panMm.x, cropped.width);
+    crop(cropped.panMm.y, cropped.height);
+    return cropped;
+}
+
+// The terms are energies expected of many pixels. Those of a few scatter: a single pixel had five
+// times the expected error, and four had, too.
+double scatter(const scene::Camera &camera) {
+    return 1.0 + 24.0 / (double(camera.width) * camera.height);
+}
+
 } // namespace
 
 ViewErrorModel::ViewErrorModel(const plan::RenderPlan &plan,
@@ -72,12 +99,22 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
     render::FrameSetup setup(m_fieldOfView, engine.widths);
     const render::FrameInputs inputs =
         setup.inputsFor(engine.spectra, channelWeights, camera, image, shading, plan::onAllThreads);
+    const scene::Camera filled = croppedTo(m_fieldOfView, camera);
+    render::FrameSetup filledSetup(m_fieldOfView, engine.widths);
+    const auto central = [&] {
+        return filled == camera
+                   ? centralEnergies(engine.spectra, inputs, camera)
+                   : centralEnergies(engine.spectra,
+                                     filledSetup.inputsFor(engine.spectra, channelWeights, filled,
+                                                           image, shading, plan::onAllThreads),
+                                     filled);
+    };
     const PictureContext context{picture,
                                  camera,
                                  image,
                                  shading,
                                  inputs.grid,
-                                 centralEnergies(engine.spectra, inputs, camera),
+                                 central(),
                                  sliceEnergies(engine.spectra, inputs, camera, image),
                                  narrowingEnergies(engine.spectra, inputs, camera, image)};
     double energy = 0.0, error = 0.0;
@@ -94,7 +131,7 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
         isAsPlanned = isAsPlanned && std::count_if(channelWeights.begin(), channelWeights.end(),
                                                    isShown) <= m_together;
     }
-    const double estimate = relativeError(energy, gain * gain * error);
+    const double estimate = scatter(camera) * relativeError(energy, gain * gain * error);
     return {isWhole && isAsPlanned ? std::min(gain * m_bound, estimate) : estimate, isWhole};
 }
 

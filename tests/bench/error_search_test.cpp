@@ -3,6 +3,7 @@
 // searches for as long as you like.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -256,6 +257,35 @@ TEST(ErrorSearch, AFewPixelsBesideABrightSample) {
             const auto verdict = bench::judge(trial);
             EXPECT_LE(verdict.measured, verdict.ofView) << faint << ' ' << side;
         }
+}
+
+// One pixel that shows the whole of a body is one value, not the mean of many: its error was five
+// times the one that was predicted.
+TEST(ErrorSearch, AFewPixelsThatShowAll) {
+    const std::array<std::array<int, 2>, 7> sizes{
+        {{1, 1}, {1, 2}, {1, 4}, {4, 1}, {1, 8}, {2, 2}, {3, 4}}};
+    for (const phantom::Kind kind : {phantom::Kind::cube, phantom::Kind::head}) {
+        const auto volume = phantom::makePhantom(
+            kind, phantom::phantomLattice(kind, {.size = volume::GridSize{40, 40, 30}}));
+        const auto field = classify::densityField(volume, classify::defaultFieldWindow(volume));
+        for (const auto &[width, height] : sizes)
+            for (const double tolerance : {0.1, 1e-3, 1e-4})
+                for (const scene::ViewAngles &angles :
+                     {scene::ViewAngles(), scene::ViewAngles{-57.4, -20.0, 17.0},
+                      scene::ViewAngles{31.0, 40.0, 5.0}}) {
+                    bench::Trial trial{
+                        "", "", field,
+                        sceneFor(volume.lattice(),
+                                 scene::viewOrientation(scene::StandardView::front, angles),
+                                 tolerance)};
+                    trial.scene.camera.width = width;
+                    trial.scene.camera.height = height;
+                    trial.scene.camera.pixelMm = 2.0 * volume.lattice().radiusMm();
+                    const auto verdict = bench::judge(trial);
+                    EXPECT_LE(verdict.measured, verdict.ofView)
+                        << width << " x " << height << ' ' << tolerance << ' ' << angles.azimuthDeg;
+                }
+    }
 }
 
 // A thin oblique sheet off the centre, seen edge on, also exceeded its prediction: its whole

@@ -34,7 +34,7 @@ TEST_F(Cli, UsageErrorsNameTheOption) {
     expectOneLine(cli("render " + quoted(series) + out + " --orientation 0,0,0,0"), 2, "zero");
     expectOneLine(cli("render " + quoted(series) + out + " --scene ''"), 2, "--scene");
     expectOneLine(cli("render " + quoted(series) + out + " --window 5,1"), 2, "--window");
-    expectOneLine(cli("render " + quoted(series) + out + " --size 10"), 2, "--size");
+    expectOneLine(cli("render " + quoted(series) + out + " --size 10x10x10"), 2, "--size");
     expectOneLine(cli("render " + quoted(series) + out + " --memory 1000"), 4, "MB");
     // A pixel so small that the slice would not fit any machine.
     expectOneLine(cli("render " + quoted(series) + out + " --pixel-mm 1e-5 --size 10x10"), 4,
