@@ -71,10 +71,17 @@ scene::Camera croppedTo(const plan::FieldOfView &fieldOfView, const scene::Camer
     return cropped;
 }
 
-// The terms are energies expected of many pixels. Those of a few scatter: a single pixel had five
-// times the expected error, and four had, too.
-double scatter(const scene::Camera &camera) {
-    return 1.0 + 24.0 / (double(camera.width) * camera.height);
+// The terms are energies expected of many pixels, and the tails that fold into a picture were
+// measured in squares. In strips and pictures of a few pixels, up to 16 times the expected error
+// was measured: in strips one pixel wide, even more than the plan's bound.
+struct FewPixels {
+    double factor = 1.0;
+    bool isBeyondBound = false;
+};
+FewPixels fewPixels(const scene::Camera &camera) {
+    constexpr int narrow = 8;
+    const int side = std::min(camera.width, camera.height);
+    return {1.0 + 24.0 / std::pow(double(side), 1.5), side < narrow};
 }
 
 } // namespace
@@ -131,8 +138,10 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
         isAsPlanned = isAsPlanned && std::count_if(channelWeights.begin(), channelWeights.end(),
                                                    isShown) <= m_together;
     }
-    const double estimate = scatter(camera) * relativeError(energy, gain * gain * error);
-    return {isWhole && isAsPlanned ? std::min(gain * m_bound, estimate) : estimate, isWhole};
+    const FewPixels few = fewPixels(camera);
+    const double estimate = few.factor * relativeError(energy, gain * gain * error);
+    const bool isBounded = isWhole && isAsPlanned && !few.isBeyondBound;
+    return {isBounded ? std::min(gain * m_bound, estimate) : estimate, isWhole};
 }
 
 } // namespace pellucid::accuracy

@@ -86,7 +86,7 @@ TEST(Recipe, FaultsAreNamedWithTheirLines) {
          "/outputs/0/fit: cannot be met"},
         {"{\"recipe\": 1, \"outputs\": [{\"fit\": \"body\", \"size\": 9, \"views\": "
          "[{\"matrix\": [[1,0,0,0],[0,1,0,0],[0,0,0,1]]}]}]}",
-         "/outputs/0/fit: cannot be met: matrices"},
+         "/outputs/0/fit: cannot be met: the matrices"},
         {"{\"recipe\": 1, \"outputs\": [{\"look\": \"nothing like this\"}]}", "/outputs/0/look"},
         {"{\"recipe\": 1, \"outputs\": [{\"turntable\": 3, \"name\": \"a\"},\n"
          "{\"name\": \"a_0002\"}]}",
