@@ -73,15 +73,11 @@ scene::Camera croppedTo(const plan::FieldOfView &fieldOfView, const scene::Camer
 
 // The terms are energies expected of many pixels, and the tails that fold into a picture were
 // measured in squares. In strips and pictures of a few pixels, up to 16 times the expected error
-// was measured: in strips one pixel wide, even more than the plan's bound.
-struct FewPixels {
-    double factor = 1.0;
-    bool isBeyondBound = false;
-};
-FewPixels fewPixels(const scene::Camera &camera) {
-    constexpr int narrow = 8;
-    const int side = std::min(camera.width, camera.height);
-    return {1.0 + 24.0 / std::pow(double(side), 1.5), side < narrow};
+// was measured, and in strips one pixel wide more than the plan's bound.
+constexpr int fewPixels = 8; // along the shorter side
+
+double fewPixelsFactor(int side) {
+    return side > fewPixels ? 1.0 : 1.0 + 24.0 / std::pow(double(side), 1.5);
 }
 
 } // namespace
@@ -138,9 +134,9 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
         isAsPlanned = isAsPlanned && std::count_if(channelWeights.begin(), channelWeights.end(),
                                                    isShown) <= m_together;
     }
-    const FewPixels few = fewPixels(camera);
-    const double estimate = few.factor * relativeError(energy, gain * gain * error);
-    const bool isBounded = isWhole && isAsPlanned && !few.isBeyondBound;
+    const int side = std::min(camera.width, camera.height);
+    const double estimate = fewPixelsFactor(side) * relativeError(energy, gain * gain * error);
+    const bool isBounded = isWhole && isAsPlanned && side > fewPixels;
     return {isBounded ? std::min(gain * m_bound, estimate) : estimate, isWhole};
 }
 
