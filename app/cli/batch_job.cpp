@@ -158,16 +158,21 @@ private:
         renderer.requireRoomFor(scene.camera);
         const std::vector<std::string> files = batch::filesOf(output);
         beginFile(output, scene, files.front(), cameras.size(), isGrey);
+        std::string worst; // warning
         for (std::size_t view = 0; view < cameras.size(); ++view) {
             scene.camera = cameras[view];
             const picture::ProjectionImage image = renderer.image(scene.camera);
             made.predictedError =
                 std::max(made.predictedError, renderer.renderer().lastViewError());
-            if (const std::string missed = renderer.warningOfView(); !missed.empty())
-                m_labels.warnings.push_back(missed), made.warnings.push_back(missed);
+            m_missed = renderer.warningOfView();
+            if (!m_missed.empty() && renderer.renderer().lastViewError() == made.predictedError)
+                worst = m_missed;
             add(output, scene, image, files[files.size() > 1 ? view : 0], int(view),
                 renderer.renderer().lastViewError());
         }
+        m_missed = worst;
+        if (!worst.empty())
+            made.warnings.push_back(worst);
         endFile(output, scene, files.front(), made.predictedError);
         return made;
     }
@@ -175,15 +180,17 @@ private:
     dicom::CaptureLabels labelsFor(const Output &output, int view, double predictedError) const {
         dicom::CaptureLabels labels =
             output.isDeidentified ? dicom::deidentified(m_labels) : m_labels;
-        // Another version may make other pixels, which need other UIDs, and so do other warnings:
-        // some name files.
-        std::string of = fmt::format("{} {} {} {}", PELLUCID_VERSION, m_recipe.digest, m_images,
-                                     m_study.study.uid);
-        for (const std::string &warning : labels.warnings)
-            of += "\n" + warning;
+        // Another version may make other pixels, which need other UIDs.
+        const std::string of = fmt::format("{} {} {} {}", PELLUCID_VERSION, m_recipe.digest,
+                                           m_images, m_study.study.uid);
         labels.seriesUid = batch::derivedUid(fmt::format("series {} {}", of, output.name));
-        labels.instanceUid =
-            batch::derivedUid(fmt::format("instance {} {} {}", view, of, output.name));
+        if (!output.isDeidentified && !m_missed.empty())
+            labels.warnings.push_back(m_missed);
+        // Objects with other warnings, some of which name files, are other objects.
+        std::string instance = fmt::format("instance {} {} {}", view, of, output.name);
+        for (const std::string &warning : labels.warnings)
+            instance += "\n" + warning;
+        labels.instanceUid = batch::derivedUid(instance);
         if (output.isDeidentified)
             labels.studyUid = batch::derivedUid("study " + of);
         labels.isDated = false;
@@ -277,6 +284,7 @@ private:
     std::size_t m_memoryBytes = 0;
     const volume::Volume *m_volume = nullptr;
     dicom::CaptureLabels m_labels;
+    std::string m_missed; ///< the warning of the picture that is written, if it has one of its own
     std::string m_images;
     DoneRecord m_record;
     std::unique_ptr<files::NpyFile> m_array;

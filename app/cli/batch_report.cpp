@@ -9,6 +9,7 @@
 
 #include "app/cli/json_text.h"
 #include "app/cli/terminal.h"
+#include "core/scene/scene.h"
 #include "core/task/error.h"
 
 namespace pellucid::cli {
@@ -49,7 +50,9 @@ void BatchReport::finished(const std::string &key, const batch::DoneRecord &reco
     std::vector<std::string> reported; // what concerns all outputs, once
     for (const batch::DoneRecord::MadeOutput &output : record.outputs) {
         error = std::max(error, output.predictedError);
-        isImprecise = isImprecise || output.predictedError > output.tolerance;
+        // The tolerance of the exact method is no target.
+        isImprecise = isImprecise || (output.tolerance != scene::referenceTolerance &&
+                                      output.predictedError > output.tolerance);
         for (const std::string &warning : output.warnings)
             if (std::find(reported.begin(), reported.end(), warning) == reported.end()) {
                 reported.push_back(warning);

@@ -15,7 +15,7 @@ struct Shard {
     int index = 0, count = 1;
 };
 
-/// What the command asks for.
+/// The options of the command.
 struct BatchOptions {
     std::string recipe, from, out, sendTo;
     std::vector<std::string> paths;

@@ -50,8 +50,8 @@ double relativeError(double energy, double error) {
     return relativeToShown / std::max(minExact, 1.0 - relativeToShown);
 }
 
-// The part of the window that the fields can reach: the rest is empty, and a picture of a small
-// field with large pixels may be nearly all of it.
+// The part of the window that the fields can reach, if that is less than half of it: the rest is
+// empty. Their waves in a window of thousands of large pixels would take seconds.
 scene::Camera croppedTo(const plan::FieldOfView &fieldOfView, const scene::Camera &camera) {
     double reachMm = 0.0;
     for (const auto &spread : fieldOfView.spreads)
@@ -61,8 +61,8 @@ scene::Camera croppedTo(const plan::FieldOfView &fieldOfView, const scene::Camer
     const auto crop = [&](double &panMm, int &side) {
         const double half = 0.5 * side * camera.pixelMm, low = std::max(panMm - half, -reachMm),
                      high = std::min(panMm + half, reachMm);
-        if (high <= low || high - low >= 2.0 * half)
-            return; // nothing is in it, or all of it may be filled
+        if (high <= low || high - low >= half)
+            return; // nothing is in it, or most of it may be filled
         side = std::clamp(int(std::ceil((high - low) / camera.pixelMm)), 1, side);
         panMm = 0.5 * (low + high);
     };
@@ -102,15 +102,15 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
     render::FrameSetup setup(m_fieldOfView, engine.widths);
     const render::FrameInputs inputs =
         setup.inputsFor(engine.spectra, channelWeights, camera, image, shading, plan::onAllThreads);
-    const scene::Camera filled = croppedTo(m_fieldOfView, camera);
-    render::FrameSetup filledSetup(m_fieldOfView, engine.widths);
     const auto central = [&] {
-        return filled == camera
-                   ? centralEnergies(engine.spectra, inputs, camera)
-                   : centralEnergies(engine.spectra,
-                                     filledSetup.inputsFor(engine.spectra, channelWeights, filled,
-                                                           image, shading, plan::onAllThreads),
-                                     filled);
+        const scene::Camera filled = croppedTo(m_fieldOfView, camera);
+        if (filled == camera)
+            return centralEnergies(engine.spectra, inputs, camera);
+        render::FrameSetup setupOfFilled(m_fieldOfView, engine.widths);
+        return centralEnergies(engine.spectra,
+                               setupOfFilled.inputsFor(engine.spectra, channelWeights, filled,
+                                                       image, shading, plan::onAllThreads),
+                               filled);
     };
     const PictureContext context{picture,
                                  camera,

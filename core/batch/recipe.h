@@ -26,7 +26,7 @@ struct SeriesChoice {
 
 enum class Format { png, png16, npy, nrrd, capture, captureLoop, video };
 
-/// What fills a picture: the whole volume from every side, or the body from its views.
+/// The extent that fills a picture: the whole volume from every side, or the body from its views.
 enum class Fit { volume, body };
 
 /// What is made of a series: pictures of one look from some directions, in one format.

@@ -36,7 +36,7 @@ fs::path unfinishedIn(const fs::path &out) {
     return out / (std::string(".unfinished-") + name.data());
 }
 
-// What file managers and network file systems leave in a folder.
+// File managers and network file systems leave such files in folders.
 bool isOfTheSystem(const std::string &name) {
     return name == ".DS_Store" || name == ".directory" || name == "Thumbs.db" ||
            name == "desktop.ini" || name.starts_with("._") || name.starts_with(".nfs");

@@ -26,7 +26,7 @@ struct CaptureLabels {
     bool isDated = true;
     std::string seriesDescription = "Projection";
     std::string derivation = "Fourier volume rendering, parallel projection";
-    /// What a reader of the picture must know, a line each: they end with its Image Comments.
+    /// Warnings about the picture, one per line of its Image Comments.
     std::vector<std::string> warnings;
     int seriesNumber = 9001, instanceNumber = 1;
     std::string patientOrientation; ///< of rows and columns, "L\F"; may be empty

@@ -147,6 +147,7 @@ CaptureLabels deidentified(const CaptureLabels &labels) {
          {&anonymous.patientId, &anonymous.patientName, &anonymous.birthDate, &anonymous.sex,
           &anonymous.studyDate, &anonymous.studyDescription})
         text->clear();
+    anonymous.warnings.clear(); // some name files
     anonymous.studyUid = randomUid();
     anonymous.seriesUid = randomUid();
     anonymous.isDeidentified = true;

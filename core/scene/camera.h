@@ -69,7 +69,7 @@ Camera defaultCamera(const volume::Lattice &lattice);
 /// rounding.
 int evenPixels(double pixels);
 
-/// What is adjusted to fit a box: the size of a pixel, or the size of the picture.
+/// Whether fitting a box adjusts the size of a pixel or the size of the picture.
 enum class FitBy { pixel, size };
 /// Centers a box in the picture of each camera, and chooses one pixel or one size so that it fills
 /// the largest but for a margin of 3.5 % on each side. Pixels never get smaller than an eighth, and

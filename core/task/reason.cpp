@@ -2,7 +2,6 @@
 #include "core/task/reason.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>

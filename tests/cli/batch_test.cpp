@@ -208,7 +208,7 @@ TEST_F(Batch, ListsWhatFailsAndGoesOn) {
     EXPECT_NE(r.error.find("damaged files: 16"), std::string::npos) << r.error;
 }
 
-// What is intact but cannot be projected is no failure; an archive may hold studies.
+// Intact files that cannot be projected are no failures; an archive may contain studies.
 TEST_F(Batch, FilesOfOtherKindsAreNoFailures) {
     const fs::path in = studies(1);
     writeText(in / ".placeholder", "");
@@ -264,6 +264,31 @@ TEST_F(Batch, PicturesNameTheirErrorAndWarnings) {
     const std::string text = readText(made);
     EXPECT_NE(text.find("predicted error 0."), std::string::npos);
     EXPECT_NE(text.find("Not for diagnostic use\r\n"), std::string::npos);
+}
+
+// What differs between outputs, such as their warnings, does not tear a study apart.
+TEST_F(Batch, DeidentifiedPicturesOfAStudyStayTogether) {
+    const fs::path in = studies(1);
+    const auto made =
+        batch(recipe(R"({"name": "a", "format": "dicom", "deidentify": true, "size": 32},
+        {"name": "b", "format": "dicom", "deidentify": true, "size": 32, "tolerance": 1e-9,
+         "turntable": 2})"),
+              in, folder / "out");
+    ASSERT_EQ(made.exitCode, 0) << made.error;
+    EXPECT_NE(made.error.find("tolerance"), std::string::npos); // b has a warning
+    EXPECT_NE(made.out.find("1 beyond the tolerance"), std::string::npos) << made.out;
+    const fs::path study = fs::directory_iterator(folder / "out")->path();
+    // The value of a UI element of group 0020.
+    const auto uidOf = [&](const char *file, char element) {
+        const std::string text = readText(study / file);
+        const auto at = text.find(std::string{'\x20', '\0', element, '\0', 'U', 'I'});
+        return at == std::string::npos ? std::string()
+                                       : text.substr(at + 8, std::uint8_t(text[at + 6]));
+    };
+    EXPECT_FALSE(uidOf("a.dcm", '\x0d').empty());
+    EXPECT_EQ(uidOf("a.dcm", '\x0d'), uidOf("b_0000.dcm", '\x0d'));
+    EXPECT_EQ(uidOf("b_0000.dcm", '\x0e'), uidOf("b_0001.dcm", '\x0e'));
+    EXPECT_NE(uidOf("a.dcm", '\x0e'), uidOf("b_0000.dcm", '\x0e'));
 }
 
 // Pictures that fit the body show it larger, and the same of it.

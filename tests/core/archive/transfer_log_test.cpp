@@ -77,7 +77,7 @@ TEST(TransferLog, AnAttemptThatIsOverDoesNotEndTheNext) {
     EXPECT_EQ(first.transfer(id)->state, TransferState::complete);
 }
 
-// What another attempt has taken over is its own to remove.
+// An attempt that took a transfer over removes it itself.
 TEST(TransferLog, OnlyTheLastAttemptRemovesATransfer) {
     const test::TemporaryFolder folder;
     TransferLog first(folder / "transfers.sqlite"), second(folder / "transfers.sqlite");

@@ -158,7 +158,7 @@ TEST(Recipe, ViewsTurnAndFitTheVolume) {
     EXPECT_EQ(recipe.outputs[3].views.size(), 2U);
 }
 
-// What its view is called names an output without a name.
+// An output without a name is named after its view.
 TEST(Recipe, AnglesNameAnOutput) {
     const Recipe recipe = read(R"({"recipe": 1, "outputs": [{"view": "LAO 30, CRA 20"}]})");
     EXPECT_EQ(filesOf(recipe.outputs.front()), std::vector<std::string>{"LAO_30,_CRA_20.png"});
