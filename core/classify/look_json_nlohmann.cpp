@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/classify/look_json.h"
 
-#include <algorithm>
-#include <initializer_list>
 #include <memory>
 #include <string>
 #include <utility>
@@ -19,22 +17,11 @@ namespace because = task::because;
 using files::JsonValue;
 using nlohmann::json;
 
-// A misspelt member would do something other than what is meant.
-void requireMembers(const JsonValue &in, std::initializer_list<const char *> known) {
-    for (const auto &member : in.members())
-        if (std::find(known.begin(), known.end(), member.first) == known.end()) {
-            std::string names;
-            for (const char *name : known)
-                names += (names.empty() ? "" : ", ") + std::string(name);
-            in.refuse(because::isNoneOf(member.first, names));
-        }
-}
-
 TransferFunction functionFrom(const JsonValue &in) {
     // Weights alone for a curve over all densities, as earlier versions wrote it.
     TransferFunction function;
     if (in.isObject()) {
-        requireMembers(in, {"weights", "range"});
+        in.requireOnly({"weights", "range"});
         function.weights = in.at("weights").numbers();
         const auto [low, high] = in.at("range").twoNumbers();
         function.low = low;
@@ -63,7 +50,7 @@ std::vector<volume::PatientPoint> pointsFrom(const JsonValue &in) {
 }
 
 Stroke strokeFrom(const JsonValue &in) {
-    requireMembers(in, {"path", "radius_mm", "erase"});
+    in.requireOnly({"path", "radius_mm", "erase"});
     Stroke stroke{Path(pointsFrom(in.at("path"))), in.at("radius_mm").number(), false};
     if (const JsonValue erases = in["erase"])
         stroke.erases = erases.boolean();
@@ -72,7 +59,7 @@ Stroke strokeFrom(const JsonValue &in) {
 }
 
 LassoCut cutFrom(const JsonValue &in) {
-    requireMembers(in, {"outline", "sight", "slab_mm", "keep"});
+    in.requireOnly({"outline", "sight", "slab_mm", "keep"});
     LassoCut cut{Path(pointsFrom(in.at("outline"))), pointFrom(in.at("sight")).mm, std::nullopt,
                  false};
     if (const JsonValue slab = in["slab_mm"])

@@ -168,7 +168,7 @@ TEST(RegionSteps, GoThroughJson) {
               "/classes/0/steps/0/cuts/0: the line of sight of a cut is not a unit vector");
     EXPECT_EQ(refusalOf(R"({"classes":[{"name":"a","range":[0,1],"steps":[{"kind":"scissors","cuts":
               [{"outline":[[0,0,0],[1,0,0],[0,1,0]],"sight":[0,0,1],"keeps":true}]}]}]})"),
-              "/classes/0/steps/0/cuts/0: unknown member 'keeps': use one of outline, sight, "
+              "/classes/0/steps/0/cuts/0/keeps: unknown member 'keeps': use one of outline, sight, "
               "slab_mm, keep");
     Look twins{{}, {named("a"), named("b"), named("b")}};
     EXPECT_EQ(reasonOf(twins), "valid");

@@ -84,7 +84,7 @@ TEST(Preset, RefusesWithLineAndReason) {
               "line 12: /classes/0/weight: must be a number");
     EXPECT_EQ(reasonOf(with("1.25", "1e308")), "line 12: /classes/0/weight: is out of range");
     EXPECT_EQ(reasonOf(with("[0, 0.5, 2]", "[\n0, 0.5,\n 1e999]")),
-              "line 23: number overflow parsing '1e999'");
+              "line 23: not JSON: number overflow parsing '1e999'");
     EXPECT_EQ(
         reasonOf(with("\"kind\": \"largest\"", "\"kind\": \"biggest\"")).rfind("line 17: ", 0), 0U);
     EXPECT_EQ(reasonOf(with("\"radius_mm\": 1.5", "\"radius_mm\": -1")).rfind("line 16: ", 0), 0U);
