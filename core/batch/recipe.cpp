@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/classify/couch.h"
 #include "core/scene/positioner_angles.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
@@ -111,6 +112,9 @@ scene::Scene sceneOf(const Output &output, const volume::Volume &volume) {
             *output.look, scene.fieldWindow.value_or(classify::defaultFieldWindow(volume)));
         scene.shading = output.look->shading;
     }
+    if (output.isWithoutCouch && volume.unit() == volume::ValueUnit::hounsfield)
+        classify::removeCouch(scene.look,
+                              scene.fieldWindow.value_or(classify::defaultFieldWindow(volume)));
     if (output.tolerance)
         scene.tolerance = *output.tolerance;
     scene::Camera camera;
@@ -204,6 +208,8 @@ std::vector<std::string> explained(const Recipe &recipe) {
             line += fmt::format(", look '{}'", output.look->name);
         else if (output.scene)
             line += ", of a scene";
+        if (output.isWithoutCouch)
+            line += ", without the couch";
         if (output.size)
             line += fmt::format(", {} x {} pixels", (*output.size)[0], (*output.size)[1]);
         if (output.pixelMm)

@@ -36,6 +36,7 @@ struct Output {
     /// Where the scene starts from; of its camera, the orientation and the size count.
     std::optional<scene::Scene> scene;
     std::optional<presets::Preset> look; ///< replaces the look and the shading of the scene
+    bool isWithoutCouch = false;         ///< of CT: only the patient is shown
     std::vector<scene::ViewList::View> views;
     bool isTurn = false; ///< the views are one turn about the patient's long axis
     std::optional<std::array<int, 2>> size;

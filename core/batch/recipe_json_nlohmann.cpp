@@ -91,8 +91,8 @@ private:
     }
 
     Output outputFrom(const JsonValue &in) {
-        in.requireOnly({"name", "format", "view", "views", "turntable", "look", "scene", "size",
-                        "pixel_mm", "fit", "tolerance", "deidentify"});
+        in.requireOnly({"name", "format", "view", "views", "turntable", "look", "scene",
+                        "without_couch", "size", "pixel_mm", "fit", "tolerance", "deidentify"});
         Output output;
         if (const JsonValue format = in["format"])
             output.format = format.meaning(formats);
@@ -137,6 +137,8 @@ private:
                                         : look.checkedText(presets::presetFromJson);
             m_contents += presets::toJson(*output.look);
         }
+        if (const JsonValue couch = in["without_couch"])
+            output.isWithoutCouch = couch.boolean();
         if (const JsonValue tolerance = in["tolerance"])
             output.tolerance = toleranceFrom(tolerance);
     }

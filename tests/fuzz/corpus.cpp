@@ -142,7 +142,7 @@ void writeRecipes(const fs::path &folder) {
         {"name": "a", "views": {"size": [9, 8], "views": ["RAO30", {"primary_deg": 5}]}},
         {"name": "b", "turntable": 7, "view": "LAO30,CRA20", "format": "mp4", "size": 12},
         {"name": "c", "look": "Bone", "tolerance": "fine", "pixel_mm": 0.5, "deidentify": true,
-         "format": "dicom"}]})");
+         "without_couch": true, "format": "dicom"}]})");
     const auto library = presets::PresetLibrary({});
     writeText(folder / "scene", batch::recipeOf({}, library.get("Bone").preset,
                                                 batch::Format::captureLoop, 12, false));

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/classify/couch.h"
 #include "core/presets/preset_library.h"
 #include "core/task/error.h"
 #include "tests/support/files.h"
@@ -227,6 +228,24 @@ TEST(Recipe, OfASceneMakesItsLookOfOtherStudies) {
     EXPECT_FALSE(made.tone.exposure);
     EXPECT_EQ(made.camera.panMm, glm::dvec2(0.0));
     EXPECT_EQ(made.camera.width, 300);
+}
+
+// Volumes without HU have no couch that could be found.
+TEST(Recipe, WithoutTheCouchIsForCtInAnyLook) {
+    const auto unitless =
+        volume::Volume(volume::Lattice::centred({8, 8, 8}, {1.0, 1.0, 1.0}),
+                       std::vector<std::int16_t>(512, 40), volume::ValueUnit::none);
+    const auto ct = volumeOf({8, 8, 8}, {1.0, 1.0, 1.0});
+    for (const std::string look : {"", R"("look": "Bone over soft tissue",)"}) {
+        const Output output =
+            read(R"({"recipe": 1, "outputs": [{)" + look + R"("without_couch": true}]})")
+                .outputs[0];
+        EXPECT_TRUE(classify::isWithoutCouch(sceneOf(output, ct).look)) << look;
+        EXPECT_FALSE(classify::isWithoutCouch(sceneOf(output, unitless).look)) << look;
+        Output with = output;
+        with.isWithoutCouch = false;
+        EXPECT_FALSE(classify::isWithoutCouch(sceneOf(with, ct).look)) << look;
+    }
 }
 
 // The schema that editors use knows the names that the reader knows.
