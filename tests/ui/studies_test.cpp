@@ -251,6 +251,13 @@ private slots:
             write("dynamic", n, "t1 dynamic", "MR", 0.0);
         write("dynamic", 4, "t1 dynamic", "MR", 100.0);
         QCOMPARE(rowsOf("dynamic"), 2);
+        // Two strengths of one reconstruction are two pictures of one moment.
+        write("strengths", 1, "Chest ASiR-V 30%", "CT", 0.0);
+        write("strengths", 2, "Chest ASiR-V 60%", "CT", 0.0);
+        QCOMPARE(rowsOf("strengths"), 2);
+        for (const int percent : {30, 60})
+            write("both", percent, "CTA " + std::to_string(percent) + "% ASiR 40%", "CT", 0.0);
+        QCOMPARE(rowsOf("both"), 1);
         // Two kernels may have one description.
         for (const int n : {1, 2})
             write("kernels", n, "Chest", "CT", 0.0);

@@ -40,15 +40,25 @@ std::optional<task::Reason> stackOf(const std::vector<task::Reason> &label) {
 }
 
 // Gated and dynamic scans often write a series for each phase: "Gated, 40%", "CTA phase 3". The
-// description without the number of the phase; empty if it has none.
+// description without the number of the phase; empty if it has none. A percentage may also be the
+// strength of an iterative reconstruction: "Chest ASiR-V 30%", "SS40 40%".
 QString phaseName(const QString &description) {
     static const QRegularExpression number(
-        "(\\d+(?:\\.\\d+)?\\s*%)|((?:phase|dyn(?:amic)?|time\\s*point|tp)[\\s_#-]*\\d+)",
+        "\\d+(?:\\.\\d+)?\\s*%|(?:phase|dyn(?:amic)?|time\\s*point|\\btp)[\\s_#-]*\\d+",
         QRegularExpression::CaseInsensitiveOption);
-    const auto found = number.match(description);
-    if (!found.hasMatch())
-        return {};
-    return QString(description).replace(found.capturedStart(), found.capturedLength(), "#");
+    static const QRegularExpression endsWithReconstruction(
+        "(?:asir(?:[\\s_-]*v)?|\\b(?:ar|ss)\\d*|\\bir|blend(?:ing)?|admire|safire|idose|aidr|dose)"
+        "[\\s:=_(-]*$",
+        QRegularExpression::CaseInsensitiveOption);
+    for (auto all = number.globalMatch(description); all.hasNext();) {
+        const auto found = all.next();
+        const bool isPercentage = found.captured().endsWith('%');
+        if (isPercentage &&
+            endsWithReconstruction.match(description.left(found.capturedStart())).hasMatch())
+            continue;
+        return QString(description).replace(found.capturedStart(), found.capturedLength(), "#");
+    }
+    return {};
 }
 
 // Positions in files are rounded.
