@@ -236,7 +236,7 @@ TEST(Recipe, WithoutTheCouchIsForCtInAnyLook) {
         volume::Volume(volume::Lattice::centred({8, 8, 8}, {1.0, 1.0, 1.0}),
                        std::vector<std::int16_t>(512, 40), volume::ValueUnit::none);
     const auto ct = volumeOf({8, 8, 8}, {1.0, 1.0, 1.0});
-    for (const std::string look : {"", R"("look": "Bone over soft tissue",)"}) {
+    for (const std::string look : {"", R"("look": "Bone in relief",)"}) {
         const Output output =
             read(R"({"recipe": 1, "outputs": [{)" + look + R"("without_couch": true}]})")
                 .outputs[0];
