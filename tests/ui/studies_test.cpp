@@ -2,6 +2,7 @@
 // The study library as a person uses it: import, search, order, open, details, remove.
 #include "tests/support/dicom_writer.h"
 #include "tests/ui/studies_window.h"
+#include "ui/studies/study_facts.h"
 
 #include <filesystem>
 #include <fstream>
@@ -251,17 +252,45 @@ private slots:
             write("dynamic", n, "t1 dynamic", "MR", 0.0);
         write("dynamic", 4, "t1 dynamic", "MR", 100.0);
         QCOMPARE(rowsOf("dynamic"), 2);
-        // Two strengths of one reconstruction are two pictures of one moment.
-        write("strengths", 1, "Chest ASiR-V 30%", "CT", 0.0);
-        write("strengths", 2, "Chest ASiR-V 60%", "CT", 0.0);
-        QCOMPARE(rowsOf("strengths"), 2);
-        for (const int percent : {30, 60})
-            write("both", percent, "CTA " + std::to_string(percent) + "% ASiR 40%", "CT", 0.0);
-        QCOMPARE(rowsOf("both"), 1);
         // Two kernels may have one description.
         for (const int n : {1, 2})
             write("kernels", n, "Chest", "CT", 0.0);
         QCOMPARE(rowsOf("kernels"), 2);
+    }
+
+    void descriptionsTellPhasesFromOtherNumbers_data() {
+        QTest::addColumn<QString>("one");
+        QTest::addColumn<QString>("other");
+        QTest::addColumn<bool>("arePhases");
+        const auto row = [](const char *one, const char *other, bool arePhases) {
+            QTest::addRow("%s, %s", one, other) << one << other << arePhases;
+        };
+        row("CTA gated, 30%", "CTA gated, 60%", true);
+        row("Low dose 40%", "Low dose 75%", true);
+        row("SS40 40%", "SS40 75%", true);
+        row("CTA 30% ASiR 40%", "CTA 60% ASiR 40%", true);
+        row("ASiR 40% CTA 30%", "ASiR 40% CTA 60%", true);
+        row("CTA phase 3", "CTA phase 4", true);
+        row("Perfusion TP 1", "Perfusion TP 2", true);
+        // Two strengths of one reconstruction are two pictures of one moment.
+        row("Chest ASiR-V 30%", "Chest ASiR-V 60%", false);
+        row("Chest (ASIR=30%)", "Chest (ASIR=60%)", false);
+        row("Chest iDose 30%", "Chest iDose 50%", false);
+        row("CTA 30% ASiR 40%", "CTA 30% ASiR 60%", false);
+        row("http2 chest", "http3 chest", false);
+        row("Chest B30", "Chest B70", false);
+    }
+    void descriptionsTellPhasesFromOtherNumbers() {
+        QFETCH(QString, one);
+        QFETCH(QString, other);
+        ui::VolumeFacts a;
+        a.seriesUid = "1";
+        a.modality = "CT";
+        a.description = one;
+        ui::VolumeFacts b = a;
+        b.seriesUid = "2";
+        b.description = other;
+        QTEST(ui::arePhases(a, b), "arePhases");
     }
 
     void aClosedStudyLeavesTheList() {

@@ -41,14 +41,14 @@ std::optional<task::Reason> stackOf(const std::vector<task::Reason> &label) {
 
 // Gated and dynamic scans often write a series for each phase: "Gated, 40%", "CTA phase 3". The
 // description without the number of the phase; empty if it has none. A percentage may also be the
-// strength of an iterative reconstruction: "Chest ASiR-V 30%", "SS40 40%".
+// strength of an iterative reconstruction: "Chest ASiR-V 30%". But "low dose 75%" and "SS40 75%"
+// are phases.
 QString phaseName(const QString &description) {
     static const QRegularExpression number(
         "\\d+(?:\\.\\d+)?\\s*%|(?:phase|dyn(?:amic)?|time\\s*point|\\btp)[\\s_#-]*\\d+",
         QRegularExpression::CaseInsensitiveOption);
     static const QRegularExpression endsWithReconstruction(
-        "(?:asir(?:[\\s_-]*v)?|\\b(?:ar|ss)\\d*|\\bir|blend(?:ing)?|admire|safire|idose|aidr|dose)"
-        "[\\s:=_(-]*$",
+        "(?:asir(?:[\\s_-]*v)?|\\bir|blend(?:ing)?|admire|safire|idose|aidr)[\\s:=_(-]*$",
         QRegularExpression::CaseInsensitiveOption);
     for (auto all = number.globalMatch(description); all.hasNext();) {
         const auto found = all.next();

@@ -97,7 +97,7 @@ private slots:
             program.waitForFinished(int(wholeMs * double(40 + random() % 70) / 100.0));
             const bool isRunning = program.state() == QProcess::Running;
             killed += isRunning ? 1 : 0;
-            // What else this machine does may change how long it takes.
+            // The time varies with the load of the machine.
             wholeMs = isRunning ? 1.05 * wholeMs : double(clock.elapsed());
             program.kill();
             program.waitForFinished();
