@@ -44,6 +44,9 @@ for program in "$tree"/bin/* "$tree"/libexec/pellucid/*; do
     echo "$(basename "$program"): $((bytes >> 10)) kB"
 done
 
+check "programs have what stops an attack on a mistake of memory"
+tests/packaging/hardening.sh "$tree"/bin/* "$tree"/libexec/pellucid/*
+
 check "the licences of all that is inside"
 sh "$packages"/pellucid-cli-*.run --quiet --noexec --target "$elsewhere/bundle"
 for list in build/package/inventory/pellucid.spdx.json build/package/bundle/share/doc/pellucid/pellucid.spdx.json \

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/files/table_cell.h"
+
 namespace pellucid::bench {
 
 namespace {
@@ -117,7 +119,11 @@ std::string csvText(const std::vector<Row> &rows) {
         }
         std::string line;
         for (const auto &[key, value] : row.items())
-            line += (line.empty() ? "" : ",") + (value.is_null() ? std::string() : value.dump());
+            line +=
+                (line.empty() ? "" : ",") +
+                (value.is_null()     ? std::string()
+                 : value.is_string() ? files::csvField(files::tableCell(value.get<std::string>()))
+                                     : value.dump());
         text += line + '\n';
     }
     return text;

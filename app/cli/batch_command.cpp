@@ -106,6 +106,7 @@ void addBatchCommand(CLI::App &app, const Context &context) {
                   "available memory")
         ->transform(CLI::AsSizeValue(false));
     c->add_flag("--json", o->json, "Print a report as one JSON object");
+    addProtectionOption(*c, o->allowsUnprotected);
     c->callback([o, terms, shard, context] {
         if (o->paths.empty() && o->from.empty())
             throw CLI::RequiredError("PATH or --from");

@@ -30,6 +30,7 @@
 #include "core/batch/study_results.h"
 #include "core/exchange/link.h"
 #include "core/files/atomic_file.h"
+#include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/files/video_file.h"
 #include "core/fourier/transforms/wisdom.h"
@@ -87,6 +88,7 @@ public:
         for (const std::string &server : {m_options.from, m_options.sendTo})
             if (!server.empty())
                 archive::ServerList::ofUser().get(server);
+        requireProtection("batch", m_options.allowsUnprotected);
         choosePlace();
         // The same bits in every run: plans that are measured depend on the moment.
         fourier::estimatePlans();
@@ -132,7 +134,7 @@ private:
             throw Error(ErrorCode::output, because::cannotBeMade(task::systemReason(failed)),
                         m_out);
         files::requireWritable(m_out);
-        batch::removeUnfinished(m_out);
+        files::removeAbandonedSessionFolders(m_out);
     }
 
     // Before any study is rendered in vain.

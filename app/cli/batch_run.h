@@ -23,7 +23,7 @@ struct BatchOptions {
     Shard shard;
     int jobs = 2, threads = 0;
     std::uint64_t memory = 0;
-    bool resumes = false, json = false;
+    bool resumes = false, json = false, allowsUnprotected = false;
 };
 
 /// Renders the studies by the recipe, and prints what was done. *Throws* Error{usage},

@@ -168,7 +168,7 @@ public:
         return items;
     }
     std::string digestOf(const BatchItem &item) override {
-        return digestOf(archive::listInstances(m_server, wantedOf(item), progress()));
+        return digestOf(archive::listInstances(m_server, wantedOf(item), progress()).instances);
     }
     void open(const BatchItem &item,
               const std::function<void(const StudyToRender &)> &use) override {
@@ -180,8 +180,14 @@ public:
         observer.listed = [&](const std::vector<archive::Instance> &instances) {
             inputs = digestOf(instances);
         };
-        requireComplete(archive::retrieve(m_server, wantedOf(item), objects, observer, progress()),
-                        m_server.name);
+        const archive::RetrievalReport report =
+            archive::retrieve(m_server, wantedOf(item), objects, observer, progress());
+        requireComplete(report, m_server.name);
+        // Nobody looks: a result of another patient's images would be taken for this one's.
+        if (report.ofAnotherPatient > 0)
+            throw task::Error(task::ErrorCode::unusable,
+                              task::because::objectsAreOfAnotherPatient(report.ofAnotherPatient),
+                              m_server.name);
         const dicom::Catalogue catalogue =
             dicom::scan({folder.path()}, progress(), {.isSameSource = true});
         const dicom::Patient *patient = nullptr;

@@ -81,7 +81,7 @@ FetchedStudy::FetchedStudy(const RemoteOptions &remote, const std::string &serie
         const auto report = watched([&](const archive::RetrievalObserver &observer) {
             return archive::retrieve(server, wanted, objects, observer, progress);
         });
-        warnOfLacking(report);
+        warnOfObjects(report);
         requireComplete(report, server.name);
     });
 }

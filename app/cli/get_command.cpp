@@ -38,10 +38,15 @@ nlohmann::json jsonOf(const RetrievalReport &report, const fs::path &folder) {
     for (const archive::RefusedObject &object : report.lacking)
         lacking.push_back(
             {{"instance_uid", object.sopInstanceUid}, {"reason", object.reason.english()}});
-    return {{"folder", folder.string()},       {"wanted", report.state.wanted},
-            {"present", report.state.present}, {"received", report.state.received},
-            {"bytes", report.state.bytes},     {"seconds", report.seconds},
-            {"unwanted", report.unwanted},     {"lacking", lacking}};
+    return {{"folder", folder.string()},
+            {"wanted", report.state.wanted},
+            {"present", report.state.present},
+            {"received", report.state.received},
+            {"bytes", report.state.bytes},
+            {"seconds", report.seconds},
+            {"unwanted", report.unwanted},
+            {"of_another_patient", report.ofAnotherPatient},
+            {"lacking", lacking}};
 }
 
 // "509 of 512, 100 of them were here; 42.0 MB, 8.4 MB/s"
@@ -65,7 +70,7 @@ void run(TransferLog &log, std::int64_t id, const Options &o, const Context &con
     if (o.json) {
         std::puts(jsonText(jsonOf(report, transfer.folder)).c_str());
     } else {
-        warnOfLacking(report);
+        warnOfObjects(report);
         std::puts(printable(summaryOf(report)).c_str());
     }
     requireComplete(report, server.name);

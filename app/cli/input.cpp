@@ -12,9 +12,11 @@
 
 #include "app/cli/reason_lines.h"
 #include "app/cli/terminal.h"
+#include "core/decoder/decoder.h"
 #include "core/decoder/read_volume_file.h"
 #include "core/dicom/scan.h"
 #include "core/files/file_ids.h"
+#include "core/helper/protection.h"
 #include "core/subtraction/difference.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
@@ -165,6 +167,22 @@ void naming(const std::filesystem::path &path, const std::function<void()> &work
 CLI::Validator notEmpty() {
     return {[](std::string &text) { return text.empty() ? "must not be empty" : std::string(); },
             "", "text"};
+}
+
+void addProtectionOption(CLI::App &command, bool &allowsUnprotected) {
+    command.add_flag("--allow-unprotected", allowsUnprotected,
+                     "Go on even if this system cannot confine the processes that read files");
+}
+
+void requireProtection(const std::string &command, bool allowsUnprotected) {
+    if (allowsUnprotected)
+        return;
+    helper::whenUnprotected([command] {
+        throw task::Error(task::ErrorCode::usage,
+                          task::because::systemDoesNotProtectUnattended(
+                              task::because::systemDoesNotProtect, command));
+    });
+    decoder::Decoder::shared().confinement(); // before any other work
 }
 
 void addLargeOption(CLI::App &command, bool &large) {

@@ -40,6 +40,11 @@ struct InputOptions {
         weights;                                     ///< of both
 };
 
+/// Adds --allow-unprotected, for commands that work through what strangers send while nobody looks.
+void addProtectionOption(CLI::App &command, bool &allowsUnprotected);
+/// *Throws* Error{usage} if the system cannot confine the helpers, unless that is allowed.
+void requireProtection(const std::string &command, bool allowsUnprotected);
+
 /// Adds --large.
 void addLargeOption(CLI::App &command, bool &large);
 

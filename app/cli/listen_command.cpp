@@ -11,9 +11,11 @@
 #include <fmt/format.h>
 
 #include "app/cli/commands.h"
+#include "app/cli/input.h"
 #include "app/cli/terminal.h"
 #include "core/archive/listener.h"
 #include "core/archive/receiving.h"
+#include "core/archive/refused_connections.h"
 #include "core/archive/run_transfer.h"
 #include "core/task/error.h"
 
@@ -26,7 +28,7 @@ namespace fs = std::filesystem;
 struct Options {
     archive::ListenerOptions listener;
     std::string folder;
-    bool isForLibrary = false;
+    bool isForLibrary = false, allowsUnprotected = false;
 };
 
 // Every DICOM server of the list may send.
@@ -40,6 +42,7 @@ std::vector<archive::Sender> knownSenders() {
 }
 
 void listen(Options o, const Context &context) {
+    requireProtection("listen", o.allowsUnprotected);
     if (!o.listener.acceptsAnyone) {
         o.listener.senders = knownSenders();
         if (o.listener.senders.empty())
@@ -49,12 +52,7 @@ void listen(Options o, const Context &context) {
                                            ? archive::libraryObjectFolder()
                                            : fs::absolute(o.folder.empty() ? "." : o.folder),
                                        archive::ObjectFolder::Keeps::onDisk);
-    std::error_code failed;
-    fs::create_directories(folder.folder(), failed);
-    if (failed)
-        throw task::Error(task::ErrorCode::output,
-                          task::because::cannotBeMade(task::systemReason(failed.value())),
-                          folder.folder());
+    folder.create();
     std::optional<archive::TransferLog> log;
     if (o.isForLibrary)
         log.emplace(archive::TransferLog::fileOfUser());
@@ -64,21 +62,28 @@ void listen(Options o, const Context &context) {
                                            ": not stored: " + object.reason.english());
                                   }});
     std::map<std::string, std::size_t> stored; // by sender
+    archive::RefusedConnections refused;
     const archive::Listener listener(
         o.listener, [&] { return receiving.receiver(); }, {[&](const archive::ConnectionEnd &end) {
             const std::string sender =
                 end.sender == end.address ? end.address : end.sender + " at " + end.address;
-            if (end.reason)
+            if (end.reason && refused.isNew(end.address, *end.reason))
                 warn(sender + ": " + end.reason->english());
+            if (end.stored == 0)
+                return;
             std::size_t &count = stored[sender];
             count += end.stored;
             fmt::print("{}: {} stored so far\n", printable(sender), count);
             std::fflush(stdout);
         }});
-    fmt::print("{} listens on port {}\n", o.listener.ae, listener.port());
+    fmt::print("{} listens on {}port {}\n", o.listener.ae,
+               o.listener.address.empty() ? "" : o.listener.address + ", ", listener.port());
     std::fflush(stdout);
-    while (!context.stop.stop_requested())
+    while (!context.stop.stop_requested()) {
+        if (const auto summary = refused.summary())
+            warn(summary->english());
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
 }
 
 } // namespace
@@ -91,6 +96,8 @@ void addListenCommand(CLI::App &app, const Context &context) {
         c->add_option("--to", o->folder, "Folder to write to; default: the current one");
     c->add_flag("--library", o->isForLibrary, "Add what arrives to the library of the workstation")
         ->excludes(to);
+    c->add_option("--address", o->listener.address,
+                  "IPv4 address of this computer to receive on; default: all of them");
     c->add_option("--port", o->listener.port, "Port; default 11112; 0: any free one")
         ->check(CLI::Range(0, 65535));
     c->add_option("--ae", o->listener.ae, "AE title of this program; default PELLUCID");
@@ -102,11 +109,16 @@ void addListenCommand(CLI::App &app, const Context &context) {
         c->add_option("--key", o->listener.key, "Private key of the certificate, in PEM format")
             ->check(CLI::ExistingFile)
             ->needs(certificate);
+    CLI::Option *authorities =
+        c->add_option(
+             "--authorities", o->listener.authorities,
+             "CA certificates with TLS; a sender's certificate must be from them, and name the "
+             "sender's host or address")
+            ->check(CLI::ExistingFile)
+            ->needs(certificate);
     certificate->needs(key);
-    c->add_option("--authorities", o->listener.authorities,
-                  "Certificates of the authorities that senders' certificates must be from")
-        ->check(CLI::ExistingFile)
-        ->needs(certificate);
+    certificate->needs(authorities);
+    addProtectionOption(*c, o->allowsUnprotected);
     c->callback([o, context] {
         o->listener.usesTls = !o->listener.certificate.empty();
         listen(*o, context);

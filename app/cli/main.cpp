@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <pthread.h>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -16,6 +16,8 @@
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/transforms/wisdom.h"
+#include "core/helper/protection.h"
+#include "core/system/hidden_memory.h"
 #include "core/task/error.h"
 #include "core/task/progress.h"
 
@@ -43,7 +45,7 @@ std::stop_source &stopOnInterrupt() {
         source.request_stop();
         // A second signal does not wait for a transform to finish.
         sigwait(&signals, &received);
-        std::_Exit(cancelledExit);
+        pellucid::cli::endAtOnce(cancelledExit);
     }).detach();
     return source;
 }
@@ -55,6 +57,10 @@ int run(int argc, char **argv) {
     std::signal(SIGPIPE, SIG_IGN);
     const cli::Context context{stopOnInterrupt().get_token()};
 
+    helper::whenUnprotected([isReported = false]() mutable {
+        if (!std::exchange(isReported, true))
+            cli::warn(task::Reason(task::because::systemDoesNotProtect).english());
+    });
     // A killed program's unpacked files contain patient data.
     files::removeAbandonedSessionFolders();
     if (const auto cache = files::userCacheFolder())
@@ -103,6 +109,7 @@ int run(int argc, char **argv) {
 
 int main(int argc, char **argv) {
     using namespace pellucid;
+    system::hideMemory();
     try {
         return run(argc, argv);
     } catch (const CLI::ParseError &error) {

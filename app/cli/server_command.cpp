@@ -55,7 +55,7 @@ struct Options {
     archive::LoginSettings login;
     int connections = 4;
     std::uint32_t limit = 200;
-    bool json = false, uncompress = false;
+    bool json = false, uncompress = false, allowsInsecureLogin = false;
 };
 
 // The program may be started in another folder the next time.
@@ -77,6 +77,7 @@ void add(const Options &o) {
     peer.user = o.user;
     peer.characterSet = o.set;
     peer.authentication = meaningOf(o.authentication, authentications);
+    peer.allowsInsecureLogin = o.allowsInsecureLogin;
     // An association would be negotiated without the token.
     if (!o.dicom.empty() && peer.authentication == Authentication::bearer)
         throw task::Error(
@@ -107,6 +108,7 @@ nlohmann::json jsonOf(const Server &server) {
             {"character_set", peer.characterSet},
             {"authentication", wordFor(peer.authentication, authentications)},
             {"user", peer.user},
+            {"allow_insecure_login", peer.allowsInsecureLogin},
             {"login",
              {{"issuer", login.issuer},
               {"authorization_url", login.authorizationUrl},
@@ -140,6 +142,7 @@ std::string lineOf(const Server &server) {
     add(peer.authentication != Authentication::none,
         std::string("authentication ") + wordFor(peer.authentication, authentications));
     add(!peer.user.empty(), "user " + peer.user);
+    add(peer.allowsInsecureLogin, "insecure login allowed");
     add(!peer.authorities.empty(), "authorities " + peer.authorities);
     add(!peer.certificate.empty(), "certificate " + peer.certificate);
     return line;
@@ -250,6 +253,9 @@ void addServerCommand(CLI::App &app, const Context &context) {
                     "What the login is to allow, such as 'openid offline_access'")
         ->excludes(dicom);
     put->add_option("--user", o->user, "User name for basic authentication");
+    put->add_flag("--allow-insecure-login", o->allowsInsecureLogin,
+                  "Send the password or token without TLS, although others on the network can read "
+                  "it");
     put->add_option("--character-set", o->set,
                     "Character set of a DICOM server's answers that name none, such as "
                     "'ISO_IR 100'")

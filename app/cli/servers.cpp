@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <memory>
-#include <termios.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -11,35 +10,14 @@
 #include "app/cli/reason_lines.h"
 #include "app/cli/terminal.h"
 #include "core/archive/login.h"
-#include "core/files/descriptor.h"
 #include "core/task/error.h"
 #include "core/task/naming.h"
-
-#include <fcntl.h>
 
 namespace pellucid::cli {
 
 namespace {
 
 namespace because = task::because;
-
-// Reads a line from the terminal without showing it.
-std::string ask(const std::string &question) {
-    const files::Descriptor terminal(::open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY));
-    termios shown{};
-    if (!terminal || ::tcgetattr(terminal.get(), &shown) != 0)
-        throw task::Error(task::ErrorCode::usage, because::passwordNeedsATerminal);
-    termios hidden = shown;
-    hidden.c_lflag &= ~tcflag_t(ECHO);
-    (void)!::write(terminal.get(), question.data(), question.size());
-    ::tcsetattr(terminal.get(), TCSAFLUSH, &hidden);
-    std::string line;
-    for (char c = 0; ::read(terminal.get(), &c, 1) == 1 && c != '\n';)
-        line += c;
-    ::tcsetattr(terminal.get(), TCSAFLUSH, &shown);
-    (void)!::write(terminal.get(), "\n", 1);
-    return line;
-}
 
 void logIn(archive::Server &server, const Context &context) {
     server.login = std::make_shared<archive::Login>(server);
@@ -62,15 +40,18 @@ std::vector<archive::Server> serversNamed(const std::vector<std::string> &names,
     std::vector<archive::Server> servers;
     for (const std::string &name : names) {
         archive::Server server = list.get(name);
+        task::naming(name, [&] { exchange::requireSecureLogin(server.peer); }); // before asking
         if (server.peer.authentication == exchange::Authentication::basic)
-            server.peer.secret =
-                ask(fmt::format("Password of {} at {}: ", server.peer.user, server.name));
+            server.peer.secret = askHidden(
+                fmt::format("Password of {} at {}: ", server.peer.user, server.name), context.stop);
         else if (server.peer.authentication == exchange::Authentication::bearer)
-            server.peer.secret = ask(fmt::format("Token for {}: ", server.name));
+            server.peer.secret =
+                askHidden(fmt::format("Token for {}: ", server.name), context.stop);
         else if (server.peer.authentication == exchange::Authentication::oauth)
             logIn(server, context);
         if (archive::isEncryptedKey(server.peer.key))
-            server.peer.keyPassword = ask(fmt::format("Password of {}: ", server.peer.key));
+            server.peer.keyPassword =
+                askHidden(fmt::format("Password of {}: ", server.peer.key), context.stop);
         servers.push_back(std::move(server));
     }
     return servers;
@@ -98,7 +79,9 @@ archive::RetrievalReport watched(
     return report;
 }
 
-void warnOfLacking(const archive::RetrievalReport &report) {
+void warnOfObjects(const archive::RetrievalReport &report) {
+    if (report.ofAnotherPatient > 0)
+        warn(task::Reason(because::objectsAreOfAnotherPatient(report.ofAnotherPatient)).english());
     std::vector<Named> lacking;
     for (const archive::RefusedObject &object : report.lacking)
         lacking.push_back({object.sopInstanceUid, object.reason});

@@ -27,7 +27,7 @@ archive::RetrievalReport watched(
     const std::function<archive::RetrievalReport(const archive::RetrievalObserver &)> &retrieve);
 
 /// Names the objects that lack, by their UIDs, on standard error.
-void warnOfLacking(const archive::RetrievalReport &report);
+void warnOfObjects(const archive::RetrievalReport &report);
 
 /// *Throws* Error{incomplete} if objects lack.
 void requireComplete(const archive::RetrievalReport &report, const std::string &server);

@@ -3,49 +3,70 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <fcntl.h>
+#include <mutex>
+#include <optional>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
+#include "core/files/descriptor.h"
 #include "core/system/utf8.h"
+#include "core/task/error.h"
+#include "core/task/progress.h"
 
 namespace pellucid::cli {
 
 namespace {
 
-using system::CodePoint;
-using system::codePointAt;
+// A terminal that does not show what is typed, and how it was before.
+std::mutex hiding;
+struct Hidden {
+    int terminal = -1;
+    termios before{};
+};
+std::optional<Hidden> hidden;
 
-// Control characters, line separators and changes of direction.
-bool controlsTerminal(char32_t c) {
-    return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 || c == 0x061C ||
-           (c >= 0x200E && c <= 0x200F) || (c >= 0x202A && c <= 0x202E) ||
-           (c >= 0x2066 && c <= 0x2069);
+void hide(int terminal, const termios &before) {
+    const std::lock_guard lock(hiding);
+    hidden = {terminal, before};
+    termios without = before;
+    without.c_lflag &= ~tcflag_t(ECHO);
+    ::tcsetattr(terminal, TCSAFLUSH, &without);
+}
+
+// Requires the lock.
+void show() {
+    if (hidden)
+        ::tcsetattr(hidden->terminal, TCSAFLUSH, &hidden->before);
+    hidden.reset();
+}
+
+// The terminal has a line, or its end, before the program is to stop.
+bool hasLine(int terminal, const std::stop_token &stop) {
+    constexpr int stopPollMs = 50;
+    for (pollfd waiting{terminal, POLLIN, 0}; !stop.stop_requested();)
+        if (::poll(&waiting, 1, stopPollMs) > 0)
+            return true;
+    return false;
 }
 
 } // namespace
 
-std::string printable(const std::string &text) {
-    std::string shown;
-    for (std::size_t at = 0; at < text.size();) {
-        const CodePoint point = codePointAt(text, at);
-        if (point.bytes == 0)
-            shown += '?';
-        else if (controlsTerminal(point.code))
-            shown += ' ';
-        else
-            shown.append(text, at, point.bytes);
-        at += std::max<std::size_t>(1, point.bytes);
-    }
-    return shown;
-}
-
 std::string escapedControls(const std::string &json) {
     std::string escaped;
     for (std::size_t at = 0; at < json.size();) {
-        const CodePoint point = codePointAt(json, at);
+        const system::CodePoint point = system::codePointAt(json, at);
         const std::size_t bytes = std::max<std::size_t>(1, point.bytes);
-        if (point.code >= 0x7F && controlsTerminal(point.code))
-            escaped += fmt::format("\\u{:04x}", unsigned(point.code));
+        const unsigned code = point.code;
+        if (code > 0xFFFF && system::isHidden(code)) // in UTF-16: two halves
+            escaped +=
+                fmt::format("\\u{:04x}\\u{:04x}", 0xD7C0 + (code >> 10), 0xDC00 + (code & 0x3FFU));
+        else if (code >= 0x7F && (system::isControl(code) || system::isHidden(code)))
+            escaped += fmt::format("\\u{:04x}", code);
         else
             escaped.append(json, at, bytes);
         at += bytes;
@@ -55,6 +76,33 @@ std::string escapedControls(const std::string &json) {
 
 std::string counted(std::size_t count, const std::string &noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string askHidden(const std::string &question, const std::stop_token &stop) {
+    const files::Descriptor terminal(::open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY));
+    termios shown{};
+    if (!terminal || ::tcgetattr(terminal.get(), &shown) != 0)
+        throw task::Error(task::ErrorCode::usage, task::because::passwordNeedsATerminal);
+    (void)!::write(terminal.get(), question.data(), question.size());
+    hide(terminal.get(), shown);
+    const bool isAnswered = hasLine(terminal.get(), stop);
+    std::string line;
+    for (char c = 0; isAnswered && ::read(terminal.get(), &c, 1) == 1 && c != '\n';)
+        line += c;
+    {
+        const std::lock_guard lock(hiding);
+        show();
+    }
+    (void)!::write(terminal.get(), "\n", 1);
+    if (!isAnswered)
+        throw task::Cancelled();
+    return line;
+}
+
+void endAtOnce(int code) {
+    const std::lock_guard lock(hiding); // nothing is hidden from now on
+    show();
+    std::_Exit(code);
 }
 
 void warn(const std::string &what) {

@@ -2,20 +2,28 @@
 #pragma once
 
 #include <cstddef>
+#include <stop_token>
 #include <string>
+
+#include "core/system/printable.h"
 
 namespace pellucid::cli {
 
-/// Makes untrusted text, such as names of files and patients, safe to print: one line of UTF-8
-/// without control characters, line breaks and changes of direction.
-std::string printable(const std::string &text);
+using system::printable;
 
-/// Escapes, within strings of JSON, the characters beyond C0 that control a terminal. JSON itself
-/// escapes C0.
+/// Escapes, within strings of JSON, the characters beyond C0 that control a terminal or are hidden.
+/// JSON itself escapes C0.
 std::string escapedControls(const std::string &json);
 
 /// "1 image", "2 images"; for nouns with a regular plural.
 std::string counted(std::size_t count, const std::string &noun);
+
+/// Reads a line from the terminal without showing it. *Throws* Error{usage} if there is no
+/// terminal, Cancelled.
+std::string askHidden(const std::string &question, const std::stop_token &stop);
+
+/// Ends the program without waiting for anything, but with a terminal that shows what is typed.
+[[noreturn]] void endAtOnce(int code);
 
 /// Prints a warning on stderr, one line.
 void warn(const std::string &what);

@@ -18,6 +18,7 @@
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/transforms/wisdom.h"
+#include "core/system/hidden_memory.h"
 #include "core/system/log.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
@@ -66,6 +67,7 @@ void endOnSignals(QObject &application) {
 
 int main(int argc, char **argv) {
     using namespace pellucid;
+    system::leaveMemoryOutOfDumps(); // not hideMemory: desktops then refuse their dialogs
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App options("Look through DICOM studies as if the body were transparent", "pellucid");
     std::vector<std::string> paths;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <set>
@@ -23,6 +24,9 @@ namespace because = task::because;
 namespace tag = exchange::tag;
 using exchange::Attributes;
 using exchange::Level;
+
+// Each takes about 800 bytes while it is retrieved. The largest studies have a tenth of that.
+constexpr std::uint32_t maxObjects = 100000;
 
 std::string textOf(const Attributes &attributes, std::uint32_t tag) {
     const auto at = attributes.find(tag);
@@ -53,11 +57,12 @@ std::optional<double> heightOf(const Attributes &attributes) {
     const auto axes = numbersOf(textOf(attributes, tag::orientation));
     if (position.size() != 3)
         return std::nullopt;
-    if (axes.size() != 6)
-        return position[2];
-    const glm::dvec3 normal =
-        glm::cross(glm::dvec3(axes[0], axes[1], axes[2]), glm::dvec3(axes[3], axes[4], axes[5]));
-    return glm::dot(normal, glm::dvec3(position[0], position[1], position[2]));
+    const glm::dvec3 normal = axes.size() == 6 ? glm::cross(glm::dvec3(axes[0], axes[1], axes[2]),
+                                                            glm::dvec3(axes[3], axes[4], axes[5]))
+                                               : glm::dvec3(0.0, 0.0, 1.0);
+    const double height = glm::dot(normal, glm::dvec3(position[0], position[1], position[2]));
+    // Only finite numbers can be sorted.
+    return std::isfinite(height) ? std::optional(height) : std::nullopt;
 }
 
 struct Listed {
@@ -65,9 +70,30 @@ struct Listed {
     std::optional<double> height;
 };
 
-std::vector<Instance> listAt(const exchange::Peer &peer, const Wanted &wanted,
-                             const task::Progress &progress) {
+// Asked for once, where the user has not been shown a patient.
+Patient patientOf(exchange::Link &link, const std::string &studyUid,
+                  const task::Progress &progress) {
+    Patient patient;
+    link.find(
+        {.level = Level::study,
+         .keys = {{tag::studyUid, studyUid},
+                  {tag::patientName, ""},
+                  {tag::patientId, ""},
+                  {tag::birthDate, ""}},
+         .limit = maxObjects},
+        [&](const Attributes &match) {
+            if (!patient.isKnown())
+                patient = {textOf(match, tag::patientName), textOf(match, tag::patientId),
+                           textOf(match, tag::birthDate)};
+        },
+        progress);
+    return patient;
+}
+
+Listing listAt(const exchange::Peer &peer, const Wanted &wanted, const task::Progress &progress) {
     exchange::Link link({.peer = peer, .purpose = exchange::Purpose::find}, progress);
+    const Patient patient =
+        wanted.patient.isKnown() ? wanted.patient : patientOf(link, wanted.studyUid, progress);
     std::vector<std::string> seriesUids = wanted.seriesUids;
     if (seriesUids.empty()) {
         std::map<int, std::set<std::string>> byNumber;
@@ -76,7 +102,7 @@ std::vector<Instance> listAt(const exchange::Peer &peer, const Wanted &wanted,
              .keys = {{tag::studyUid, wanted.studyUid},
                       {tag::seriesUid, ""},
                       {tag::seriesNumber, ""}},
-             .limit = 0},
+             .limit = maxObjects},
             [&](const Attributes &match) {
                 if (const std::string uid = textOf(match, tag::seriesUid); exchange::isUid(uid))
                     byNumber[numberOf(textOf(match, tag::seriesNumber))].insert(uid);
@@ -89,7 +115,7 @@ std::vector<Instance> listAt(const exchange::Peer &peer, const Wanted &wanted,
     std::set<std::string> known;
     for (const std::string &series : seriesUids) {
         std::vector<Listed> listed;
-        link.find(
+        const exchange::QueryEnd end = link.find(
             {.level = Level::image,
              .keys = {{tag::studyUid, wanted.studyUid},
                       {tag::seriesUid, series},
@@ -98,7 +124,7 @@ std::vector<Instance> listAt(const exchange::Peer &peer, const Wanted &wanted,
                       {tag::instanceNumber, ""},
                       {tag::position, ""},
                       {tag::orientation, ""}},
-             .limit = 0},
+             .limit = maxObjects},
             [&](const Attributes &match) {
                 const std::string uid = textOf(match, tag::sopInstanceUid);
                 if (!exchange::isUid(uid) || !known.insert(uid).second)
@@ -110,6 +136,9 @@ std::vector<Instance> listAt(const exchange::Peer &peer, const Wanted &wanted,
                                   heightOf(match)});
             },
             progress);
+        if (end.reachedLimit || known.size() > maxObjects)
+            throw task::Error(task::ErrorCode::unusable,
+                              because::studyHasTooManyObjects(maxObjects));
         const bool havePlaces = std::all_of(
             listed.begin(), listed.end(), [](const Listed &one) { return one.height.has_value(); });
         std::stable_sort(listed.begin(), listed.end(), [&](const Listed &a, const Listed &b) {
@@ -128,7 +157,7 @@ std::vector<Instance> listAt(const exchange::Peer &peer, const Wanted &wanted,
                          std::make_move_iterator(series.end()));
     if (instances.empty())
         throw task::Error(task::ErrorCode::unusable, because::serverHasNoSuchStudy);
-    return instances;
+    return {std::move(instances), patient};
 }
 
 } // namespace
@@ -154,8 +183,7 @@ std::vector<std::size_t> coarseToFine(std::size_t n) {
     return order;
 }
 
-std::vector<Instance> listInstances(const Server &server, const Wanted &wanted,
-                                    const task::Progress &progress) {
+Listing listInstances(const Server &server, const Wanted &wanted, const task::Progress &progress) {
     return withLogin(server, progress,
                      [&](const exchange::Peer &peer) { return listAt(peer, wanted, progress); });
 }

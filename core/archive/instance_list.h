@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/archive/object_folder.h"
 #include "core/archive/server.h"
 #include "core/exchange/query.h"
 #include "core/task/progress.h"
@@ -22,12 +23,20 @@ struct Instance {
 struct Wanted {
     std::string studyUid;
     std::vector<std::string> seriesUids;
+    Patient patient{}; ///< as the user was shown it; if unknown, the server is asked
 };
 
-/// The objects that a server has of it, series by series, that with the most objects first, each in
-/// the order of slices. *Throws* as exchange::Link; Error{unusable} if the server has none.
-std::vector<Instance> listInstances(const Server &server, const Wanted &wanted,
-                                    const task::Progress &progress = {});
+/// What a server has of a study.
+struct Listing {
+    /// Series by series, that with the most objects first, each in the order of slices.
+    std::vector<Instance> instances;
+    Patient patient; ///< unknown if the server does not report it
+};
+
+/// *Throws* as exchange::Link; Error{unusable} if the server has none of it, or lists more objects
+/// than a study may have.
+Listing listInstances(const Server &server, const Wanted &wanted,
+                      const task::Progress &progress = {});
 
 /// The indices 0 to n - 1 from coarse to fine: the ends, the middle, quarters, eighths ... After an
 /// eighth of them, every eighth is there.

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <list>
 #include <mutex>
@@ -28,8 +29,24 @@ using files::Descriptor;
 using task::Error;
 using task::ErrorCode;
 
+using Clock = std::chrono::steady_clock;
+
 constexpr int pollMs = 100; // the longest wait before the listener stops
-constexpr std::size_t maxAtOnce = 16;
+// As many as this program asks a server for at once: it sends the answer to each C-MOVE on a
+// connection of its own.
+constexpr std::size_t maxPerAddress = std::size_t(maxConnections);
+constexpr std::size_t maxAtOnce = 4 * maxPerAddress;
+constexpr std::size_t maxWaiting = maxPerAddress; // of an address, for one of its connections
+// A negotiation takes a fraction of this, also with TLS and far away.
+constexpr std::chrono::seconds negotiationGrace(2);
+constexpr double slackSeconds = 2.0; // the helper itself ends a connection that is silent
+// A long object may take longer than the limit of silence if its bytes keep coming. Lines are
+// faster; a trickle that keeps a connection for ever is not.
+constexpr double minBytesPerSecond = 1000.0;
+
+Clock::duration seconds(double count) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(count));
+}
 
 std::string textOf(const in_addr &address) {
     std::array<char, INET_ADDRSTRLEN> text{};
@@ -37,28 +54,65 @@ std::string textOf(const in_addr &address) {
     return text.data();
 }
 
-// Counts what a receiver keeps.
-class Counting : public exchange::Receiver {
+// A client that has connected. Protected by the mutex of the listener, except its thread's own.
+struct Connection {
+    enum class State {
+        waiting, ///< for other connections to end
+        negotiating,
+        associated,
+        ending, ///< the listener has ended it
+    };
+    State state = State::waiting;
+    std::string address;
+    Clock::time_point begun; ///< its negotiation
+    Clock::time_point deadline;
+    std::optional<task::Reason> refusal; ///< why the listener has ended it
+    std::atomic<bool> hasEnded = false;
+    std::jthread thread; // last: joins first
+
+    bool isServed() const { return state == State::negotiating || state == State::associated; }
+    void end(const task::Reason &why) {
+        state = State::ending;
+        refusal = why;
+        thread.request_stop();
+    }
+};
+
+// What a receiver keeps is counted, and what arrives extends the deadline of the connection.
+class Watched : public exchange::Receiver {
 public:
-    Counting(exchange::Receiver &receiver, std::size_t &kept)
-        : m_receiver(receiver), m_kept(kept) {}
+    using Extend = std::function<void(Clock::duration)>;
+    Watched(exchange::Receiver &receiver, std::size_t &kept, Extend extend, double silenceSeconds)
+        : m_receiver(receiver), m_kept(kept), m_extend(std::move(extend)),
+          m_silenceSeconds(silenceSeconds) {}
 
     std::variant<int, std::uint16_t> open(const exchange::Arrival &arrival) override {
-        return m_receiver.open(arrival);
+        auto opened = m_receiver.open(arrival);
+        m_begun = Clock::now();
+        m_extend(seconds(m_silenceSeconds));
+        return opened;
     }
     std::uint16_t keep(const exchange::Arrival &arrival, std::uint64_t bytes) override {
         const std::uint16_t status = m_receiver.keep(arrival, bytes);
         m_kept += status == exchange::status::success ? 1 : 0;
+        m_extend(seconds(m_silenceSeconds));
         return status;
     }
-    void receive(std::uint64_t bytes) override { m_receiver.receive(bytes); }
+    void receive(std::uint64_t bytes) override {
+        m_receiver.receive(bytes);
+        m_extend(m_begun - Clock::now() +
+                 seconds(m_silenceSeconds + double(bytes) / minBytesPerSecond));
+    }
 
 private:
     exchange::Receiver &m_receiver;
     std::size_t &m_kept;
+    Extend m_extend;
+    double m_silenceSeconds;
+    Clock::time_point m_begun; // of the current object
 };
 
-Descriptor openPort(int port, int &boundPort) {
+Descriptor openPort(const std::string &address, int port, int &boundPort) {
     Descriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const int on = 1;
     ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
@@ -66,11 +120,15 @@ Descriptor openPort(int port, int &boundPort) {
     at.sin_family = AF_INET;
     at.sin_port = htons(std::uint16_t(port));
     at.sin_addr.s_addr = htonl(INADDR_ANY);
+    if (!address.empty() && ::inet_pton(AF_INET, address.c_str(), &at.sin_addr) != 1)
+        throw Error(ErrorCode::usage, because::isNoListeningAddress(address));
     if (!socket || ::bind(socket.get(), reinterpret_cast<const sockaddr *>(&at), sizeof at) != 0 ||
         ::listen(socket.get(), int(maxAtOnce)) != 0) {
         const int failure = errno;
         if (failure == EADDRINUSE)
             throw Error(ErrorCode::unreachable, because::portIsInUse(port));
+        if (failure == EADDRNOTAVAIL)
+            throw Error(ErrorCode::usage, because::isNoListeningAddress(address));
         throw Error(ErrorCode::usage, because::portCannotBeUsed(port, task::systemReason(failure)));
     }
     socklen_t size = sizeof at;
@@ -81,32 +139,41 @@ Descriptor openPort(int port, int &boundPort) {
 
 } // namespace
 
+void requireValid(const ListenerOptions &options) {
+    requireAeTitle(options.ae);
+    if (!options.usesTls)
+        return;
+    if (options.certificate.empty() || options.key.empty())
+        throw Error(ErrorCode::usage, because::certificateNeedsItsKey);
+    // Not those of the system: anybody gets a certificate there.
+    if (options.authorities.empty())
+        throw Error(ErrorCode::usage, because::receiverNeedsAuthorities);
+}
+
 class Listener::Threads {
 public:
     Threads(ListenerOptions options, Receivers receivers, ListenerObserver observer)
         : m_options(std::move(options)), m_receivers(std::move(receivers)),
-          m_observer(std::move(observer)), m_socket(openPort(m_options.port, m_port)),
+          m_observer(std::move(observer)),
+          m_socket(openPort(m_options.address, m_options.port, m_port)),
           m_acceptor([this](const std::stop_token &stop) { acceptAll(stop); }) {}
     ~Threads() {
         m_acceptor.request_stop();
         m_acceptor.join();
         for (Connection &connection : m_connections)
             connection.thread.request_stop();
+        for (Connection &connection : m_connections) // before any is destroyed: they look around
+            connection.thread.join();
     }
 
     int port() const { return m_port; }
 
 private:
-    struct Connection {
-        std::atomic<bool> hasEnded = false;
-        std::jthread thread; // last: joins first
-    };
-
     void acceptAll(const std::stop_token &stop) {
         while (!stop.stop_requested()) {
-            m_connections.remove_if([](const Connection &one) { return one.hasEnded.load(); });
+            const bool isFull = tidy() >= 2 * maxAtOnce;
             pollfd waiting{m_socket.get(), POLLIN, 0};
-            if (m_connections.size() >= maxAtOnce) {
+            if (isFull) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(pollMs));
                 continue;
             }
@@ -120,56 +187,152 @@ private:
                 std::this_thread::sleep_for(std::chrono::milliseconds(pollMs));
                 continue;
             }
-            Connection &connection = m_connections.emplace_back();
-            connection.thread =
-                std::jthread([this, &connection, address = textOf(from.sin_addr),
-                              socket = std::move(client)](const std::stop_token &stopping) mutable {
-                    serve(std::move(socket), address, stopping);
-                    connection.hasEnded = true;
-                });
+            begin(std::move(client), textOf(from.sin_addr));
         }
     }
 
-    // The senders at an address; nothing if none is known there.
-    std::vector<std::string> titlesAt(const std::string &address) const {
-        std::vector<std::string> titles;
+    // Ends what takes too long. *Returns* the number of connections that are left.
+    std::size_t tidy() {
+        const std::lock_guard lock(m_connectionsMutex);
+        m_connections.remove_if([](const Connection &one) { return one.hasEnded.load(); });
+        const auto now = Clock::now();
+        for (Connection &one : m_connections)
+            if (one.state != Connection::State::ending && now > one.deadline)
+                one.end(one.state == Connection::State::associated
+                            ? because::senderMakesNoProgress(std::lround(m_options.silenceSeconds))
+                            : because::senderMakesNoAssociation(
+                                  std::lround(m_options.negotiationSeconds)));
+        return m_connections.size();
+    }
+
+    void begin(Descriptor client, const std::string &address) {
+        const std::lock_guard lock(m_connectionsMutex);
+        const auto waits = [&](const Connection &one) {
+            return one.state == Connection::State::waiting && one.address == address;
+        };
+        if (std::count_if(m_connections.begin(), m_connections.end(), waits) >=
+            std::ptrdiff_t(maxWaiting))
+            std::find_if(m_connections.begin(), m_connections.end(), waits)
+                ->end(because::senderHasTooManyConnections);
+        Connection &connection = m_connections.emplace_back();
+        connection.address = address;
+        connection.deadline = Clock::now() + seconds(m_options.negotiationSeconds);
+        connection.thread = std::jthread([this, &connection, socket = std::move(client)](
+                                             const std::stop_token &stopping) mutable {
+            serve(std::move(socket), connection, stopping);
+            connection.hasEnded = true;
+        });
+    }
+
+    // Waits until the connection may be served. *Throws* Cancelled.
+    void awaitTurn(Connection &connection, const task::Progress &progress) {
+        while (!takesTurn(connection)) {
+            progress.check();
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
+    bool takesTurn(Connection &connection) {
+        const std::lock_guard lock(m_connectionsMutex);
+        if (connection.state == Connection::State::ending)
+            return false;
+        const auto now = Clock::now();
+        std::size_t all = 0, alike = 0;
+        for (const Connection &one : m_connections) {
+            all += one.isServed() ? 1 : 0;
+            alike += one.isServed() && one.address == connection.address ? 1 : 0;
+        }
+        if (all >= maxAtOnce || alike >= maxPerAddress) {
+            // The oldest that has not negotiated gives way.
+            const auto idle =
+                std::find_if(m_connections.begin(), m_connections.end(), [&](Connection &one) {
+                    return one.state == Connection::State::negotiating &&
+                           now - one.begun > negotiationGrace &&
+                           (alike < maxPerAddress || one.address == connection.address);
+                });
+            if (idle == m_connections.end())
+                return false;
+            idle->end(because::senderHasTooManyConnections);
+        }
+        connection.state = Connection::State::negotiating;
+        connection.begun = now;
+        connection.deadline = now + seconds(m_options.negotiationSeconds);
+        return true;
+    }
+
+    // Those at an address.
+    std::vector<Sender> sendersAt(const std::string &address) const {
+        std::vector<Sender> senders;
         for (const Sender &sender : m_options.senders)
             if (const auto known = exchange::addressesOf(sender.host);
                 std::find(known.begin(), known.end(), address) != known.end())
-                titles.push_back(sender.ae);
-        return titles;
+                senders.push_back(sender);
+        return senders;
     }
 
-    void serve(Descriptor socket, const std::string &address, const std::stop_token &stop) {
+    exchange::Acceptance acceptanceFor(const std::string &address) const {
+        exchange::Acceptance acceptance{m_options.ae,
+                                        {},
+                                        {},
+                                        m_options.usesTls,
+                                        m_options.authorities,
+                                        m_options.certificate,
+                                        m_options.key,
+                                        m_options.keyPassword,
+                                        m_options.silenceSeconds};
+        if (m_options.acceptsAnyone)
+            return acceptance;
+        const std::vector<Sender> senders = sendersAt(address);
+        // Not a byte of an unknown sender is read.
+        if (senders.empty())
+            throw Error(ErrorCode::unusable, because::senderIsUnknown(address));
+        acceptance.clientHosts.push_back(address);
+        for (const Sender &sender : senders) {
+            acceptance.clientHosts.push_back(sender.host);
+            acceptance.callingAes.push_back(sender.ae);
+        }
+        if (std::find(acceptance.callingAes.begin(), acceptance.callingAes.end(), "") !=
+            acceptance.callingAes.end())
+            acceptance.callingAes.clear();
+        return acceptance;
+    }
+
+    void serve(Descriptor socket, Connection &connection, const std::stop_token &stop) {
+        const std::string address = connection.address;
         ConnectionEnd end{address, address};
+        const auto extend = [&](Clock::duration duration) {
+            const std::lock_guard lock(m_connectionsMutex);
+            connection.deadline = Clock::now() + duration + seconds(slackSeconds);
+        };
         try {
-            exchange::Acceptance acceptance{m_options.ae,          {},
-                                            m_options.usesTls,     m_options.authorities,
-                                            m_options.certificate, m_options.key,
-                                            m_options.keyPassword, m_options.silenceSeconds};
-            if (!m_options.acceptsAnyone) {
-                acceptance.callingAes = titlesAt(address);
-                // Not a byte of an unknown sender is read.
-                if (acceptance.callingAes.empty())
-                    throw Error(ErrorCode::unusable, because::senderIsUnknown(address));
-                if (std::find(acceptance.callingAes.begin(), acceptance.callingAes.end(), "") !=
-                    acceptance.callingAes.end())
-                    acceptance.callingAes.clear();
-            }
+            const exchange::Acceptance acceptance = acceptanceFor(address);
+            const task::Progress progress(stop);
+            awaitTurn(connection, progress);
             const auto receiver = m_receivers();
-            Counting counting(*receiver, end.stored);
-            exchange::serveClient(std::move(socket), acceptance, counting, task::Progress(stop),
+            Watched watched(*receiver, end.stored, extend, m_options.silenceSeconds);
+            exchange::serveClient(std::move(socket), acceptance, watched, progress,
                                   [&](exchange::Step step, const std::string &found) {
-                                      if (step == exchange::Step::association)
+                                      if (step == exchange::Step::association) {
                                           end.sender = found;
+                                          const std::lock_guard lock(m_connectionsMutex);
+                                          if (connection.state == Connection::State::negotiating)
+                                              connection.state = Connection::State::associated;
+                                      }
+                                      if (step == exchange::Step::association ||
+                                          step == exchange::Step::service)
+                                          extend(seconds(m_options.silenceSeconds));
                                   });
         } catch (const Error &error) {
             end.reason = error.reason();
         } catch (const task::Cancelled &) {
-            end.reason = because::wasCancelled;
+            const std::lock_guard lock(m_connectionsMutex);
+            end.reason = connection.refusal.value_or(because::wasCancelled);
         } catch (const std::exception &error) {
             system::log(std::string("a connection ended: ") + error.what());
             end.reason = because::faultOfTheProgram;
+        }
+        {
+            const std::lock_guard lock(m_connectionsMutex);
+            connection.state = Connection::State::ending;
         }
         const std::lock_guard lock(m_mutex);
         if (m_observer.ended)
@@ -179,16 +342,19 @@ private:
     ListenerOptions m_options;
     Receivers m_receivers;
     ListenerObserver m_observer;
-    std::mutex m_mutex;
+    std::mutex m_mutex; // of the observer
     int m_port = 0;
     Descriptor m_socket;
+    std::mutex m_connectionsMutex;
     std::list<Connection> m_connections;
     std::jthread m_acceptor;
 };
 
-Listener::Listener(ListenerOptions options, Receivers receivers, ListenerObserver observer)
-    : m_threads(std::make_unique<Threads>(std::move(options), std::move(receivers),
-                                          std::move(observer))) {}
+Listener::Listener(ListenerOptions options, Receivers receivers, ListenerObserver observer) {
+    requireValid(options);
+    m_threads =
+        std::make_unique<Threads>(std::move(options), std::move(receivers), std::move(observer));
+}
 
 Listener::~Listener() = default;
 

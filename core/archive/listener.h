@@ -21,16 +21,24 @@ struct Sender {
 };
 
 struct ListenerOptions {
+    std::string address;            ///< of this computer, IPv4; empty: all
     int port = defaultListenerPort; ///< 0: any free one
     std::string ae = "PELLUCID";
     std::vector<Sender> senders; ///< empty: nobody
     bool acceptsAnyone = false;
+    /// With TLS, a sender's certificate must be from these authorities, and name the sender's host
+    /// or address unless anyone is accepted.
     bool usesTls = false;
-    std::string authorities, certificate, key, keyPassword; ///< as of exchange::Peer
+    std::string authorities, certificate, key, keyPassword; ///< as of exchange::Peer, none optional
+    double negotiationSeconds = 10.0; ///< from the connection to the association
+    /// In an association, until the next message is complete; a long one must make progress.
     double silenceSeconds = 60.0;
 
     bool operator==(const ListenerOptions &) const = default;
 };
+
+/// *Throws* Error{usage} with what is wrong or missing.
+void requireValid(const ListenerOptions &options);
 
 /// How a connection ended.
 struct ConnectionEnd {
@@ -46,12 +54,14 @@ struct ListenerObserver {
 };
 
 /// A DICOM server for storage: accepts connections of known senders only, each in a `pellucid-net`
-/// of its own. It runs as long as the object exists.
+/// of its own. One address has at most a quarter of the connections that are served at once, and
+/// one that does not negotiate gives way to the next. It runs as long as the object exists.
 class Listener {
 public:
     using Receivers = std::function<std::unique_ptr<exchange::Receiver>()>;
-    /// `receivers` makes the receiver of each connection. *Throws* Error{unreachable} if another
-    /// listener has the port; Error{usage} if it cannot be used otherwise.
+    /// `receivers` makes the receiver of each connection. *Throws* as requireValid;
+    /// Error{unreachable} if another listener has the port; Error{usage} if it cannot be used
+    /// otherwise.
     Listener(ListenerOptions options, Receivers receivers, ListenerObserver observer = {});
     ~Listener();
     Listener(const Listener &) = delete;

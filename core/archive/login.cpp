@@ -210,6 +210,7 @@ exchange::Peer authenticated(const Server &server, const task::Progress &progres
         throw Error(ErrorCode::unusable, because::loginHasExpired);
     peer.secret = server.login->token(progress, refusedToken);
     peer.authentication = exchange::Authentication::bearer;
+    peer.allowsInsecureLogin = false;
     return peer;
 }
 

@@ -6,6 +6,8 @@
 #include <iterator>
 
 #include "core/decoder/decoder.h"
+#include "core/files/user_folders.h"
+#include "core/system/text.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -35,45 +37,105 @@ bool isWhole(const decoder::AttributeList &list) {
     return list.isComplete || list.attributes.size() >= decoder::maxAttributes;
 }
 
-// Whether a file that is there can be read to its end: a power cut may have left less of it.
-bool isIntact(const fs::path &path) {
+StoredObject describedBy(const decoder::AttributeList &list) {
+    return {{},
+            valueOf(list, tag::studyUid),
+            valueOf(list, tag::seriesUid),
+            valueOf(list, tag::sopInstanceUid),
+            valueOf(list, tag::sopClassUid),
+            0,
+            {valueOf(list, tag::patientName), valueOf(list, tag::patientId),
+             valueOf(list, tag::birthDate)}};
+}
+
+// The object in a file that is there; nothing if it cannot be read to its end: a power cut may have
+// left less of it.
+std::optional<StoredObject> objectIn(const fs::path &path) {
     std::error_code unknown;
     if (!fs::is_regular_file(path, unknown))
-        return false;
+        return std::nullopt;
     try {
-        return isWhole(decoder::Decoder::shared().attributes(path));
+        const decoder::AttributeList list = decoder::Decoder::shared().attributes(path);
+        if (!isWhole(list))
+            return std::nullopt;
+        StoredObject object = describedBy(list);
+        object.path = path;
+        const auto bytes = fs::file_size(path, unknown);
+        object.bytes = unknown ? 0 : std::uint64_t(bytes);
+        return object;
     } catch (const Error &error) {
         if (error.code() != ErrorCode::unusable)
             throw;
-        return false;
+        return std::nullopt;
     }
+}
+
+// Names in one form: parts may be separated by carets or blanks, and groups by equals signs.
+std::string comparable(const std::string &text) {
+    std::string words;
+    for (const char c : system::lowered(text.substr(0, text.find('=')))) {
+        const bool isSeparator = c == '^' || c == ' ' || c == ',';
+        if (!isSeparator)
+            words += c;
+        else if (!words.empty() && words.back() != ' ')
+            words += ' ';
+    }
+    words.erase(words.find_last_not_of(' ') + 1);
+    return words;
+}
+
+enum class Comparison { same, different, unknown };
+
+Comparison compare(const std::string &a, const std::string &b) {
+    const std::string one = comparable(a), other = comparable(b);
+    if (one.empty() || other.empty())
+        return Comparison::unknown;
+    return one == other ? Comparison::same : Comparison::different;
 }
 
 } // namespace
 
+bool isOfAnother(const Patient &listed, const Patient &named) {
+    using enum Comparison;
+    const Comparison id = compare(listed.id, named.id), name = compare(listed.name, named.name),
+                     date = compare(listed.birthDate, named.birthDate);
+    if (id == unknown) // what is left must agree in something
+        return (name == different || date == different) && name != same && date != same;
+    return id == different || (name == different && date == different);
+}
+
 ObjectFolder::ObjectFolder(fs::path folder, Keeps keeps)
     : m_folder(std::move(folder)), m_keeps(keeps) {}
+
+void ObjectFolder::create() const {
+    files::createPrivateFolders(m_folder);
+}
 
 fs::path ObjectFolder::pathOf(const std::string &studyUid, const std::string &seriesUid,
                               const std::string &sopInstanceUid) const {
     return m_folder / studyUid / seriesUid / (sopInstanceUid + ".dcm");
 }
 
-bool ObjectFolder::has(const std::string &studyUid, const std::string &seriesUid,
-                       const std::string &sopInstanceUid) const {
-    return isIntact(pathOf(studyUid, seriesUid, sopInstanceUid));
+std::optional<StoredObject> ObjectFolder::find(const std::string &studyUid,
+                                               const std::string &seriesUid,
+                                               const std::string &sopInstanceUid) const {
+    return objectIn(pathOf(studyUid, seriesUid, sopInstanceUid));
 }
 
 std::unique_ptr<files::AtomicFile> ObjectFolder::open(const exchange::Arrival &arrival) const {
-    return std::make_unique<files::AtomicFile>(m_folder / (arrival.sopInstanceUid + ".dcm"));
+    return std::make_unique<files::AtomicFile>(m_folder / (arrival.sopInstanceUid + ".dcm"),
+                                               files::AtomicFile::Readers::user);
 }
 
-StoredObject ObjectFolder::keep(files::AtomicFile &file, const exchange::Arrival &arrival,
+StoredObject ObjectFolder::keep(const files::AtomicFile &file, const exchange::Arrival &arrival,
                                 std::uint64_t bytes, const std::optional<Place> &place) const {
     if (bytes == 0)
         throw Error(ErrorCode::output, because::isNotWritable, m_folder);
+    // What is checked must not change any more, and the helper still has the file open.
+    const std::unique_ptr<files::AtomicFile> copy = open(arrival);
+    copy->write(file.descriptor(), bytes);
     // The decoder reads the file that has no name yet.
-    const fs::path unnamed = "/proc/self/fd/" + std::to_string(file.descriptor());
+    const fs::path unnamed = "/proc/self/fd/" + std::to_string(copy->descriptor());
     decoder::AttributeList list;
     try {
         list = decoder::Decoder::shared().attributes(unnamed);
@@ -82,12 +144,8 @@ StoredObject ObjectFolder::keep(files::AtomicFile &file, const exchange::Arrival
     }
     if (!isWhole(list))
         throw Error(ErrorCode::unusable, because::isTruncated);
-    StoredObject object{{},
-                        valueOf(list, tag::studyUid),
-                        valueOf(list, tag::seriesUid),
-                        valueOf(list, tag::sopInstanceUid),
-                        valueOf(list, tag::sopClassUid),
-                        bytes};
+    StoredObject object = describedBy(list);
+    object.bytes = bytes;
     if (object.sopInstanceUid != arrival.sopInstanceUid ||
         object.sopClassUid != arrival.sopClassUid)
         throw Error(ErrorCode::unusable, because::isNotWhatWasAnnounced);
@@ -97,19 +155,15 @@ StoredObject ObjectFolder::keep(files::AtomicFile &file, const exchange::Arrival
     if (place && (object.studyUid != place->studyUid || object.seriesUid != place->seriesUid))
         throw Error(ErrorCode::unusable, because::isNotWhatWasAnnounced);
     object.path = pathOf(object.studyUid, object.seriesUid, object.sopInstanceUid);
-    std::error_code failed;
-    if (isIntact(object.path)) { // what is damaged is replaced
+    if (objectIn(object.path)) { // what is damaged is replaced
         if (!haveSameBytes(unnamed, object.path))
             throw Error(ErrorCode::unusable, because::anotherObjectHasItsUid);
         return object;
     }
-    fs::create_directories(object.path.parent_path(), failed);
-    if (failed)
-        throw Error(ErrorCode::output, because::cannotBeMade(task::systemReason(failed.value())),
-                    object.path.parent_path());
-    file.moveTo(object.path);
-    file.commit(m_keeps == Keeps::onDisk ? files::AtomicFile::Bytes::flushed
-                                         : files::AtomicFile::Bytes::unflushed);
+    files::createPrivateFolders(object.path.parent_path());
+    copy->moveTo(object.path);
+    copy->commit(m_keeps == Keeps::onDisk ? files::AtomicFile::Bytes::flushed
+                                          : files::AtomicFile::Bytes::unflushed);
     return object;
 }
 

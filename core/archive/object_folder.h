@@ -15,11 +15,25 @@
 
 namespace pellucid::archive {
 
+/// The patient of an object or a study.
+struct Patient {
+    std::string name, id, birthDate;
+
+    bool isKnown() const { return !name.empty() || !id.empty() || !birthDate.empty(); }
+};
+
+/// Whether an object names a patient who is not the one that its server lists: the identifier
+/// differs, or both name and birth date do. One of these two may have been corrected in the
+/// archive. Without an identifier, name or birth date must agree. What is unknown does not differ;
+/// case and separators of names make no difference.
+bool isOfAnother(const Patient &listed, const Patient &named);
+
 /// An object in a folder.
 struct StoredObject {
     std::filesystem::path path;
     std::string studyUid, seriesUid, sopInstanceUid, sopClassUid;
     std::uint64_t bytes = 0;
+    Patient patient{};
 };
 
 /// Why an object was not kept.
@@ -38,20 +52,24 @@ public:
     ObjectFolder(std::filesystem::path folder, Keeps keeps);
 
     const std::filesystem::path &folder() const { return m_folder; }
+    /// Creates the folder if it is missing; like all in it, for the user alone. *Throws*
+    /// Error{output}.
+    void create() const;
     std::filesystem::path pathOf(const std::string &studyUid, const std::string &seriesUid,
                                  const std::string &sopInstanceUid) const;
-    /// Whether the object is there, and can be read to its end.
-    bool has(const std::string &studyUid, const std::string &seriesUid,
-             const std::string &sopInstanceUid) const;
+    /// The object, if it is there and can be read to its end.
+    std::optional<StoredObject> find(const std::string &studyUid, const std::string &seriesUid,
+                                     const std::string &sopInstanceUid) const;
 
     /// Where an object belongs, as its server lists it.
     struct Place {
         std::string studyUid, seriesUid;
     };
-    /// Gives a complete file its name. If the same object is there already, with the same bytes, it
+    /// Gives a copy of a complete file its name: a helper that has been taken over can still write
+    /// to the file itself. If the same object is there already, with the same bytes, it
     /// stays; a damaged one is replaced. *Throws* Error{unusable} if it is not the object that was
     /// announced, belongs to another place, or would replace another file; Error{output}.
-    StoredObject keep(files::AtomicFile &file, const exchange::Arrival &arrival,
+    StoredObject keep(const files::AtomicFile &file, const exchange::Arrival &arrival,
                       std::uint64_t bytes, const std::optional<Place> &place = {}) const;
     /// A file without a name. *Throws* Error{output}.
     std::unique_ptr<files::AtomicFile> open(const exchange::Arrival &arrival) const;

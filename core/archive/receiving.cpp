@@ -1,11 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/archive/receiving.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+
 #include "core/task/error.h"
 
 namespace pellucid::archive {
 
+namespace because = task::because;
+namespace fs = std::filesystem;
 namespace status = exchange::status;
+
+namespace {
+
+// Of the disk: what other programs and the user's own work need, and this one to report what
+// happened. 1 GB holds 32 MB, a large image, for each connection that is served at once; 5 % is
+// what file systems themselves keep, for small disks.
+constexpr std::uintmax_t largestReserve = 1'000'000'000;
+constexpr std::uintmax_t reservedShare = 20; // 1/20
+
+void requireSpace(const fs::path &folder) {
+    std::error_code unknown;
+    const fs::space_info disk = fs::space(folder, unknown);
+    const std::uintmax_t reserve = std::min(largestReserve, disk.capacity / reservedShare);
+    if (!unknown && disk.available < reserve)
+        throw task::Error(task::ErrorCode::output,
+                          because::diskIsAlmostFull((reserve + 999'999) / 1'000'000));
+}
+
+} // namespace
 
 class Receiving::Connection : public exchange::Receiver {
 public:
@@ -13,6 +38,7 @@ public:
 
     std::variant<int, std::uint16_t> open(const exchange::Arrival &arrival) override {
         try {
+            requireSpace(m_all.m_folder.folder());
             m_file = m_all.m_folder.open(arrival);
             return m_file->descriptor();
         } catch (const task::Error &error) {

@@ -16,7 +16,7 @@ struct ReceivingObserver {
 };
 
 /// Stores the objects that known senders deliver to a listener. Confirms each object after it is on
-/// the disk and in the log of arrivals.
+/// the disk and in the log of arrivals. Refuses objects while the disk is almost full.
 class Receiving {
 public:
     /// `log`: may be null, for objects that no library lists. Both live as long as this object.

@@ -275,7 +275,7 @@ ListenerOptions listenerFor(const Server &server, const std::string &ae, int por
     options.ae = ae;
     // A request over TLS accepts its objects over TLS only.
     options.usesTls = server.peer.usesTls;
-    if (options.usesTls && server.peer.certificate.empty())
+    if (options.usesTls && (server.peer.certificate.empty() || server.peer.authorities.empty()))
         throw Error(ErrorCode::unusable, because::receivingNeedsACertificate);
     options.certificate = server.peer.certificate;
     options.key = server.peer.key;
@@ -293,15 +293,12 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
                          const MoveDestination &destination) {
     const auto begin = Clock::now();
     std::optional<EarlyLinks> early(std::in_place, server, progress);
-    const std::vector<Instance> instances = listInstances(server, wanted, progress);
+    const Listing listing = listInstances(server, wanted, progress);
+    const std::vector<Instance> &instances = listing.instances;
     if (observer.listed)
         observer.listed(instances);
-    std::error_code failed;
-    std::filesystem::create_directories(folder.folder(), failed);
-    if (failed)
-        throw Error(ErrorCode::output, because::cannotBeMade(task::systemReason(failed.value())),
-                    folder.folder());
-    RetrievalWork work(instances, folder, observer, server.connections);
+    folder.create();
+    RetrievalWork work(listing, folder, observer, server.connections);
     // Every connection proposes the kinds that lack; a server that does not tell them gets the
     // common ones.
     std::set<std::string> classes = work.classes();

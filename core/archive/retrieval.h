@@ -29,13 +29,19 @@ struct RetrievalReport {
     std::vector<RefusedObject> lacking;
     /// Objects that came although nobody asked for them, or twice.
     std::size_t unwanted = 0;
+    /// Objects here, received now or before, that name a patient who is not the one listed; and
+    /// both, as the first of them shows.
+    std::size_t ofAnotherPatient = 0;
+    Patient listed, named;
     bool isComplete() const { return lacking.empty(); }
 };
 
 /// Told from one thread at a time.
 struct RetrievalObserver {
     std::function<void(const std::vector<Instance> &)> listed;
-    std::function<void(const StoredObject &)> stored;
+    std::function<void(const StoredObject &)> stored; ///< new ones
+    /// An object, new or not, of the patient who is listed: it can be shown without a question.
+    std::function<void(const StoredObject &)> matches;
     std::function<void(const RetrievalState &)> changed;
 };
 

@@ -20,17 +20,31 @@ constexpr std::size_t maxUnwanted = 1000; // objects
 
 } // namespace
 
-RetrievalWork::RetrievalWork(const std::vector<Instance> &instances, const ObjectFolder &folder,
+RetrievalWork::RetrievalWork(const Listing &listing, const ObjectFolder &folder,
                              const RetrievalObserver &observer, int connections)
-    : m_folder(folder), m_observer(observer), m_connections(std::size_t(connections)) {
-    m_state.wanted = instances.size();
-    for (const Instance &instance : instances) {
-        if (folder.has(instance.studyUid, instance.seriesUid, instance.sopInstanceUid))
+    : m_folder(folder), m_observer(observer), m_connections(std::size_t(connections)),
+      m_patient(listing.patient) {
+    m_state.wanted = listing.instances.size();
+    for (const Instance &instance : listing.instances) {
+        if (const auto object =
+                folder.find(instance.studyUid, instance.seriesUid, instance.sopInstanceUid)) {
             ++m_state.present;
-        else
+            compare(*object);
+        } else {
             m_missing.emplace(instance.sopInstanceUid, instance);
+        }
     }
-    fillQueue(instances);
+    fillQueue(listing.instances);
+}
+
+// A server may send anybody's images under the UIDs that it was asked for.
+void RetrievalWork::compare(const StoredObject &object) {
+    if (!isOfAnother(m_patient, object.patient)) {
+        if (m_observer.matches)
+            m_observer.matches(object);
+    } else if (m_ofAnotherPatient++ == 0) {
+        m_named = object.patient;
+    }
 }
 
 std::size_t RetrievalWork::missing() const {
@@ -88,6 +102,7 @@ void RetrievalWork::stored(const StoredObject &object) {
     m_received.notify_all();
     if (m_observer.stored)
         m_observer.stored(object);
+    compare(object);
     if (m_observer.changed)
         m_observer.changed(m_state);
 }
@@ -104,15 +119,12 @@ void RetrievalWork::findHere(const Batch &batch) {
             const auto missing = m_missing.find(uid);
             return missing == m_missing.end() ? std::nullopt : std::optional(missing->second);
         }();
-        if (!awaited || !m_folder.has(awaited->studyUid, awaited->seriesUid, uid))
+        if (!awaited)
             continue;
-        const std::filesystem::path path =
-            m_folder.pathOf(awaited->studyUid, awaited->seriesUid, uid);
-        std::error_code unknown;
-        const auto bytes = std::filesystem::file_size(path, unknown);
-        moved(unknown ? 0 : std::int64_t(bytes));
-        stored({path, awaited->studyUid, awaited->seriesUid, uid, awaited->sopClassUid,
-                unknown ? 0 : std::uint64_t(bytes)});
+        if (const auto object = m_folder.find(awaited->studyUid, awaited->seriesUid, uid)) {
+            moved(std::int64_t(object->bytes));
+            stored(*object);
+        }
     }
 }
 
@@ -205,7 +217,7 @@ bool RetrievalWork::fillQueueAgain(const std::vector<Instance> &instances) {
 
 RetrievalReport RetrievalWork::report() {
     const std::lock_guard lock(m_mutex);
-    RetrievalReport report{m_state, 0.0, {}, m_unwanted};
+    RetrievalReport report{m_state, 0.0, {}, m_unwanted, m_ofAnotherPatient, m_patient, m_named};
     for (const auto &[uid, instance] : m_missing) {
         const auto reason = m_reasons.find(uid);
         report.lacking.push_back(

@@ -32,7 +32,7 @@ inline constexpr std::size_t firstBatchSize = 8;
 class RetrievalWork {
 public:
     /// `folder` and `observer` outlive this object. *Requires*: at least one connection.
-    RetrievalWork(const std::vector<Instance> &instances, const ObjectFolder &folder,
+    RetrievalWork(const Listing &listing, const ObjectFolder &folder,
                   const RetrievalObserver &observer, int connections);
 
     std::size_t missing() const;
@@ -79,17 +79,20 @@ public:
 
 private:
     void fillQueue(const std::vector<Instance> &instances);
+    void compare(const StoredObject &object);
 
     const ObjectFolder &m_folder;
     const RetrievalObserver &m_observer;
     const std::size_t m_connections;
+    const Patient m_patient; ///< as the server lists it
+    Patient m_named;         ///< by the first object of another patient
     mutable std::mutex m_mutex;
     std::condition_variable m_received;
     std::map<std::string, Instance> m_missing;
     std::map<std::string, task::Reason> m_reasons;
     std::deque<Batch> m_queue;
     RetrievalState m_state;
-    std::size_t m_unwanted = 0;
+    std::size_t m_unwanted = 0, m_ofAnotherPatient = 0;
     int m_refusals = 0;
     std::size_t m_receivedAtRefusal = 0;
     std::map<std::string, std::size_t> m_receivedBefore; ///< by access token

@@ -49,8 +49,8 @@ std::filesystem::path libraryObjectFolder() {
 
 RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &server,
                             const RetrievalObserver &observer, const task::Progress &progress,
-                            const MoveDestination &destination) {
-    const std::optional<Transfer> transfer = log.transfer(id);
+                            const MoveDestination &destination, const Patient &listed) {
+    std::optional<Transfer> transfer = log.transfer(id);
     if (!transfer || !log.claim(id))
         throw task::Error(task::ErrorCode::usage, because::transferIsRunning);
     const bool isForLibrary = transfer->folder == libraryObjectFolder();
@@ -72,6 +72,7 @@ RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &ser
         if (observer.stored)
             observer.stored(object);
     };
+    recording.matches = observer.matches;
     recording.changed = [&](const RetrievalState &state) {
         reached = state;
         if (progress.stopRequested())
@@ -90,6 +91,7 @@ RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &ser
     // A server that hangs brings no callbacks.
     const std::stop_callback forwarded(progress.stopToken(), [&] { stop.request_stop(); });
     try {
+        transfer->wanted.patient = listed;
         RetrievalReport report =
             retrieve(server, transfer->wanted,
                      ObjectFolder(transfer->folder, ObjectFolder::Keeps::inMemoryOfTheSystem),

@@ -26,16 +26,11 @@ int portIn(const std::string &text) {
     return port;
 }
 
-// Whether no other computer can read what is sent to it.
-bool isPrivate(const exchange::Peer &peer) {
-    return peer.usesTls || peer.host == "127.0.0.1" || peer.host == "localhost";
-}
-
 void requireValidLogin(const Server &server) {
     const LoginSettings &login = server.loginSettings;
     if (server.peer.protocol != exchange::Protocol::web)
         fail(because::loginIsForDicomWeb);
-    if (!isPrivate(server.peer))
+    if (!exchange::isPrivate(server.peer))
         fail(because::loginNeedsHttps);
     const bool hasUrls = !login.authorizationUrl.empty() && !login.tokenUrl.empty(),
                hasUrl = !login.authorizationUrl.empty() || !login.tokenUrl.empty();
@@ -119,7 +114,7 @@ exchange::Peer loginPeer(const std::string &url) {
     peer.path = path == std::string::npos ? "/" : url.substr(path);
     if (peer.path.front() == '?')
         peer.path.insert(0, "/");
-    if (!isPrivate(peer) || !exchange::isVisible(url, exchange::longestUrl) ||
+    if (!exchange::isPrivate(peer) || !exchange::isVisible(url, exchange::longestUrl) ||
         url.find_first_of("#\"<>\\^`{|}") != std::string::npos)
         fail(because::isNoLoginAddress(url));
     return peer;

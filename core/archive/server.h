@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/exchange/peer.h"
+#include "core/exchange/query.h"
 
 namespace pellucid::archive {
 
@@ -44,7 +45,7 @@ struct Server {
 };
 
 inline constexpr int maxConnections = 8;
-inline constexpr std::uint32_t maxAnswers = 1000000;
+inline constexpr std::uint32_t maxAnswers = exchange::maxMatches;
 inline constexpr int defaultDicomPort = 104, defaultListenerPort = 11112;
 
 /// AET@HOST:PORT, the port being optional. *Throws* Error{usage}.
@@ -76,7 +77,8 @@ public:
     const std::vector<Server> &servers() const { return m_servers; }
     /// *Throws* Error{usage} if there is none of that name.
     const Server &get(const std::string &name) const;
-    /// Adds or replaces the server of that name, and saves. *Throws* Error{usage}, Error{output}.
+    /// Adds or replaces the server of that name, and saves. *Throws* Error{usage}, also for a login
+    /// that others could read; Error{output}.
     void put(const Server &server);
     void remove(const std::string &name);
 

@@ -66,6 +66,8 @@ Json toJson(const Server &server) {
             json["login"][field.name] = value;
     if (!peer.user.empty())
         json["user"] = peer.user;
+    if (peer.allowsInsecureLogin)
+        json["allow_insecure_login"] = true;
     if (!peer.characterSet.empty())
         json["character_set"] = peer.characterSet;
     if (server.mayUncompress)
@@ -104,6 +106,8 @@ Server fromJson(const JsonValue &json) {
     for (const LoginField &field : loginFields)
         server.loginSettings.*field.value = textOr(json["login"][field.name], {});
     peer.user = textOr(json["user"], {});
+    if (json["allow_insecure_login"])
+        peer.allowsInsecureLogin = json["allow_insecure_login"].boolean();
     peer.characterSet = textOr(json["character_set"], {});
     if (json["uncompress"])
         server.mayUncompress = json["uncompress"].boolean();
@@ -149,6 +153,7 @@ const Server &ServerList::get(const std::string &name) const {
 
 void ServerList::put(const Server &server) {
     requireValid(server);
+    exchange::requireSecureLogin(server.peer);
     const auto same = std::find_if(m_servers.begin(), m_servers.end(),
                                    [&](const Server &one) { return one.name == server.name; });
     if (same != m_servers.end())

@@ -2,7 +2,6 @@
 #include "core/batch/study_results.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <fcntl.h>
 #include <set>
@@ -27,13 +26,6 @@ namespace fs = std::filesystem;
 // cannot do that at once.
 bool exchange(const fs::path &a, const fs::path &b) {
     return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
-}
-
-// Locks that tell an abandoned folder may hold on one machine only: each has a folder of its own.
-fs::path unfinishedIn(const fs::path &out) {
-    std::array<char, 256> name{};
-    ::gethostname(name.data(), name.size() - 1);
-    return out / (std::string(".unfinished-") + name.data());
 }
 
 // File managers and network file systems leave such files in folders.
@@ -63,15 +55,8 @@ void requireReplaceable(const fs::path &place) {
                               place);
 }
 
-void removeUnfinished(const fs::path &out) {
-    const fs::path unfinished = unfinishedIn(out);
-    files::removeAbandonedSessionFolders(unfinished);
-    std::error_code ignored;
-    fs::remove(unfinished, ignored); // if it is empty
-}
-
 StudyResults::StudyResults(const fs::path &out, const std::string &key)
-    : m_place(out / key), m_aside(unfinishedIn(out), files::SessionFolder::Parent::goes),
+    : m_place(out / key), m_aside(files::SessionFolder::in(out)),
       m_folder(m_aside.path() / "results") {
     requireReplaceable(m_place);
     std::error_code failed;

@@ -37,7 +37,4 @@ private:
     std::filesystem::path m_folder;
 };
 
-/// Removes what killed programs of this machine have left unfinished in `out`.
-void removeUnfinished(const std::filesystem::path &out);
-
 } // namespace pellucid::batch

@@ -7,12 +7,11 @@
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
-#include <mutex>
 #include <sys/mman.h>
 #include <system_error>
 #include <unistd.h>
 
-#include "core/helper/confinement.h"
+#include "core/helper/protection.h"
 #include "core/system/log.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
@@ -105,17 +104,7 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
     if (!ready || ready->message.kind != Message::Kind::ready)
         failStarting(program, 0);
     m_confinement = ready->message.code;
-    static std::once_flag once;
-    std::call_once(once, [this] {
-        system::log(
-            std::string("decoders: resource limits ") +
-            ((m_confinement & helper::limitsHold) != 0 ? "in force" : "NOT in force") +
-            ", system calls " +
-            ((m_confinement & helper::callsAreFiltered) != 0 ? "filtered" : "NOT filtered") +
-            ", files " +
-            ((m_confinement & helper::filesAreFiltered) != 0 ? "closed"
-                                                             : "not closed by Landlock"));
-    });
+    helper::noteProtection("decoders", m_confinement);
     m_isUsable = true;
 }
 
@@ -175,15 +164,19 @@ Child::Answer Child::answer(const task::Progress &progress) {
 bool Child::grow(std::uint64_t bytes) {
     if (bytes <= m_arenaBytes)
         return true;
-    // Other decoders may not have filled what they were granted.
-    const std::uint64_t more = bytes - m_arenaBytes;
-    const std::uint64_t granted = grantedBytes.fetch_add(more) + more;
-    m_grantedBytes += more;
-    if (granted > system::availableMemoryBytes() || ::ftruncate(m_arena.get(), off_t(bytes)) != 0) {
+    const std::uint64_t more = bytes - m_arenaBytes, available = system::availableMemoryBytes();
+    // Other decoders may not have filled what they were granted. No sum may wrap: a decoder may ask
+    // for any number.
+    std::uint64_t granted = grantedBytes;
+    do {
+        if (granted > available || more > available - granted)
+            return false;
+    } while (!grantedBytes.compare_exchange_weak(granted, granted + more));
+    if (::ftruncate(m_arena.get(), off_t(bytes)) != 0) {
         grantedBytes -= more;
-        m_grantedBytes -= more;
         return false;
     }
+    m_grantedBytes += more;
     m_arenaBytes = bytes;
     return true;
 }

@@ -5,11 +5,10 @@
 #include <chrono>
 #include <csignal>
 #include <exception>
-#include <mutex>
 #include <system_error>
 
-#include "core/helper/confinement.h"
 #include "core/helper/packing.h"
+#include "core/helper/protection.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
 
@@ -27,21 +26,12 @@ constexpr double startSeconds = 30.0; // on a loaded machine
 constexpr double slackSeconds = 10.0; // beyond the helper's own patience
 constexpr double cancelSeconds = 4.0; // the helper gives the server two
 
+constexpr std::size_t maxMatchesBytes = std::size_t(1) << 30; // of a search: a thousand each
 constexpr std::uint64_t maxBytes = std::uint64_t(1)
                                    << 36; // of an object; more is an attack on the disk
 
-void logConfinement(int bits) {
-    static std::once_flag once;
-    std::call_once(once, [bits] {
-        const auto has = [bits](int bit, const char *yes, const char *no) {
-            return (bits & bit) != 0 ? yes : no;
-        };
-        system::log(std::string("network helpers: resource limits ") +
-                    has(helper::limitsHold, "in force", "NOT in force") + ", system calls " +
-                    has(helper::callsAreFiltered, "filtered", "NOT filtered") + ", files " +
-                    has(helper::filesAreFiltered, "out of reach by Landlock",
-                        "out of reach by the filter of system calls only"));
-    });
+void note(int confinement) {
+    helper::noteProtection("network helpers", confinement);
 }
 
 } // namespace
@@ -51,6 +41,7 @@ Link::Link(double patienceSeconds) : m_patienceSeconds(patienceSeconds) {}
 Link::Link(const Connection &connection, const task::Progress &progress,
            const StepObserver &observe)
     : m_patienceSeconds(connection.peer.silenceSeconds + slackSeconds) {
+    requireSecureLogin(connection.peer);
     start();
     send({Kind::connect, 0, 0, pack(connection)});
     const double patience = m_patienceSeconds;
@@ -59,7 +50,7 @@ Link::Link(const Connection &connection, const task::Progress &progress,
                                    slackSeconds);
     m_confinement = converse(progress, nullptr, {}, observe, Kind::ready).code;
     m_patienceSeconds = patience;
-    logConfinement(m_confinement);
+    note(m_confinement);
     m_isUsable = true;
 }
 
@@ -88,7 +79,22 @@ QueryEnd Link::find(const Query &query, const std::function<void(Attributes)> &m
                     const task::Progress &progress) {
     m_isAtWork = true;
     send({Kind::find, 0, 0, pack(query)});
-    return unpackQueryEnd(converse(progress, nullptr, match, {}, Kind::done).body);
+    // Also if the helper does not keep to the limit.
+    std::uint32_t more = query.limit == 0 ? maxMatches : std::min(query.limit, maxMatches);
+    std::size_t room = maxMatchesBytes;
+    const auto counted = [&](Attributes attributes) {
+        std::size_t bytes = 0;
+        for (const auto &[tag, value] : attributes)
+            bytes += sizeof tag + value.size();
+        if (more == 0 || bytes > room) {
+            m_isUsable = false;
+            throw Error(ErrorCode::unusable, because::serverListsTooMuch(maxMatches));
+        }
+        --more;
+        room -= bytes;
+        match(std::move(attributes));
+    };
+    return unpackQueryEnd(converse(progress, nullptr, counted, {}, Kind::done).body);
 }
 
 RetrievalEnd Link::retrieve(const Retrieval &retrieval, Receiver &receiver,
@@ -161,7 +167,7 @@ Message Link::converse(const task::Progress &progress, Receiver *receiver,
             break;
         case Kind::ready: // of a server, whose requests end with `done`
             m_confinement = message.code;
-            logConfinement(m_confinement);
+            note(m_confinement);
             break;
         case Kind::progress:
             if (receiver != nullptr && m_isArriving && message.number > 0 &&
@@ -262,7 +268,7 @@ void awaitRedirect(files::Descriptor socket, const Redirection &redirection,
     link.start();
     link.send({Kind::redirect, 0, 0, pack(redirection)}, socket.get());
     socket = files::Descriptor(); // so that the browser notices when the helper ends
-    logConfinement(link.converse(progress, nullptr, {}, {}, Kind::ready).code);
+    note(link.converse(progress, nullptr, {}, {}, Kind::ready).code);
     ready();
     const std::string code = unpackCode(link.converse(progress, nullptr, {}, {}, Kind::code).body);
     std::exception_ptr failure;

@@ -19,6 +19,7 @@ template <class A> void pass(A &archive, Peer &peer) {
     pass(archive, peer.port);
     pass(archive, peer.usesTls);
     pass(archive, peer.authentication);
+    pass(archive, peer.allowsInsecureLogin);
     for (double *const seconds :
          {&peer.connectSeconds, &peer.associationSeconds, &peer.silenceSeconds})
         pass(archive, *seconds);
@@ -43,6 +44,7 @@ template <class A> void pass(A &archive, Acceptance &acceptance) {
           &acceptance.keyPassword})
         pass(archive, *text);
     pass(archive, acceptance.callingAes);
+    pass(archive, acceptance.clientHosts);
     pass(archive, acceptance.usesTls);
     pass(archive, acceptance.silenceSeconds);
 }

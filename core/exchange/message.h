@@ -79,8 +79,11 @@ std::optional<Packet> receive(int socket);
 struct Acceptance {
     std::string calledAe;                ///< the only name it answers to; empty: any
     std::vector<std::string> callingAes; ///< the senders it knows; empty: any
+    /// With TLS, the names and addresses of which the client's certificate must have one; empty:
+    /// any.
+    std::vector<std::string> clientHosts;
     bool usesTls = false;
-    std::string authorities, certificate, key, keyPassword; ///< as of Peer
+    std::string authorities, certificate, key, keyPassword; ///< as of Peer; authorities: required
     double silenceSeconds = 60.0;
 };
 

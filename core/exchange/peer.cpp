@@ -5,7 +5,27 @@
 #include <array>
 #include <netdb.h>
 
+#include "core/task/error.h"
+
 namespace pellucid::exchange {
+
+bool isPrivate(const Peer &peer) {
+    constexpr std::uint32_t loopback = 127; // 127.0.0.0/8 (RFC 1122, 3.2.1.3)
+    in_addr address{};
+    return peer.usesTls || peer.host == "localhost" ||
+           (::inet_pton(AF_INET, peer.host.c_str(), &address) == 1 &&
+            ntohl(address.s_addr) >> 24 == loopback);
+}
+
+bool hasInsecureLogin(const Peer &peer) {
+    return peer.authentication != Authentication::none && !peer.allowsInsecureLogin &&
+           !isPrivate(peer);
+}
+
+void requireSecureLogin(const Peer &peer) {
+    if (hasInsecureLogin(peer))
+        throw task::Error(task::ErrorCode::usage, task::because::loginCanBeRead);
+}
 
 const std::vector<std::string> &transferSyntaxes() {
     static const std::vector<std::string> syntaxes{

@@ -23,11 +23,21 @@ struct Peer {
     std::string certificate, key, keyPassword; ///< of this program; empty: none
     Authentication authentication = Authentication::none;
     std::string user, secret; ///< the password or the token
+    /// Whether others on the way may read the secret: the user has agreed to that.
+    bool allowsInsecureLogin = false;
     std::string characterSet; ///< of answers that name none; a defined term such as ISO_IR 100
     double connectSeconds = 10.0, associationSeconds = 30.0, silenceSeconds = 60.0;
 
     bool operator==(const Peer &) const = default;
 };
+
+/// Whether no other computer can read what is sent to it: TLS, or it is this computer.
+bool isPrivate(const Peer &peer);
+/// Whether it would get a password or a token that others on the way can read, and the user has not
+/// agreed to that.
+bool hasInsecureLogin(const Peer &peer);
+/// *Throws* Error{usage} in this case.
+void requireSecureLogin(const Peer &peer);
 
 /// The IPv4 addresses of a host, as the system's name service tells them; empty if it knows none.
 std::vector<std::string> addressesOf(const std::string &host);

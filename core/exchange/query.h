@@ -32,13 +32,16 @@ inline constexpr std::uint32_t sopClassUid = 0x00080016, sopInstanceUid = 0x0008
                                columns = 0x00280011, frames = 0x00280008;
 }
 
+/// Each answer is kept in memory.
+inline constexpr std::uint32_t maxMatches = 1000000;
+
 /// A search: the keys with a value restrict it, with the wildcards * and ?, and ranges of dates;
 /// the others are returned.
 struct Query {
     Level level = Level::study;
     Attributes keys;
     std::uint32_t limit =
-        200; ///< the search is cancelled at the server when it is reached; 0: none
+        200; ///< the search is cancelled at the server when it is reached; 0: maxMatches
 };
 
 /// How a search ended.

@@ -37,10 +37,10 @@ mode_t currentMask() {
 }
 
 // A nameless file that can get a name later; -1 if the file system has none.
-int openNameless(const std::filesystem::path &folder) {
+int openNameless(const std::filesystem::path &folder, mode_t mode) {
 #ifdef O_TMPFILE
     const int descriptor =
-        open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+        open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
     if (descriptor >= 0 &&
         access(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), F_OK) == 0)
         return descriptor;
@@ -50,14 +50,43 @@ int openNameless(const std::filesystem::path &folder) {
     return -1;
 }
 
+// Copies the first bytes of an open file to the end of another one. Returns how many.
+off_t copyBytes(int from, int to, off_t bytes) {
+    off_t at = 0;
+    for (ssize_t copied = 1; at < bytes && copied > 0;)
+        do
+            copied = sendfile(to, from, &at, std::size_t(bytes - at));
+        while (copied < 0 && errno == EINTR);
+    return at;
+}
+
+// Where anybody may make links, another user's link would choose which file of this user is
+// replaced. The kernel's rule against it (fs.protected_symlinks) holds for who opens a link, not
+// for who reads it.
+void requireTrusted(const std::filesystem::path &link) {
+    constexpr mode_t shared = S_ISVTX | S_IWOTH;
+    struct stat own {};
+    struct stat folder {};
+    const std::filesystem::path parent = link.has_parent_path() ? link.parent_path() : ".";
+    if (lstat(link.c_str(), &own) != 0 || stat(parent.c_str(), &folder) != 0)
+        throw task::Error(task::ErrorCode::output, task::systemReason(errno), link);
+    if ((folder.st_mode & shared) == shared && own.st_uid != geteuid() &&
+        own.st_uid != folder.st_uid)
+        throw task::Error(task::ErrorCode::output, task::because::isALinkOfAnotherUser, link);
+}
+
 } // namespace
 
 std::filesystem::path targetOf(const std::filesystem::path &path) {
+    constexpr int maxLinks = 40; // as the kernel
     std::filesystem::path meant = path;
     std::error_code unknown;
-    if (std::filesystem::is_symlink(path, unknown))
-        if (const auto target = std::filesystem::weakly_canonical(path, unknown); !unknown)
-            meant = target;
+    for (int n = 0; std::filesystem::is_symlink(meant, unknown); ++n) {
+        if (n == maxLinks)
+            throw task::Error(task::ErrorCode::output, task::systemReason(ELOOP), path);
+        requireTrusted(meant);
+        meant = meant.parent_path() / std::filesystem::read_symlink(meant, unknown);
+    }
     if (std::filesystem::exists(meant, unknown) &&
         !std::filesystem::is_regular_file(meant, unknown) &&
         !std::filesystem::is_directory(meant, unknown))
@@ -65,16 +94,16 @@ std::filesystem::path targetOf(const std::filesystem::path &path) {
     return meant;
 }
 
-AtomicFile::AtomicFile(const std::filesystem::path &path) : m_path(targetOf(path)) {
-    int descriptor = openNameless(m_path.parent_path());
+AtomicFile::AtomicFile(const std::filesystem::path &path, Readers readers)
+    : m_path(targetOf(path)), m_mode(readers == Readers::user ? 0600 : 0666 & ~currentMask()) {
+    int descriptor = openNameless(m_path.parent_path(), m_mode);
     if (descriptor < 0) {
         std::string name = hiddenNameFor(m_path);
         descriptor = mkstemp(name.data());
         if (descriptor < 0)
             fail(errno);
         m_temporary = name;
-        // mkstemp creates private files; the result gets the permissions of any new file.
-        fchmod(descriptor, 0666 & ~currentMask());
+        fchmod(descriptor, m_mode); // mkstemp creates private files
     }
     m_file = fdopen(descriptor, "wb");
     if (m_file == nullptr) {
@@ -131,16 +160,25 @@ std::string AtomicFile::copyTo(std::string name) {
     const Descriptor copy(mkstemp(name.data()));
     if (!copy)
         fail(errno);
-    off_t at = 0;
     const off_t end = lseek(fileno(m_file), 0, SEEK_END);
-    while (at < end && sendfile(copy.get(), fileno(m_file), &at, std::size_t(end - at)) > 0) {
-    }
-    if (at != end || fchmod(copy.get(), 0666 & ~currentMask()) != 0 || fsync(copy.get()) != 0) {
+    if (copyBytes(fileno(m_file), copy.get(), end) != end || fchmod(copy.get(), m_mode) != 0 ||
+        fsync(copy.get()) != 0) {
         const int error = errno != 0 ? errno : EIO;
         unlink(name.c_str());
         fail(error);
     }
     return name;
+}
+
+void AtomicFile::write(int descriptor, std::uint64_t bytes) {
+    if (std::fflush(m_file) != 0)
+        fail(errno);
+    errno = 0;
+    if (copyBytes(descriptor, fileno(m_file), off_t(bytes)) != off_t(bytes)) {
+        if (errno == 0) // it ends before
+            throw task::Error(task::ErrorCode::unusable, task::because::isTruncated);
+        fail(errno);
+    }
 }
 
 int AtomicFile::descriptor() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <span>
@@ -11,7 +12,7 @@
 namespace pellucid::files {
 
 /// The file that writing to a path affects: the target if it is a link. *Throws* Error{output} if a
-/// file would replace a device or a pipe.
+/// file would replace a device or a pipe, or if another user made the link where anybody may.
 std::filesystem::path targetOf(const std::filesystem::path &path);
 
 /// A file that appears under its name only when it is complete. Until `commit`, its bytes are in a
@@ -20,8 +21,10 @@ std::filesystem::path targetOf(const std::filesystem::path &path);
 /// leaves QSaveFile's unfinished file behind.
 class AtomicFile {
 public:
+    /// Who may read it: whoever the user lets read new files, or the user alone.
+    enum class Readers { usual, user };
     /// *Throws* Error{output} if the folder cannot be written.
-    explicit AtomicFile(const std::filesystem::path &path);
+    explicit AtomicFile(const std::filesystem::path &path, Readers readers = Readers::usual);
     ~AtomicFile();
     AtomicFile(const AtomicFile &) = delete;
     AtomicFile &operator=(const AtomicFile &) = delete;
@@ -29,6 +32,8 @@ public:
     /// *Throws* Error{output}, for example if the disk is full.
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+    /// The first bytes of an open file. *Throws* Error{output}; Error{unusable} if it has fewer.
+    void write(int descriptor, std::uint64_t bytes);
     /// The open file with what has been written, for another process. *Throws* Error{output}.
     int descriptor() const;
     /// Chooses a different path before the file appears, on the same file system. *Throws* as
@@ -45,6 +50,7 @@ private:
     std::string copyTo(std::string name);
 
     std::filesystem::path m_path;
+    unsigned m_mode;
     std::filesystem::path m_temporary; ///< empty while it has no name
     std::FILE *m_file = nullptr;
 };

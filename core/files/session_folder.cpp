@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/files/session_folder.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <fcntl.h>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -21,95 +22,154 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *unfinished = ".pellucid-unfinished";
+constexpr std::string_view prefix = ".pellucid-", pattern = ".pellucid-XXXXXX";
+constexpr const char *lockName = "lock";
 
 std::optional<fs::path> sessionsFolder() {
     const auto cache = userCacheFolder();
     return cache ? std::optional(*cache / "sessions") : std::nullopt;
 }
 
-fs::path lockOf(const fs::path &folder) {
-    return folder.string() + ".lock";
+// What the lock contains. Locks may hold on one machine only, so it names the machine.
+const std::string &mark() {
+    static const std::string text = [] {
+        std::array<char, 256> host{};
+        ::gethostname(host.data(), host.size() - 1);
+        return std::string("Pellucid session folder on ") + host.data() + "\n";
+    }();
+    return text;
 }
 
-// Locks a file unless another program holds the lock. The system releases it when the program ends,
-// however that happens.
-Descriptor takeLock(const fs::path &lock) {
-    Descriptor file(::open(lock.c_str(), O_RDWR | O_CLOEXEC));
+// The path of an open file or folder, whatever becomes of its name.
+fs::path pathOf(const Descriptor &open) {
+    return "/proc/self/fd/" + std::to_string(open.get());
+}
+
+Descriptor openFolder(int parent, const std::string &name, int flags) {
+    return Descriptor(::openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | flags));
+}
+
+// Creates the lock of a new folder and takes it. Empty, with errno, if that fails; with ENOENT if a
+// cleanup was faster.
+Descriptor makeLock(int folder) {
+    Descriptor lock(
+        ::openat(folder, lockName, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
+    // On a network share without locks, nobody can lock the file, so nobody will clean up there.
+    while (lock && ::flock(lock.get(), LOCK_EX) != 0 && errno == EINTR) {
+    }
     struct stat about {};
-    // A lock file that was removed meanwhile locks nothing.
-    if (file && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0 && ::fstat(file.get(), &about) == 0 &&
-        about.st_nlink > 0)
-        return file;
-    return Descriptor();
+    if (!lock || ::fstat(lock.get(), &about) != 0)
+        return Descriptor();
+    errno = ENOENT;
+    const bool isMade = about.st_nlink > 0 &&
+                        ::write(lock.get(), mark().data(), mark().size()) == ssize_t(mark().size());
+    return isMade ? std::move(lock) : Descriptor();
 }
 
-// For a network share without locks: nobody can lock the file, so nobody will clean up there.
-Descriptor takeLockOrFile(const fs::path &lock) {
-    Descriptor taken = takeLock(lock);
-    if (!taken && (errno == ENOLCK || errno == EOPNOTSUPP || errno == ENOSYS))
-        return Descriptor(::open(lock.c_str(), O_RDWR | O_CLOEXEC));
-    return taken;
+bool isOwn(const struct stat &about) {
+    return about.st_uid == ::geteuid() && (about.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+// Removes the contents, then the lock, so that a program that is killed meanwhile leaves a folder
+// with a mark. Closes the lock first: on NFS, an open file keeps its folder.
+void remove(int parent, const std::string &name, const Descriptor &folder, Descriptor lock) {
+    std::error_code failed, kept;
+    for (fs::directory_iterator entry(pathOf(folder), failed), end;
+         !failed && !kept && entry != end; entry.increment(failed))
+        if (entry->path().filename() != lockName)
+            fs::remove_all(entry->path(), kept);
+    lock = Descriptor();
+    if (!failed && !kept && ::unlinkat(folder.get(), lockName, 0) == 0)
+        ::unlinkat(parent, name.c_str(), AT_REMOVEDIR);
+}
+
+// Removes a folder if a program of this user has made it on this machine and has ended.
+void removeIfAbandoned(int parent, const std::string &name,
+                       const std::function<void(const fs::path &)> &before) {
+    const Descriptor folder = openFolder(parent, name, O_NOFOLLOW);
+    struct stat about {};
+    if (!folder || ::fstat(folder.get(), &about) != 0 || !isOwn(about))
+        return;
+    Descriptor lock(::openat(folder.get(), lockName, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    if (!lock) {
+        ::unlinkat(parent, name.c_str(), AT_REMOVEDIR); // if it is empty
+        return;
+    }
+    if (::fstat(lock.get(), &about) != 0 || !S_ISREG(about.st_mode) || !isOwn(about) ||
+        ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0)
+        return;
+    std::string text(mark().size() + 1, '\0');
+    text.resize(
+        std::size_t(std::max(::pread(lock.get(), text.data(), text.size(), 0), ssize_t(0))));
+    if (text == mark()) {
+        if (before)
+            before(pathOf(folder));
+        remove(parent, name, folder, std::move(lock));
+    } else if (text.empty()) { // killed when it had just begun
+        ::unlinkat(folder.get(), lockName, 0);
+        ::unlinkat(parent, name.c_str(), AT_REMOVEDIR);
+    }
+}
+
+fs::path sessionsOfUser() {
+    const auto sessions = sessionsFolder();
+    if (!sessions)
+        throw task::Error(task::ErrorCode::output, task::because::noTemporaryFolder);
+    return *sessions;
 }
 
 } // namespace
 
-SessionFolder::SessionFolder() {
-    const auto sessions = sessionsFolder();
-    if (!sessions)
-        throw task::Error(task::ErrorCode::output, task::because::noTemporaryFolder);
-    make(*sessions);
+SessionFolder::SessionFolder() : SessionFolder(sessionsOfUser()) {}
+
+SessionFolder::SessionFolder(const fs::path &parent) : SessionFolder(parent, Path::byName) {}
+
+SessionFolder SessionFolder::in(const fs::path &folder) {
+    return {folder.empty() ? "." : folder, Path::byDescriptor};
 }
 
-SessionFolder::SessionFolder(const fs::path &parent, Parent then) : m_parent(then) {
-    make(parent);
+SessionFolder SessionFolder::beside(const fs::path &file) {
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    removeAbandonedSessionFolders(folder);
+    return in(folder);
 }
 
-void SessionFolder::make(const fs::path &parent) {
-    std::error_code failed;
-    fs::create_directories(parent, failed);
-    // The lock comes first: no folder exists without the lock of its program.
+SessionFolder::SessionFolder(const fs::path &parent, Path path) : m_naming(path) {
+    int error = 0;
     for (int attempts = 0; attempts < 100; ++attempts) {
-        std::string name = (parent / "XXXXXX.lock").string();
-        const Descriptor made(::mkstemps(name.data(), int(std::string_view(".lock").size())));
-        if (!made && errno == ENOENT) {             // an empty parent was removed meanwhile
-            fs::create_directories(parent, failed); // perhaps by another program
-            if (!failed)
-                continue;
+        if (m_naming == Path::byName)
+            createPrivateFolders(parent);
+        m_parent = openFolder(AT_FDCWD, parent.string(), O_PATH);
+        std::string made = (pathOf(m_parent) / pattern).string();
+        const bool isMade = m_parent && ::mkdtemp(made.data()) != nullptr; // private to the user
+        error = errno;
+        if (isMade) {
+            m_name = fs::path(made).filename();
+            m_folder = openFolder(m_parent.get(), m_name, O_NOFOLLOW);
+            m_lock = m_folder ? makeLock(m_folder.get()) : Descriptor();
+            error = errno;
         }
-        if (!made)
-            break;
-        m_lock = takeLockOrFile(name);
-        if (!m_lock) // a cleanup was faster
-            continue;
-        m_path = name.substr(0, name.rfind('.'));
-        if (::mkdir(m_path.c_str(), 0700) == 0) // private to the user
+        if (m_lock) {
+            m_path = m_naming == Path::byName ? parent / m_name : pathOf(m_folder);
             return;
-        const int error = errno;
-        ::unlink(name.c_str());
-        errno = error;
-        if (error != EEXIST)
+        }
+        if (isMade)
+            removeIfAbandoned(m_parent.get(), m_name, {});
+        // Another program's cleanup was faster, or has removed the empty parent.
+        if (error != ENOENT || (m_naming == Path::byDescriptor && !isMade))
             break;
     }
-    throw task::Error(task::ErrorCode::output, task::systemReason(errno), parent);
+    throw task::Error(task::ErrorCode::output, task::systemReason(error), parent);
 }
 
 SessionFolder::~SessionFolder() {
     if (m_isAbandoned)
         return;
-    std::error_code failed, ignored;
-    fs::remove_all(m_path, failed);
-    if (!failed) // otherwise the next program tries again
-        fs::remove(lockOf(m_path), ignored);
-    if (m_parent == Parent::goes)
+    remove(m_parent.get(), m_name, m_folder,
+           std::move(m_lock)); // else the next program tries again
+    std::error_code ignored;
+    if (m_naming == Path::byName)
         fs::remove(m_path.parent_path(), ignored); // if it is empty
-}
-
-SessionFolder SessionFolder::beside(const fs::path &file) {
-    std::error_code unknown;
-    const fs::path parent = fs::absolute(file, unknown).parent_path() / unfinished;
-    removeAbandonedSessionFolders(parent);
-    return SessionFolder(parent, Parent::goes);
 }
 
 bool isInSessionFolder(const fs::path &path) {
@@ -124,24 +184,15 @@ void removeAbandonedSessionFolders() {
 
 void removeAbandonedSessionFolders(const fs::path &parent,
                                    const std::function<void(const fs::path &)> &before) {
+    const Descriptor opened = openFolder(AT_FDCWD, parent.string(), 0);
+    if (!opened)
+        return;
     std::error_code failed;
-    for (fs::directory_iterator entry(parent, failed), end; !failed && entry != end;
-         entry.increment(failed)) {
-        const fs::path &lockFile = entry->path();
-        if (lockFile.extension() != ".lock")
-            continue;
-        const Descriptor lock = takeLock(lockFile);
-        if (!lock)
-            continue;
-        fs::path folder = lockFile;
-        folder.replace_extension();
-        if (before)
-            before(folder);
-        std::error_code kept, ignored;
-        fs::remove_all(folder, kept);
-        if (!kept)
-            fs::remove(lockFile, ignored);
-    }
+    for (fs::directory_iterator entry(pathOf(opened), failed), end; !failed && entry != end;
+         entry.increment(failed))
+        if (const std::string name = entry->path().filename();
+            name.size() == pattern.size() && name.starts_with(prefix))
+            removeIfAbandoned(opened.get(), name, before);
 }
 
 } // namespace pellucid::files

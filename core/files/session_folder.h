@@ -3,40 +3,46 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "core/files/descriptor.h"
 
 namespace pellucid::files {
 
 /// A private folder for files that a running program unpacks or has not finished. It is removed
-/// with the object. The program holds a lock next to it, so that `removeAbandonedSessionFolders`
-/// recognises the folders of killed programs.
+/// with the object. A lock inside marks it, so that `removeAbandonedSessionFolders` recognises the
+/// folders of killed programs.
 class SessionFolder {
 public:
     /// Creates it in the user's cache. *Throws* Error{output} if that is impossible.
     SessionFolder();
-    /// Creates it in `parent`, which is created if necessary. A parent that `goes` is removed with
-    /// its last session folder. *Throws* Error{output}.
-    enum class Parent { stays, goes };
-    explicit SessionFolder(const std::filesystem::path &parent, Parent then = Parent::stays);
-    /// Creates it on the same file system as an output file: in a hidden folder next to the file,
-    /// which is removed with its last session folder. First removes abandoned folders there.
-    /// *Throws* Error{output}.
+    /// Creates it in `parent`, a folder of this user's, which is created if necessary and removed
+    /// with its last session folder. *Throws* Error{output}.
+    explicit SessionFolder(const std::filesystem::path &parent);
+    /// Creates it in any folder that exists, to which others may write: `path` leads to it even if
+    /// they rename it and put something else in its place. *Throws* Error{output}.
+    static SessionFolder in(const std::filesystem::path &folder);
+    /// The same next to an output file, on the same file system. First removes abandoned folders
+    /// there. *Throws* Error{output}.
     static SessionFolder beside(const std::filesystem::path &file);
     ~SessionFolder();
     SessionFolder(const SessionFolder &) = delete;
     SessionFolder &operator=(const SessionFolder &) = delete;
 
     const std::filesystem::path &path() const { return m_path; }
+    /// The open folder, for other programs, to which `path` may mean nothing.
+    int descriptor() const { return m_folder.get(); }
     /// If set, the folder stays and is removed as an abandoned one by the next program.
     void setAbandoned(bool isAbandoned) { m_isAbandoned = isAbandoned; }
 
 private:
-    void make(const std::filesystem::path &parent);
+    enum class Path { byName, byDescriptor };
+    SessionFolder(const std::filesystem::path &parent, Path path);
 
+    Descriptor m_parent, m_folder, m_lock;
+    std::string m_name;
     std::filesystem::path m_path;
-    Descriptor m_lock;
-    Parent m_parent = Parent::stays;
+    Path m_naming;
     bool m_isAbandoned = false;
 };
 
@@ -45,7 +51,9 @@ bool isInSessionFolder(const std::filesystem::path &path);
 
 /// Removes the session folders of programs that no longer run from the user's cache.
 void removeAbandonedSessionFolders();
-/// The same below `parent`; `before` is called with each folder before it is removed.
+/// The same in `parent`; `before` is called with each folder before it is removed. Removes only
+/// what this user's programs on this machine have made: anybody may have put other folders, or
+/// links, of such names there.
 void removeAbandonedSessionFolders(
     const std::filesystem::path &parent,
     const std::function<void(const std::filesystem::path &)> &before = {});

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/files/user_folders.h"
 
+#include <cerrno>
 #include <cstdlib>
 #include <initializer_list>
+#include <sys/stat.h>
 #include <system_error>
+
+#include "core/task/error.h"
 
 namespace pellucid::files {
 
@@ -22,14 +26,13 @@ std::optional<std::filesystem::path> folderBelow(std::initializer_list<Candidate
         if (folder.empty() && value != nullptr && std::filesystem::path(value).is_absolute())
             folder = std::filesystem::path(value) / below;
     }
-    std::error_code failed, ignored;
     if (folder.empty())
         return std::nullopt;
-    const bool isNew = std::filesystem::create_directories(folder, failed);
-    if (failed)
+    try {
+        createPrivateFolders(folder);
+    } catch (const task::Error &) {
         return std::nullopt;
-    if (isNew) // patients' names are private
-        std::filesystem::permissions(folder, std::filesystem::perms::owner_all, ignored);
+    }
     return folder;
 }
 
@@ -50,6 +53,19 @@ std::optional<std::filesystem::path> userDataFolder() {
     return folderBelow({{"XDG_DATA_HOME", "pellucid"}, {"HOME", ".local/share/pellucid"}});
 }
 #endif
+
+void createPrivateFolders(const std::filesystem::path &folder) {
+    std::error_code unknown;
+    if (folder.empty() || std::filesystem::is_directory(folder, unknown))
+        return;
+    const std::filesystem::path above =
+        folder.has_filename() ? folder.parent_path() : folder.parent_path().parent_path();
+    createPrivateFolders(above);
+    const int error = ::mkdir(folder.c_str(), 0700) == 0 ? 0 : errno;
+    if (error != 0 && !std::filesystem::is_directory(folder, unknown))
+        throw task::Error(task::ErrorCode::output,
+                          task::because::cannotBeMade(task::systemReason(error)), folder);
+}
 
 std::filesystem::path programFolder() {
     std::error_code unknown;

@@ -15,6 +15,10 @@ std::optional<std::filesystem::path> userCacheFolder();
 /// such location.
 std::optional<std::filesystem::path> userDataFolder();
 
+/// Creates a folder, and those above it that are missing, for the user alone. *Throws*
+/// Error{output}.
+void createPrivateFolders(const std::filesystem::path &folder);
+
 /// The folder of the running program; empty if unknown.
 std::filesystem::path programFolder();
 

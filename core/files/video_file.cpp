@@ -31,23 +31,23 @@ namespace because = task::because;
 namespace fs = std::filesystem;
 
 constexpr int waitMs = 100; // the longest wait after a cancel
+constexpr const char *videoName = "video.mp4", *messagesName = "messages";
 
 // Where PATH names it; empty if nowhere.
 fs::path findEncoder() {
     const char *const path = std::getenv("PATH");
     std::istringstream folders(path == nullptr ? "" : path);
     for (std::string folder; std::getline(folders, folder, ':');) {
-        const fs::path program = fs::path(folder) / "ffmpeg";
+        const fs::path program = fs::absolute(fs::path(folder) / "ffmpeg");
         if (::access(program.c_str(), X_OK) == 0)
             return program;
     }
     return {};
 }
 
-// Starts ffmpeg with a socket as standard input, which reports an end without a signal. -1 if it
-// cannot be started.
-pid_t start(const fs::path &program, std::vector<std::string> arguments, int input,
-            const fs::path &messages) {
+// Starts ffmpeg in a folder, with a socket as standard input, which reports an end without a
+// signal. -1 if it cannot be started.
+pid_t start(const fs::path &program, std::vector<std::string> arguments, int input, int folder) {
     std::vector<char *> pointers;
     for (std::string &argument : arguments)
         pointers.push_back(argument.data());
@@ -57,7 +57,8 @@ pid_t start(const fs::path &program, std::vector<std::string> arguments, int inp
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_adddup2(&actions, input, 0);
     ::posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    ::posix_spawn_file_actions_addopen(&actions, 2, messages.c_str(), O_WRONLY | O_CREAT, 0600);
+    ::posix_spawn_file_actions_addfchdir_np(&actions, folder);
+    ::posix_spawn_file_actions_addopen(&actions, 2, messagesName, O_WRONLY | O_CREAT, 0600);
     pid_t started = -1;
     const int failed = ::posix_spawn(&started, program.c_str(), &actions, attributes.get(),
                                      pointers.data(), environ);
@@ -73,7 +74,7 @@ bool VideoFile::isAvailable() {
 
 VideoFile::VideoFile(const fs::path &path, int width, int height, int framesPerSecond)
     : m_path(path), m_folder(SessionFolder::beside(path)),
-      m_unfinished(m_folder.path() / "video.mp4"), m_messages(m_folder.path() / "messages") {
+      m_unfinished(m_folder.path() / videoName), m_messages(m_folder.path() / messagesName) {
     const fs::path program = findEncoder();
     std::array<int, 2> ends{-1, -1};
     if (program.empty() || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
@@ -91,8 +92,8 @@ VideoFile::VideoFile(const fs::path &path, int width, int height, int framesPerS
                "yuv420p", "-metadata", "comment=Not for diagnostic use",
                // The same ffmpeg writes the same bytes: they depend on the number of threads.
                "-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "4", "-movflags",
-               "+faststart", m_unfinished.string()},
-              childInput.get(), m_messages);
+               "+faststart", videoName},
+              childInput.get(), m_folder.descriptor());
     if (m_encoder < 0)
         throw task::Error(task::ErrorCode::output, because::ffmpegDoesNotStart, path);
 }

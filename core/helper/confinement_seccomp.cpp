@@ -3,15 +3,20 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <fcntl.h>
 #include <linux/landlock.h>
+#include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <seccomp.h>
+
+#include "core/system/hidden_memory.h"
 
 namespace pellucid::helper {
 
@@ -34,21 +39,38 @@ void preferOutOfMemoryKill() {
 // Each call returns 0 if the filter accepted all of its rules.
 int allowCalls(scmp_filter_ctx filter) {
     int failed = 0;
-    for (const int call : {SCMP_SYS(read),          SCMP_SYS(write),
-                           SCMP_SYS(sendmsg),       SCMP_SYS(recvmsg),
-                           SCMP_SYS(close),         SCMP_SYS(munmap),
-                           SCMP_SYS(mremap),        SCMP_SYS(madvise),
-                           SCMP_SYS(brk),           SCMP_SYS(futex),
-                           SCMP_SYS(rt_sigreturn),  SCMP_SYS(rt_sigprocmask),
-                           SCMP_SYS(rt_sigaction),  SCMP_SYS(sigaltstack),
-                           SCMP_SYS(getpid),        SCMP_SYS(gettid),
-                           SCMP_SYS(exit),          SCMP_SYS(exit_group),
-                           SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday),
-                           SCMP_SYS(time),          SCMP_SYS(getrandom),
-                           SCMP_SYS(setitimer),     SCMP_SYS(sched_yield),
-                           SCMP_SYS(getrlimit),     SCMP_SYS(restart_syscall),
+    for (const int call : {SCMP_SYS(read),
+                           SCMP_SYS(write),
+                           SCMP_SYS(recvmsg),
+                           SCMP_SYS(close),
+                           SCMP_SYS(munmap),
+                           SCMP_SYS(mremap),
+                           SCMP_SYS(madvise),
+                           SCMP_SYS(brk),
+                           SCMP_SYS(futex),
+                           SCMP_SYS(rt_sigreturn),
+                           SCMP_SYS(rt_sigprocmask),
+                           SCMP_SYS(rt_sigaction),
+                           SCMP_SYS(sigaltstack),
+                           SCMP_SYS(getpid),
+                           SCMP_SYS(gettid),
+                           SCMP_SYS(exit),
+                           SCMP_SYS(exit_group),
+                           SCMP_SYS(clock_gettime),
+                           SCMP_SYS(gettimeofday),
+                           SCMP_SYS(time),
+                           SCMP_SYS(getrandom),
+                           SCMP_SYS(setitimer),
+                           SCMP_SYS(sched_yield),
+                           SCMP_SYS(getrlimit),
+                           SCMP_SYS(restart_syscall),
                            SCMP_SYS(getppid)})
         failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
+    // Only to where a socket is connected: with an address, or with this flag, sending connects.
+    // Not sendmsg, whose address the filter cannot see.
+    failed |=
+        ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(sendto), 2,
+                           SCMP_A3(SCMP_CMP_MASKED_EQ, MSG_FASTOPEN, 0), SCMP_A4(SCMP_CMP_EQ, 0));
     // abort()
     failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1,
                                  SCMP_A0(SCMP_CMP_EQ, scmp_datum_t(::getpid())));
@@ -102,51 +124,82 @@ int killForbiddenCalls(scmp_filter_ctx filter, std::initializer_list<int> allowe
     return failed;
 }
 
-} // namespace
-
-bool limitResources(const ResourceLimits &limits) {
+bool limitResources(const Needs &needs) {
     preferOutOfMemoryKill();
     bool holds = limit(RLIMIT_CORE, 0) && limit(RLIMIT_NPROC, 0) && limit(RLIMIT_MEMLOCK, 0);
 #ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes and write reports
-    holds = limit(RLIMIT_FSIZE, limits.fileBytes) && holds;
+    holds = limit(RLIMIT_FSIZE, needs.fileBytes) && holds;
     // Limits private memory; files and an arena, which the parent fills, do not count.
-    holds = limit(RLIMIT_DATA, limits.memoryBytes) && holds;
-    ::prctl(PR_SET_DUMPABLE, 0); // only root may debug it
+    holds = limit(RLIMIT_DATA, needs.memoryBytes) && holds;
+    system::hideMemory();
 #else
-    (void)limits;
+    (void)needs;
 #endif
     return holds;
 }
 
-bool filterCalls(std::initializer_list<int> more, std::initializer_list<AllowedCommand> commands) {
+bool filterCalls(const Needs &needs) {
     const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ERRNO(EPERM));
     if (filter == nullptr)
         return false;
     int failed = allowCalls(filter);
-    for (const int call : more)
+    for (const int call : needs.calls)
         failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
-    for (const AllowedCommand &command : commands)
+    for (const AllowedCommand &command : needs.commands)
         failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, command.call, 1,
                                      SCMP_A1(SCMP_CMP_EQ, scmp_datum_t(command.argument)));
     failed |= allowMemory(filter);
-    failed |= killForbiddenCalls(filter, more);
+    failed |= killForbiddenCalls(filter, needs.calls);
     failed |= ::seccomp_load(filter); // also forbids new privileges
     ::seccomp_release(filter);
     return failed == 0;
 }
 
-bool forbidFiles() {
-    // The rights of the first version of Landlock, which every kernel that has it knows; a later
-    // version only adds rights, such as truncating, that need an open file.
-    landlock_ruleset_attr all{};
-    all.handled_access_fs = (std::uint64_t(LANDLOCK_ACCESS_FS_MAKE_SYM) << 1) - 1;
-    const int rules = int(::syscall(SYS_landlock_create_ruleset, &all, sizeof all, 0));
-    if (rules < 0)
+// The attributes of Landlock's sixth version; the system's header may be older than the kernel.
+struct LandlockRules {
+    std::uint64_t files = 0, network = 0, scopes = 0;
+};
+
+// Everything that this kernel's Landlock can forbid.
+bool forbidFilesAndPorts() {
+    const long version =
+        ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
+    if (version < 1)
+        return false;
+    // Since the first version: all but the last three; moving to other folders, truncating, device
+    // commands. An open file keeps the rights that it was opened with.
+    constexpr int firstRights = 13;
+    LandlockRules rules;
+    rules.files =
+        (std::uint64_t(1) << (firstRights + (version >= 2) + (version >= 3) + (version >= 5))) - 1;
+    if (version >= 4)
+        rules.network = 3; // binding and connecting TCP sockets
+    if (version >= 6)
+        rules.scopes = 3; // abstract sockets of other processes, and signals to them
+    const std::size_t size = version >= 6   ? sizeof rules
+                             : version >= 4 ? offsetof(LandlockRules, scopes)
+                                            : offsetof(LandlockRules, network);
+    const int ruleset = int(::syscall(SYS_landlock_create_ruleset, &rules, size, 0));
+    if (ruleset < 0)
         return false;
     const bool isForbidden = ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
-                             ::syscall(SYS_landlock_restrict_self, rules, 0) == 0;
-    ::close(rules);
+                             ::syscall(SYS_landlock_restrict_self, ruleset, 0) == 0;
+    ::close(ruleset);
     return isForbidden;
+}
+
+} // namespace
+
+int confine(const Needs &needs) {
+    const bool holds = limitResources(needs);
+    // With a namespace of users of its own, because only there an ordinary user may leave a
+    // network, and because the privileges of root end there.
+    const bool hasNoNetwork = ::unshare(CLONE_NEWUSER | CLONE_NEWNET) == 0 ||
+                              ::unshare(CLONE_NEWNET) == 0; // root, where there are no such ones
+    const bool hasNoFiles = forbidFilesAndPorts();
+    const bool isFiltered = filterCalls(needs);
+    return (holds ? limitsHold : 0) | (isFiltered ? callsAreFiltered : 0) |
+           (hasNoFiles ? filesAreFiltered : 0) | (hasNoNetwork ? networkIsEmpty : 0);
 }
 
 } // namespace pellucid::helper

@@ -4,34 +4,42 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <string>
 #include <sys/socket.h>
 
 namespace pellucid::helper {
 
-bool sendPacket(int socket, std::span<const std::byte> head, std::span<const std::byte> body,
-                int descriptor, WhenBusy whenBusy) {
-    // sendmsg reads the bytes, but takes no constant ones.
-    std::array<iovec, 2> parts{iovec{const_cast<std::byte *>(head.data()), head.size()},
-                               iovec{const_cast<std::byte *>(body.data()), body.size()}};
+namespace {
+
+ssize_t sendWith(int descriptor, int socket, std::string &bytes, int flags) {
+    iovec part{bytes.data(), bytes.size()};
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
     msghdr packet{};
-    packet.msg_iov = parts.data();
-    packet.msg_iovlen = parts.size();
-    if (descriptor >= 0) {
-        packet.msg_control = control.data();
-        packet.msg_controllen = control.size();
-        cmsghdr *const c = CMSG_FIRSTHDR(&packet);
-        c->cmsg_level = SOL_SOCKET;
-        c->cmsg_type = SCM_RIGHTS;
-        c->cmsg_len = CMSG_LEN(sizeof(int));
-        std::memcpy(CMSG_DATA(c), &descriptor, sizeof(int));
-    }
+    packet.msg_iov = &part;
+    packet.msg_iovlen = 1;
+    packet.msg_control = control.data();
+    packet.msg_controllen = control.size();
+    cmsghdr *const c = CMSG_FIRSTHDR(&packet);
+    c->cmsg_level = SOL_SOCKET;
+    c->cmsg_type = SCM_RIGHTS;
+    c->cmsg_len = CMSG_LEN(sizeof(int));
+    std::memcpy(CMSG_DATA(c), &descriptor, sizeof(int));
+    return ::sendmsg(socket, &packet, flags);
+}
+
+} // namespace
+
+bool sendPacket(int socket, std::span<const std::byte> head, std::span<const std::byte> body,
+                int descriptor, WhenBusy whenBusy) {
+    std::string bytes(reinterpret_cast<const char *>(head.data()), head.size());
+    bytes.append(reinterpret_cast<const char *>(body.data()), body.size());
     const int flags = MSG_NOSIGNAL | (whenBusy == WhenBusy::fail ? MSG_DONTWAIT : 0);
     ssize_t sent = -1;
-    do
-        sent = ::sendmsg(socket, &packet, flags);
+    do // helpers, which send no descriptor, may not call sendmsg
+        sent = descriptor >= 0 ? sendWith(descriptor, socket, bytes, flags)
+                               : ::send(socket, bytes.data(), bytes.size(), flags);
     while (sent < 0 && errno == EINTR);
-    return sent == ssize_t(head.size() + body.size());
+    return sent == ssize_t(bytes.size());
 }
 
 std::optional<ReceivedPacket> receivePacket(int socket, std::span<std::byte> head,

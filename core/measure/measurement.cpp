@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/files/table_cell.h"
 #include "core/mpr/reslice.h"
 
 namespace pellucid::measure {
@@ -147,16 +148,6 @@ std::string figure(const std::optional<double> &value) {
     return value ? fmt::format("{:.6g}", *value) : std::string();
 }
 
-std::string csvField(const std::string &text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"')
-            out += '"';
-        out += c;
-    }
-    return out + "\"";
-}
-
 } // namespace
 
 PointCount pointCount(Kind kind) {
@@ -249,15 +240,15 @@ std::string toCsv(const std::vector<Measurement> &measurements, const volume::Vo
             points +=
                 fmt::format("{}{:.3f} {:.3f} {:.3f}", points.empty() ? "" : "; ", p.x, p.y, p.z);
         out += fmt::format(
-            "{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csvField(m.name), kindName(m),
-            figure(r.lengthMm), figure(r.angleDegrees), figure(r.areaMm2),
+            "{},{},{},{},{},{},{},{},{},{},{},{}\r\n", files::csvField(files::tableCell(m.name)),
+            kindName(m), figure(r.lengthMm), figure(r.angleDegrees), figure(r.areaMm2),
             figure(value(&RegionValues::mean)), figure(value(&RegionValues::standardDeviation)),
             figure(value(&RegionValues::minimum)), figure(value(&RegionValues::maximum)),
             r.values ? volume::unitName(volume.unit()) : "",
             r.values ? fmt::format("{}{}", r.values->count,
                                    r.values->areSamples ? " samples" : " interpolated")
                      : std::string(),
-            csvField(points));
+            files::csvField(points));
     }
     return out;
 }

@@ -215,7 +215,8 @@ Association::Association(const exchange::Acceptance &acceptance, int socket, Con
                                                                           acceptance.certificate,
                                                                           acceptance.key,
                                                                           acceptance.keyPassword,
-                                                                          {}})
+                                                                          {},
+                                                                          acceptance.clientHosts})
             : std::make_unique<Transport>(std::move(events));
     // The program has accepted the connection; DCMTK calls that external.
     dcmExternalSocketHandle.set(socket);

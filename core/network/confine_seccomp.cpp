@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <limits>
+#include <sys/socket.h>
 
 #include <seccomp.h>
 
@@ -15,40 +16,33 @@ namespace {
 
 constexpr std::uint64_t accepterBytes = 256 << 20;
 
-int bitsOf(bool limitsHold, bool isFiltered, bool hasNoFiles) {
-    return (limitsHold ? helper::limitsHold : 0) | (isFiltered ? helper::callsAreFiltered : 0) |
-           (hasNoFiles ? helper::filesAreFiltered : 0);
-}
-
 } // namespace
 
+// The files that objects are written to and read from come from the program, already open. Not
+// newfstatat, which tells what any path leads to.
 int confine() {
-    const bool holds =
-        helper::limitResources({.memoryBytes = system::freeMemoryBytes(),
-                                .fileBytes = std::numeric_limits<std::uint64_t>::max()});
-    const bool hasNoFiles = helper::forbidFiles();
-    // The files that objects are written to and read from come from the program, already open.
-    const bool isFiltered = helper::filterCalls(
-        {SCMP_SYS(poll), SCMP_SYS(ppoll), SCMP_SYS(select), SCMP_SYS(pselect6), SCMP_SYS(sendto),
-         SCMP_SYS(recvfrom), SCMP_SYS(readv), SCMP_SYS(writev), SCMP_SYS(pwrite64),
-         SCMP_SYS(shutdown), SCMP_SYS(setsockopt), SCMP_SYS(getsockopt), SCMP_SYS(getpeername),
-         SCMP_SYS(getsockname), SCMP_SYS(lseek), SCMP_SYS(fstat), SCMP_SYS(newfstatat),
-         SCMP_SYS(clock_nanosleep), SCMP_SYS(nanosleep)},
-        // Not the commands that send signals.
-        {{SCMP_SYS(fcntl), F_GETFD},
-         {SCMP_SYS(fcntl), F_SETFD},
-         {SCMP_SYS(fcntl), F_GETFL},
-         {SCMP_SYS(fcntl), F_SETFL}});
-    return bitsOf(holds, isFiltered, hasNoFiles);
+    return helper::confine(
+        {.memoryBytes = system::freeMemoryBytes(),
+         .fileBytes = std::numeric_limits<std::uint64_t>::max(),
+         .calls = {SCMP_SYS(poll), SCMP_SYS(ppoll), SCMP_SYS(select), SCMP_SYS(pselect6),
+                   SCMP_SYS(recvfrom), SCMP_SYS(readv), SCMP_SYS(writev), SCMP_SYS(pwrite64),
+                   SCMP_SYS(shutdown), SCMP_SYS(setsockopt), SCMP_SYS(getsockopt),
+                   SCMP_SYS(getpeername), SCMP_SYS(getsockname), SCMP_SYS(lseek),
+                   SCMP_SYS(clock_nanosleep), SCMP_SYS(nanosleep)},
+         // Not the commands that send signals.
+         .commands = {{SCMP_SYS(fcntl), F_GETFD},
+                      {SCMP_SYS(fcntl), F_SETFD},
+                      {SCMP_SYS(fcntl), F_GETFL},
+                      {SCMP_SYS(fcntl), F_SETFL}}});
 }
 
 int confineToAccepting() {
-    const bool holds = helper::limitResources({.memoryBytes = accepterBytes, .fileBytes = 0});
-    const bool hasNoFiles = helper::forbidFiles();
-    const bool isFiltered =
-        helper::filterCalls({SCMP_SYS(poll), SCMP_SYS(ppoll), SCMP_SYS(sendto), SCMP_SYS(recvfrom),
-                             SCMP_SYS(shutdown), SCMP_SYS(accept4)});
-    return bitsOf(holds, isFiltered, hasNoFiles);
+    return helper::confine(
+        {.memoryBytes = accepterBytes,
+         .calls = {SCMP_SYS(poll), SCMP_SYS(ppoll), SCMP_SYS(recvfrom), SCMP_SYS(accept4),
+                   SCMP_SYS(lseek)},
+         // To shut the other direction of a listening socket would free it to connect.
+         .commands = {{SCMP_SYS(shutdown), SHUT_WR}}});
 }
 
 } // namespace pellucid::network

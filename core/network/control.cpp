@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/network/control.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <poll.h>
 #include <unistd.h>
 
 namespace pellucid::network {
+
+std::string shortened(const std::string &text, std::size_t bytes) {
+    std::size_t end = std::min(text.size(), bytes);
+    while (end > 0 && end < text.size() && (std::uint8_t(text[end]) & 0xc0) == 0x80)
+        --end; // within a character
+    return text.substr(0, end);
+}
 
 void Control::send(const Message &message) {
     if (!exchange::send(m_socket, message))
@@ -26,16 +35,26 @@ bool Control::isCancelled() {
     return wait().message.kind == Message::Kind::cancel;
 }
 
-void Control::heartbeat() {
+void Control::heartbeat(std::uint64_t bytes) {
     const auto now = std::chrono::steady_clock::now();
     if (now - m_lastBeat < std::chrono::seconds(1))
         return;
     m_lastBeat = now;
-    send({Message::Kind::progress, 0, 0, {}});
+    send({Message::Kind::progress, 0, bytes, {}});
 }
 
 void Control::step(exchange::Step step, const std::string &found) {
-    send({Message::Kind::step, std::int32_t(step), 0, found});
+    send({Message::Kind::step, std::int32_t(step), 0, shortened(found, longestComment)});
+}
+
+void Control::match(const exchange::Query &query, exchange::Attributes attributes) {
+    std::erase_if(attributes, [&](const auto &one) {
+        return !query.keys.contains(one.first) && one.first != exchange::tag::retrieveAe &&
+               one.first != exchange::tag::availability;
+    });
+    for (auto &[tag, value] : attributes) // the other half is for tags and lengths
+        value = shortened(value, exchange::largestPacket / 2 / attributes.size());
+    send({Message::Kind::match, 0, 0, exchange::pack(attributes)});
 }
 
 void Control::done(const std::string &body) {
@@ -76,7 +95,7 @@ void Storage::write(std::span<const std::byte> bytes) {
             bytes = bytes.subspan(std::size_t(written));
     }
     if (m_bytes - m_reported < reportedAtOnce) {
-        m_control.heartbeat();
+        m_control.heartbeat(m_bytes);
         return;
     }
     m_reported = m_bytes;

@@ -19,6 +19,10 @@ struct Disconnected {};
 /// Thrown in place of an answer when the program cancels a request.
 struct CancelledByProgram {};
 
+/// The start of a text in UTF-8, at most so many bytes.
+std::string shortened(const std::string &text, std::size_t bytes);
+inline constexpr std::size_t longestComment = 1024; ///< of what a server remarks
+
 /// This process's end of the messages. Sending and waiting *throw* Disconnected.
 class Control {
 public:
@@ -31,9 +35,12 @@ public:
     /// none while a request runs.
     bool isCancelled();
 
-    /// Tells the program that work goes on, once a second.
-    void heartbeat();
+    /// Tells the program that work goes on, once a second. `bytes`: of the current object so far.
+    void heartbeat(std::uint64_t bytes = 0);
     void step(exchange::Step step, const std::string &found);
+    /// Passes on an answer of a server: the keys that the query asked for, and where the study is.
+    /// Long values are cut, so that every answer fits into a message.
+    void match(const exchange::Query &query, exchange::Attributes attributes);
     void done(const std::string &body = {});
     void failed(exchange::Failure failure, const task::Reason &reason);
 

@@ -285,16 +285,14 @@ exchange::QueryEnd find(Association &association, const exchange::Query &query, 
                 cancelling.begin(association, context, find.MessageID);
             } else if (answer && !cancelling.hasBegun()) {
                 ++matches;
-                control.send(
-                    {Message::Kind::match, 0, 0,
-                     exchange::pack(attributesOf(*answer, query, association.characterSet()))});
+                control.match(query, attributesOf(*answer, query, association.characterSet()));
             }
             continue;
         }
         if (isCancelledByUser)
             throw CancelledByProgram();
         if (!command->comment.empty())
-            end.warnings.push_back(command->comment);
+            end.warnings.push_back(shortened(command->comment, longestComment));
         if (status != 0 && !end.reachedLimit && !isWarning(status))
             throw Error(ErrorCode::unusable, statusReason(status, command->comment));
         return end;

@@ -44,6 +44,7 @@ void provide(Association &association, Control &control) {
                 association.get(), context, &message.msg.CEchoRQ, STATUS_Success, nullptr);
             if (sent.bad())
                 association.fail(sent.text());
+            control.step(exchange::Step::service, {}); // progress
         } else {
             association.abort();
             throw Lost{task::because::clientSendsTheUnexpected};

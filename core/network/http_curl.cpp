@@ -22,6 +22,7 @@
 
 #include "core/network/authorities.h"
 #include "core/network/confine.h"
+#include "core/network/tls_profile.h"
 
 // libcurl 7.88 connects even a socket that it is told is connected. In this process that call is
 // forbidden by then, so it is answered here: the linker puts this function in place of libc's.
@@ -258,7 +259,7 @@ private:
             curl_blob data{text.data(), text.size(), CURL_BLOB_NOCOPY};
             ::curl_easy_setopt(h, option, &data);
         };
-        ::curl_easy_setopt(h, CURLOPT_SSLVERSION, long(CURL_SSLVERSION_TLSv1_2));
+        ::curl_easy_setopt(h, CURLOPT_SSL_CTX_FUNCTION, &Curl::secure);
         ::curl_easy_setopt(h, CURLOPT_SSL_VERIFYPEER, 1L);
         ::curl_easy_setopt(h, CURLOPT_SSL_VERIFYHOST, 2L);
         ::curl_easy_setopt(h, CURLOPT_CAPATH, nullptr);
@@ -292,6 +293,10 @@ private:
         }
     }
 
+    static CURLcode secure(CURL *, void *context, void *) {
+        applyTlsProfile(static_cast<ssl_ctx_st *>(context));
+        return CURLE_OK;
+    }
     static curl_socket_t openSocket(void *self, curlsocktype, curl_sockaddr *) {
         // Afterwards it is libcurl's, which closes it.
         return std::exchange(static_cast<Curl *>(self)->m_socket, CURL_SOCKET_BAD);

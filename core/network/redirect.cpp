@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/network/confine.h"
+#include "core/network/connection_owner.h"
 #include "core/network/login_json.h"
 
 namespace pellucid::network {
@@ -87,8 +88,18 @@ void show(const Descriptor &browser, const char *status, const std::string &text
 
 struct Browser {
     Descriptor socket;
+    sockaddr_in from{};
     std::string head;
 };
+
+// Nothing while nobody can connect.
+std::optional<Browser> acceptedAt(int socket) {
+    Browser browser;
+    socklen_t size = sizeof browser.from;
+    browser.socket = Descriptor(::accept4(socket, reinterpret_cast<sockaddr *>(&browser.from),
+                                          &size, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    return browser.socket ? std::optional(std::move(browser)) : std::nullopt;
+}
 
 // What a connection has sent; false at its end.
 bool receive(Browser &browser) {
@@ -132,6 +143,10 @@ std::optional<LoginResult> loginResultOf(const std::string &head, const std::str
 }
 
 void awaitRedirect(int socket, const Redirection &redirection, Control &control) {
+    // Other users see the address of the login among the arguments of the browser: one could log in
+    // as himself and send his code here, and this user's images would go to his account (RFC 8252,
+    // 8.9).
+    ConnectionOwner owner(socket);
     control.send({Kind::ready, confineToAccepting(), 0, {}});
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(redirection.seconds));
@@ -156,7 +171,7 @@ void awaitRedirect(int socket, const Redirection &redirection, Control &control)
             const bool isOpen = receive(browsers[n]);
             if (isOpen && browsers[n].head.find("\r\n\r\n") == std::string::npos)
                 continue;
-            if (isOpen) {
+            if (isOpen && owner.isThisUser(browsers[n].from)) {
                 if (const auto result = loginResultOf(browsers[n].head, redirection.state)) {
                     finish(browsers[n], *result, redirection, control);
                     control.done();
@@ -168,12 +183,12 @@ void awaitRedirect(int socket, const Redirection &redirection, Control &control)
         }
         if (waiting[1].revents == 0)
             continue;
-        Descriptor accepted(::accept4(socket, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+        auto accepted = acceptedAt(socket);
         if (!accepted)
             continue;
         if (browsers.size() >= mostBrowsers) // the oldest one makes way
             browsers.erase(browsers.begin());
-        browsers.push_back({std::move(accepted), {}});
+        browsers.push_back(*std::move(accepted));
     }
 }
 

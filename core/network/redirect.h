@@ -21,8 +21,9 @@ std::optional<LoginResult> loginResultOf(const std::string &head, const std::str
 
 /// Confines this process to accepting connections on a listening socket, and awaits the redirect of
 /// a browser there. Sends the program the authorization code, and shows in the browser whether the
-/// program could use it. Other requests are refused, and the redirect is still awaited. *Throws*
-/// Error{unusable} if the login is denied or nobody logs in; CancelledByProgram; Disconnected.
+/// program could use it. Other requests, and those of other users of this computer, are refused,
+/// and the redirect is still awaited. *Throws* Error{unusable} if the login is denied or nobody
+/// logs in; CancelledByProgram; Disconnected.
 void awaitRedirect(int socket, const exchange::Redirection &redirection, Control &control);
 
 } // namespace pellucid::network

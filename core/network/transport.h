@@ -15,10 +15,13 @@ namespace pellucid::network {
 
 /// Certificates of a TLS connection; paths of files in PEM format.
 struct Certificates {
-    std::string authorities; ///< empty: those of the system
+    std::string authorities; ///< of a client: empty: those of the system
     std::string certificate, key, keyPassword;
     std::string
         host; ///< that the server's certificate must name; empty: this program is the server
+    /// Of a server: names and addresses of which the client's certificate must have one; empty:
+    /// any.
+    std::vector<std::string> clientHosts{};
 };
 
 /// What happens while a connection is made, before and after the first byte from the network.
@@ -31,9 +34,8 @@ struct ConnectionEvents {
 class Transport {
 public:
     explicit Transport(ConnectionEvents events);
-    /// With TLS 1.2 or later by the profile BCP 195 without downgrade (PS3.15, B.9), the other
-    /// side's certificate required and verified. *Throws* Error{usage} with the file that cannot be
-    /// read.
+    /// With TLS by `applyTlsProfile`, the other side's certificate required and verified. *Throws*
+    /// Error{usage} with the file that cannot be read.
     Transport(ConnectionEvents events, const Certificates &certificates);
     ~Transport();
     Transport(const Transport &) = delete;

@@ -9,6 +9,7 @@
 #include <openssl/err.h>
 #include <openssl/ssl.h>
 #include <openssl/x509_vfy.h>
+#include <openssl/x509v3.h>
 #include <string_view>
 #include <sys/socket.h>
 
@@ -20,6 +21,8 @@
 #include <dcmtk/dcmtls/tlstrans.h>
 
 #include "core/network/authorities.h"
+#include "core/network/control.h"
+#include "core/network/tls_profile.h"
 #include "core/task/error.h"
 
 namespace pellucid::network {
@@ -86,10 +89,50 @@ bool speaksNoTls(const std::string &text) {
            });
 }
 
+// Whether a certificate has a host's name or address. Its common name counts only if it has no
+// other names (RFC 6125, 6.4.4).
+bool isCertificateOf(X509 *certificate, const std::string &host) {
+    const bool hasNames = ::X509_get_ext_by_NID(certificate, NID_subject_alt_name, -1) >= 0;
+    in_addr address{};
+    if (::inet_pton(AF_INET, host.c_str(), &address) == 1 && hasNames)
+        return ::X509_check_ip_asc(certificate, host.c_str(), 0) == 1;
+    return ::X509_check_host(certificate, host.c_str(), host.size(),
+                             hasNames ? X509_CHECK_FLAG_NEVER_CHECK_SUBJECT : 0, nullptr) == 1;
+}
+
+// The names and addresses of a certificate, for the user.
+std::string namesIn(X509 *certificate) {
+    constexpr std::size_t longest = 200;
+    std::string names;
+    const auto add = [&](const std::string &name) { names += (names.empty() ? "" : ", ") + name; };
+    auto *const all = static_cast<GENERAL_NAMES *>(
+        ::X509_get_ext_d2i(certificate, NID_subject_alt_name, nullptr, nullptr));
+    for (int n = 0; n < sk_GENERAL_NAME_num(all); ++n) {
+        const GENERAL_NAME *const one = sk_GENERAL_NAME_value(all, n);
+        std::array<char, INET6_ADDRSTRLEN> text{};
+        if (one->type == GEN_DNS)
+            add({reinterpret_cast<const char *>(::ASN1_STRING_get0_data(one->d.dNSName)),
+                 std::size_t(::ASN1_STRING_length(one->d.dNSName))});
+        else if (one->type == GEN_IPADD &&
+                 ::inet_ntop(::ASN1_STRING_length(one->d.iPAddress) == 4 ? AF_INET : AF_INET6,
+                             ::ASN1_STRING_get0_data(one->d.iPAddress), text.data(), text.size()))
+            add(text.data());
+    }
+    ::GENERAL_NAMES_free(all);
+    std::array<char, longest> common{};
+    if (names.empty() &&
+        ::X509_NAME_get_text_by_NID(::X509_get_subject_name(certificate), NID_commonName,
+                                    common.data(), int(common.size())) > 0)
+        add(common.data());
+    return shortened(names, longest);
+}
+
 class SecureConnection : public DcmTLSConnection {
 public:
-    SecureConnection(int socket, SSL *ssl, std::shared_ptr<Transport::State> state)
-        : DcmTLSConnection(socket, ssl), m_ssl(ssl), m_state(std::move(state)) {}
+    SecureConnection(int socket, SSL *ssl, std::shared_ptr<Transport::State> state,
+                     const std::vector<std::string> &clientHosts)
+        : DcmTLSConnection(socket, ssl), m_ssl(ssl), m_state(std::move(state)),
+          m_clientHosts(clientHosts) {}
 
     OFCondition clientSideHandshake() override {
         return judged(DcmTLSConnection::clientSideHandshake());
@@ -109,8 +152,24 @@ public:
     }
 
 private:
+    // Of a client: not a byte that it sends is read if its certificate is another's.
+    bool isExpected() const {
+        if (m_clientHosts.empty())
+            return true;
+        X509 *const certificate = ::SSL_get0_peer_certificate(m_ssl);
+        if (certificate != nullptr &&
+            std::any_of(m_clientHosts.begin(), m_clientHosts.end(), [&](const std::string &host) {
+                return isCertificateOf(certificate, host);
+            }))
+            return true;
+        m_state->refusal = because::certificateNamesAnother(
+            certificate != nullptr ? namesIn(certificate) : std::string(), m_clientHosts.back());
+        return false;
+    }
     OFCondition judged(const OFCondition &shaken) {
         if (shaken.good()) {
+            if (!isExpected())
+                return EC_IllegalCall;
             m_state->events.secured(std::string(::SSL_get_version(m_ssl)) + ", " +
                                     ::SSL_get_cipher_name(m_ssl));
             return shaken;
@@ -134,6 +193,7 @@ private:
 
     SSL *m_ssl; // the connection owns it
     std::shared_ptr<Transport::State> m_state;
+    std::vector<std::string> m_clientHosts;
 };
 
 class SecureLayer : public DcmTLSTransportLayer {
@@ -141,12 +201,16 @@ public:
     SecureLayer(std::shared_ptr<Transport::State> state, const Certificates &certificates)
         : DcmTLSTransportLayer(certificates.host.empty() ? NET_ACCEPTOR : NET_REQUESTOR, nullptr,
                                OFTrue),
-          m_state(std::move(state)), m_host(certificates.host) {
+          m_state(std::move(state)), m_host(certificates.host),
+          m_clientHosts(certificates.clientHosts) {
         const auto require = [](const OFCondition &condition, const std::string &path) {
             if (condition.bad())
                 throw task::Error(task::ErrorCode::usage,
                                   because::isNoPemFile(std::string(condition.text())), path);
         };
+        // Anybody gets a certificate from an authority of the system.
+        if (certificates.authorities.empty() && m_host.empty())
+            throw task::Error(task::ErrorCode::usage, because::receiverNeedsAuthorities);
         const std::string authorities =
             certificates.authorities.empty() ? systemAuthoritiesFile() : certificates.authorities;
         require(addTrustedCertificateFile(authorities.c_str(), DCF_Filetype_PEM), authorities);
@@ -160,9 +224,7 @@ public:
                 throw task::Error(task::ErrorCode::usage, because::keyIsNotOfTheCertificate,
                                   certificates.key);
         }
-        setTLSProfile(TSP_Profile_BCP195_ND);
-        activateCipherSuites();
-        ::SSL_CTX_set_min_proto_version(getNativeHandle(), TLS1_2_VERSION);
+        applyTlsProfile(getNativeHandle());
         setCertificateVerification(DCV_requireCertificate);
         if (!m_host.empty()) {
             X509_VERIFY_PARAM *const verified = ::SSL_CTX_get0_param(getNativeHandle());
@@ -185,12 +247,13 @@ public:
             ::SSL_set_tlsext_host_name(ssl, m_host.c_str()); // names only (RFC 6066, 3)
         m_state->socket = socket;
         m_state->events.connected(socket);
-        return new SecureConnection(socket, ssl, m_state);
+        return new SecureConnection(socket, ssl, m_state, m_clientHosts);
     }
 
 private:
     std::shared_ptr<Transport::State> m_state;
     std::string m_host;
+    std::vector<std::string> m_clientHosts;
 };
 
 } // namespace

@@ -167,7 +167,7 @@ exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &contro
         if (answer.status >= 300)
             throw Error(ErrorCode::unusable, httpReason(answer.status));
         if (!answer.warning.empty() && end.warnings.empty())
-            end.warnings.push_back(answer.warning);
+            end.warnings.push_back(shortened(answer.warning, longestComment));
         bool hasNew = false;
         for (exchange::Attributes &match : readDicomJson(answer.text)) {
             ++offset;
@@ -182,7 +182,7 @@ exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &contro
             for (const auto &[tag, value] : query.keys)
                 if (inPath.contains(tag))
                     match[tag] = value;
-            control.send({Message::Kind::match, 0, 0, exchange::pack(match)});
+            control.match(query, std::move(match));
         }
         if (!hasNew)
             return end;

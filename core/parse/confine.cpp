@@ -7,11 +7,7 @@
 namespace pellucid::parse {
 
 int confine() {
-    const bool holds = helper::limitResources({.memoryBytes = system::freeMemoryBytes()});
-    const bool hasNoFiles = helper::forbidFiles();
-    const bool isFiltered = helper::filterCalls();
-    return (holds ? helper::limitsHold : 0) | (isFiltered ? helper::callsAreFiltered : 0) |
-           (hasNoFiles ? helper::filesAreFiltered : 0);
+    return helper::confine({.memoryBytes = system::freeMemoryBytes()});
 }
 
 } // namespace pellucid::parse

@@ -30,8 +30,8 @@ SliceShading sliceShading(const Shading &shading, const glm::dmat3 &axes,
     const double quarter = 0.25 / scale.radiusMm; // a quarter wave per radius
     // weight cos(2 pi offset (W.x) + turn) as two exponentials.
     const auto addCosine = [&](double weight, double offset, double turn) {
-        result.terms.push_back({offset, std::polar(0.5 * weight, -turn)});
-        result.terms.push_back({-offset, std::polar(0.5 * weight, turn)});
+        result.terms.push_back({offset, 0.5 * weight * std::polar(1.0, -turn)});
+        result.terms.push_back({-offset, 0.5 * weight * std::polar(1.0, turn)});
     };
     if (cue.isActive()) {
         switch (cue.kind) {

@@ -13,6 +13,9 @@ translations=$(/usr/lib/qt6/bin/qtpaths --query QT_INSTALL_TRANSLATIONS)
 # libstdc++).
 of_machine='^(linux-vdso|libstdc\+\+|libgcc_s|libz|ld-linux.*|libc|libm|libdl|librt|libpthread|libresolv|libnss_.*|libGL|libEGL|libGLX|libGLdispatch|libgbm|libdrm.*|libX11|libX11-xcb|libxcb|libxcb-dri.*|libxcb-glx|libwayland-.*|libfontconfig|libfreetype|libexpat)\.so'
 
+# The services run /usr/bin/pellucid-cli: of another installation, they are examples.
+mv "$tree/lib/systemd/system" "$tree/share/doc/pellucid/systemd"
+rmdir "$tree/lib/systemd"
 mkdir -p "$tree/lib" "$tree/plugins"
 for plugin in platforms/libqxcb.so sqldrivers/libqsqlite.so xcbglintegrations/libqxcb-glx-integration.so \
     xcbglintegrations/libqxcb-egl-integration.so imageformats/libqjpeg.so imageformats/libqsvg.so iconengines/libqsvgicon.so platforminputcontexts/libibusplatforminputcontextplugin.so \

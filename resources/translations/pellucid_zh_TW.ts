@@ -3098,10 +3098,6 @@
         <translation>伺服器傳送的內容多於所要求者</translation>
     </message>
     <message>
-        <source>the server only sends to other computers (C-MOVE): to receive with TLS, this program needs a certificate and a key</source>
-        <translation>伺服器僅能傳送至其他電腦（C-MOVE）：若要以 TLS 接收，本程式需要憑證與金鑰</translation>
-    </message>
-    <message>
         <source>another object with its UID is here already</source>
         <translation>已有另一個物件使用其 UID</translation>
     </message>
@@ -3376,6 +3372,74 @@
     <message>
         <source>is not a folder of results, and would be replaced</source>
         <translation>不是結果資料夾，將被取代</translation>
+    </message>
+    <message>
+        <source>is a link that another user made, in a folder where anybody may make files</source>
+        <translation>是其他使用者在任何人皆可建立檔案的資料夾中所建的連結</translation>
+    </message>
+    <message>
+        <source>the sender&apos;s certificate names %1, but the sender is %2</source>
+        <translation>傳送端的憑證載明 %1，但傳送端為 %2</translation>
+    </message>
+    <message>
+        <source>the sender made no DICOM association within %1 s</source>
+        <translation>傳送端未在 %1 秒內建立 DICOM 連結</translation>
+    </message>
+    <message>
+        <source>the sender completed no message within %1 s</source>
+        <translation>傳送端未在 %1 秒內完成任何訊息</translation>
+    </message>
+    <message>
+        <source>the sender has too many connections at the same time</source>
+        <translation>傳送端同時開啟的連線過多</translation>
+    </message>
+    <message>
+        <source>more refused connections from %1: %2</source>
+        <translation>另有來自 %1 的連線遭拒：%2 次</translation>
+    </message>
+    <message>
+        <source>more refused connections from several addresses: %1</source>
+        <translation>另有來自多個位址的連線遭拒：%1 次</translation>
+    </message>
+    <message>
+        <source>without TLS, others on the network can read the password or token: use https or TLS, or allow it for this server (in the window: save it again; on the command line: server add with --allow-insecure-login)</source>
+        <translation>未使用 TLS 時，網路上的其他人可讀取密碼或權杖：請使用 https 或 TLS，或對此伺服器允許（在視窗中：重新儲存；命令列：server add 加上 --allow-insecure-login）</translation>
+    </message>
+    <message>
+        <source>the server only sends to other computers (C-MOVE): to receive with TLS, this program needs a certificate, its private key, and the CA certificates</source>
+        <translation>伺服器僅能傳送至其他電腦（C-MOVE）：若要以 TLS 接收，本程式需要憑證、其私密金鑰與憑證機構的憑證</translation>
+    </message>
+    <message>
+        <source>to receive with TLS, this program needs the CA certificates that issue the senders&apos; certificates (on the command line: --authorities)</source>
+        <translation>若要以 TLS 接收，本程式需要簽發傳送端憑證之憑證機構的憑證（命令列：--authorities）</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not an IPv4 address of this computer to receive on</source>
+        <translation>「%1」不是本電腦可用於接收的 IPv4 位址</translation>
+    </message>
+    <message>
+        <source>only the last %1 MB of the disk are free, which are kept in reserve</source>
+        <translation>磁碟僅剩最後 %1 MB 可用空間，此空間予以保留</translation>
+    </message>
+    <message>
+        <source>the server lists more than %1 entries</source>
+        <translation>伺服器列出超過 %1 個項目</translation>
+    </message>
+    <message>
+        <source>%1 objects name a patient other than the one that the server lists</source>
+        <translation>%1 個物件所載的病人與伺服器清單上的不同</translation>
+    </message>
+    <message>
+        <source>the server lists more than %1 objects of the study</source>
+        <translation>伺服器為此檢查列出超過 %1 個物件</translation>
+    </message>
+    <message>
+        <source>this system cannot confine the processes that read files and talk to servers (no seccomp): a hostile file could do whatever you can do</source>
+        <translation>此系統無法限制讀取檔案及與伺服器連線的處理程序：惡意檔案可執行您所能執行的一切</translation>
+    </message>
+    <message>
+        <source>%1; %2 goes on only with --allow-unprotected</source>
+        <translation>%1；%2 僅在給定 --allow-unprotected 時繼續執行</translation>
     </message>
 </context>
 <context>
@@ -4577,6 +4641,10 @@ Open it beside?</source>
         <source>%1 has received it</source>
         <translation>%1 已收到</translation>
     </message>
+    <message>
+        <source>Replace</source>
+        <translation>取代</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::FileMenu</name>
@@ -5192,6 +5260,10 @@ Open it beside?</source>
     <message>
         <source>&amp;Reset layout</source>
         <translation>重設版面(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Not protected</source>
+        <translation>未受保護</translation>
     </message>
 </context>
 <context>
@@ -5983,8 +6055,20 @@ Open it beside?</source>
         </translation>
     </message>
     <message>
-        <source>Authorities that must have issued the senders&apos; certificates (PEM); empty: senders need no certificate</source>
-        <translation>必須簽發傳送者憑證的單位（PEM）；空白：傳送者不需憑證</translation>
+        <source>all addresses</source>
+        <translation>所有位址</translation>
+    </message>
+    <message>
+        <source>Address of this computer on the network of the servers, to receive only there</source>
+        <translation>本電腦在伺服器所在網路上的位址，僅在該處接收</translation>
+    </message>
+    <message>
+        <source>Listen on</source>
+        <translation>接收位址</translation>
+    </message>
+    <message>
+        <source>CA certificates that issue the senders&apos; certificates (PEM); each of these must name its sender&apos;s host or address</source>
+        <translation>簽發傳送端憑證之憑證機構的憑證（PEM）；每份傳送端憑證須載明該傳送端的主機或位址</translation>
     </message>
 </context>
 <context>
@@ -6192,6 +6276,28 @@ Open it beside?</source>
     <message>
         <source>Looking for a study</source>
         <translation>尋找檢查</translation>
+    </message>
+    <message>
+        <source>Another patient</source>
+        <translation>其他病人</translation>
+    </message>
+    <message>
+        <source>The server lists the study for one patient, but images of it name another.
+
+Listed: %1
+Named: %2
+
+The study is in the library. Open it?</source>
+        <translation>伺服器清單上的病人與影像所載的病人不同。
+
+清單：%1
+影像：%2
+
+檢查已在檢查庫中。要開啟嗎？</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>開啟</translation>
     </message>
 </context>
 <context>
@@ -6477,6 +6583,18 @@ Open it beside?</source>
     <message>
         <source>Scope</source>
         <translation>範圍</translation>
+    </message>
+    <message>
+        <source>Login without TLS</source>
+        <translation>未使用 TLS 的登入</translation>
+    </message>
+    <message>
+        <source>Without TLS, others on the network can read the password or token for %1. Send it without TLS?</source>
+        <translation>未使用 TLS 時，網路上的其他人可讀取 %1 的密碼或權杖。是否仍要在未使用 TLS 下傳送？</translation>
+    </message>
+    <message>
+        <source>Send without TLS</source>
+        <translation>在未使用 TLS 下傳送</translation>
     </message>
 </context>
 <context>

@@ -309,15 +309,21 @@ TEST_F(Faults, ASeriesOfSeveralPatientsIsAskedForByItsUid) {
 // A terminal executes control characters.
 TEST_F(Faults, ControlCharactersInFileNamesDoNotReachTheTerminal) {
     const fs::path name = folder / "a\x1b[2J\x07\x9b\xe2\x80\xae\xd8\x9c\xe0\x82\x9b\xc2\x9b"
+                                   "\xe2\x80\x8b\xf3\xa0\x81\x81"
                                    "31m.dcm";
     writeText(name, "no image");
     const auto r = cli("info " + quoted(folder.path()));
     EXPECT_EQ(r.exitCode, 3);
-    for (const std::string &text : {r.out, r.error}) {
+    const auto json = cli("info --json " + quoted(folder.path()));
+    EXPECT_NE(json.out.find("\\u202e"), std::string::npos) << json.out;
+    EXPECT_NE(json.out.find("\\udb40\\udc41"), std::string::npos) << json.out;
+    for (const std::string &text : {r.out, r.error, json.out}) {
         EXPECT_EQ(text.find_first_of("\x1b\x07"), std::string::npos);
         EXPECT_EQ(text.find('\x9b'), std::string::npos);
         EXPECT_EQ(text.find("\xe2\x80\xae"), std::string::npos); // reverses the text after it
         EXPECT_EQ(text.find("\xd8\x9c"), std::string::npos);
+        EXPECT_EQ(text.find("\xe2\x80\x8b"), std::string::npos);     // has no width
+        EXPECT_EQ(text.find("\xf3\xa0\x81\x81"), std::string::npos); // is not shown at all
         EXPECT_NE(text.find("31m.dcm"), std::string::npos);
     }
 }

@@ -53,6 +53,7 @@ TEST_F(CliServers, TheListShowsWhatDiffersFromTheDefault) {
                                {"uncompress", false},
                                {"character_set", ""},
                                {"authentication", "none"},
+                               {"allow_insecure_login", false},
                                {"user", ""},
                                {"login",
                                 {{"issuer", ""},

@@ -31,13 +31,15 @@ void writeExchangeMessages(const fs::path &folder) {
     exchange::Connection connection;
     connection.peer.host = "host";
     connection.peer.secret = "secret";
+    connection.peer.allowsInsecureLogin = true;
     connection.peer.characterSet = "ISO_IR 100";
     connection.sopClasses = {"1.2.3", "1.2.4"};
     connection.transferSyntaxes = {"1.2.840.10008.1.2"};
     connection.encodings = {{"1.2.3", "1.2.840.10008.1.2"}};
     writeText(folder / "connection", exchange::pack(connection));
-    writeText(folder / "acceptance", exchange::pack(exchange::Acceptance{
-                                         "US", {"A", "B"}, true, "a", "b", "c", "d", 1.5}));
+    writeText(folder / "acceptance",
+              exchange::pack(exchange::Acceptance{
+                  "US", {"A", "B"}, {"host", "127.0.0.1"}, true, "a", "b", "c", "d", 1.5}));
     writeText(folder / "query",
               exchange::pack(exchange::Query{
                   exchange::Level::series, {{exchange::tag::patientName, "A*"}}, 3}));

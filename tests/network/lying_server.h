@@ -65,6 +65,9 @@ private:
         const std::string level = request.text(0x00080052);
         DicomWriter row;
         row.put({0x0008, 0x0052}, "CS", level);
+        row.put({0x0010, 0x0010}, "PN", "Lies^Jane");
+        row.put({0x0010, 0x0020}, "LO", "LIES-1");
+        row.put({0x0010, 0x0030}, "DA", "19700101");
         row.put({0x0020, 0x000d}, "UI", study);
         row.put({0x0020, 0x000e}, "UI", series);
         if (level == "IMAGE")

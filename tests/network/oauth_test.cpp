@@ -194,6 +194,28 @@ TEST_F(OAuth, AWrongStateIsRefusedAndTheRightOneStillAwaited) {
     EXPECT_EQ(requests[0].at("code"), "the-code");
 }
 
+// Another user sees the state among the arguments of the browser, and would log this one in as
+// himself.
+TEST_F(OAuth, OnlyABrowserOfThisUserIsAnswered) {
+    if (::geteuid() != 0)
+        GTEST_SKIP() << "needs root to become another user";
+    int stolen = -1;
+    m_server.login->logIn([&](const std::string &page) {
+        m_login.expect(page);
+        m_shown = std::async(std::launch::async, [&stolen, page] {
+            const Fields fields = fieldsOf(page.substr(page.find('?') + 1));
+            const std::string to = fields.at("redirect_uri") + "?state=" + fields.at("state");
+            const pid_t other = ::fork();
+            if (other == 0)
+                ::_exit(::setuid(65534) == 0 && visit(to + "&code=stolen").empty() ? 0 : 1);
+            ::waitpid(other, &stolen, 0);
+            return visit(to + "&code=the-code");
+        });
+    });
+    EXPECT_NE(m_shown.get().find("200 OK"), std::string::npos);
+    EXPECT_EQ(stolen, 0); // the other one got no answer
+}
+
 TEST_F(OAuth, ADeniedLoginIsReported) {
     const auto browser = [&](const std::string &page) {
         Fields fields = fieldsOf(page.substr(page.find('?') + 1));

@@ -2,11 +2,13 @@
 // Batches from and to real servers, and in Orthanc when a series has arrived.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <string>
 #include <unistd.h>
@@ -16,6 +18,7 @@
 #include "core/archive/search.h"
 #include "core/exchange/query.h"
 #include "tests/network/pacs.h"
+#include "tests/network/processes.h"
 #include "tests/support/command.h"
 
 namespace pellucid {
@@ -233,7 +236,7 @@ TEST_F(PacsBatch, PicturesThatAreSentAgainAreThereOnce) {
             EXPECT_EQ(made.out.find("\"skipped\": 1") != std::string::npos, how != "") << made.out;
             const std::vector<std::string> uids = picturesOf(server, study);
             EXPECT_EQ(uids.size(), pictures);
-            EXPECT_EQ(archive::listInstances(server, {study, uids}).size(), pictures);
+            EXPECT_EQ(archive::listInstances(server, {study, uids}).instances.size(), pictures);
         }
         // Files in a folder are the same images.
         EXPECT_EQ(batch(by, "'" + sent.string() + "' --send s").exitCode, 0);
@@ -294,7 +297,7 @@ protected:
             if (!isInstalled(program))
                 GTEST_SKIP() << program << " is not installed";
         // Tells when it runs. Its name and that of the recipe need to be quoted.
-        const fs::path program = m_folder / "pellucid's cli";
+        const fs::path program = this->program();
         const std::string log = " >>'" + calls().string() + "'\n";
         writeText(program,
                   "#!/bin/sh\necho begin" + log + "'" + m_cli + "' \"$@\"\necho end $?" + log);
@@ -304,12 +307,21 @@ protected:
         m_orthanc = std::make_unique<Orthanc>(
             R"(, "StableAge": 1, "LuaScripts": [")" PELLUCID_SOURCE
             R"(/packaging/orthanc/pellucid.lua"], "Pellucid": {"Server": "orthanc", "Recipe": ")" +
-            m_recipe.string() + R"(", "Program": ")" + program.string() + "\"}");
+            m_recipe.string() + R"(", "Queue": ")" + queue().string() + R"(", "Program": ")" +
+            program.string() + "\"}");
         m_server = serverAt(m_orthanc->port(), "ORTHANC");
         add("orthanc", "ORTHANC", m_orthanc->port());
     }
 
+    fs::path program() const { return m_folder / "pellucid's cli"; }
     fs::path calls() const { return m_folder / "calls"; }
+    /// Where series wait.
+    fs::path queue() const { return m_folder / "queue's"; }
+    std::size_t waiting() const {
+        std::error_code none;
+        const fs::directory_iterator each(queue(), none);
+        return std::size_t(std::distance(begin(each), end(each)));
+    }
     /// Waits until the program has run so many times, each after the end of the one before.
     void expectCalls(int count) const {
         std::string expected;
@@ -383,6 +395,51 @@ TEST_F(PacsBatchInOrthanc, SeriesThatArriveTogetherWaitForEachOther) {
     for (const std::string &study : studies)
         EXPECT_TRUE(waitFor([&] { return picturesOf(m_server, study).size() == 1; }));
     expectCalls(3);
+}
+
+// However many arrive, one process works; what cannot be rendered now waits.
+TEST_F(PacsBatchInOrthanc, ManySeriesWaitAsFiles) {
+    constexpr std::size_t many = 50;
+    const auto become = [this](const std::string &code) {
+        const fs::path text = m_folder / "program";
+        writeText(text, "#!/bin/sh\n" + code + "\n");
+        fs::permissions(text, fs::perms::owner_all);
+        fs::rename(text, program());
+    };
+    const std::string log = ">>'" + calls().string() + "'\n",
+                      gate = "'" + (m_folder / "go").string();
+    const auto sent = [&](std::size_t n) {
+        const fs::path folder = series(std::to_string(n), 1, 8);
+        put(m_server, folder);
+        return dicom::scan({folder}).patients.at(0).studies.at(0).series.at(0).uid;
+    };
+    // Out of order: the server cannot be reached.
+    become("echo failed " + log + "exit 6");
+    std::vector<std::string> uids{sent(0)};
+    EXPECT_TRUE(waitFor([&] { return fs::exists(calls()); }));
+    EXPECT_EQ(waiting(), 1U);
+    become("while [ -e \"$0\" ] && [ ! -e " + gate + "' ]; do sleep 0.02; done\necho $7 " + log);
+    for (std::size_t n = 1; n < many; ++n)
+        uids.push_back(sent(n));
+    EXPECT_TRUE(waitFor([&] { return waiting() == many; })) << waiting();
+    // All processes of the script name the recipe.
+    std::size_t processCount = 0;
+    EXPECT_TRUE(waitFor([&] {
+        const auto all = processes();
+        processCount = std::size_t(std::count_if(all.begin(), all.end(), [&](const auto &entry) {
+            return textOfProcess(entry.pid, "cmdline").find(m_recipe.string()) != std::string::npos;
+        }));
+        return processCount <= 2; // the queue's and the program
+    })) << processCount;
+    writeText(m_folder / "go", "");
+    EXPECT_TRUE(waitFor([&] { return waiting() == 0; })) << waiting();
+    std::istringstream called(readText(calls()));
+    std::multiset<std::string> rendered, expected{"failed"};
+    for (std::string line; std::getline(called, line);)
+        rendered.insert(line);
+    for (const std::string &uid : uids)
+        expected.insert("series=" + uid);
+    EXPECT_EQ(rendered, expected);
 }
 
 } // namespace pellucid

@@ -14,10 +14,14 @@
 #include <unistd.h>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "core/archive/instance_list.h"
 #include "core/archive/retrieval.h"
 #include "core/archive/search.h"
 #include "core/archive/server.h"
 #include "core/task/error.h"
+#include "tests/network/http_server.h"
 #include "tests/network/lying_server.h"
 #include "tests/network/pacs.h"
 #include "tests/network/processes.h"
@@ -257,6 +261,128 @@ TEST_F(Lies, AnEndlessObjectIsCancelled) {
               LyingServer::object(LyingServer::instance(0)).dataset({}).size());
 }
 
+// Another patient's images under the identifiers that were asked for: they are told apart, now and
+// when they are here already.
+TEST_F(Lies, ImagesOfAnotherPatientAreReported) {
+    const LyingServer lying(instances,
+                            [&](ScriptedAssociation &association, const ScriptedRequest &request,
+                                const std::vector<std::string> &uids) {
+                                for (const std::string &uid : uids)
+                                    if (uid == LyingServer::instance(1)) {
+                                        DicomWriter other = LyingServer::object(uid);
+                                        other.put({0x0010, 0x0010}, "PN", "OTHER^PATIENT");
+                                        other.put({0x0010, 0x0020}, "LO", "ID-999");
+                                        association.store(uid::capture, uid, other.dataset({}));
+                                    } else {
+                                        LyingServer::sendTruly(association, uid);
+                                    }
+                                association.endGet(request, 0, int(uids.size()));
+                            });
+    for (const std::size_t present : {0, instances}) {
+        std::set<std::string> shown;
+        archive::RetrievalObserver observer;
+        observer.matches = [&](const archive::StoredObject &object) {
+            shown.insert(object.sopInstanceUid);
+        };
+        const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+        const auto report =
+            archive::retrieve(at(lying), {LyingServer::study, {}}, folder, observer);
+        EXPECT_TRUE(report.isComplete());
+        EXPECT_EQ(report.state.present, present);
+        EXPECT_EQ(report.ofAnotherPatient, 1U);
+        EXPECT_EQ(report.listed.id, "LIES-1");
+        EXPECT_EQ(report.named.id, "ID-999");
+        EXPECT_EQ(shown, (std::set<std::string>{LyingServer::instance(0), LyingServer::instance(2),
+                                                LyingServer::instance(3)}));
+    }
+    // Who was shown is whom the user asked for, whatever the server says now.
+    const ObjectFolder folder(m_folder / "asked", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const auto report = archive::retrieve(
+        at(lying), {LyingServer::study, {}, {"OTHER^PATIENT", "ID-999", ""}}, folder);
+    EXPECT_EQ(report.ofAnotherPatient, std::size_t(instances) - 1);
+}
+
+// A study has a limit, and what a server lists beyond is not kept in memory.
+TEST_F(Lies, AnEndlessListOfObjectsIsRefused) {
+    std::atomic<long> rows = 0;
+    const ScriptedServer lying(
+        [&](ScriptedAssociation &association, const ScriptedRequest &request) {
+            const std::string level = request.text(0x00080052);
+            for (int n = 0; n < (level == "IMAGE" ? 400000 : 1); ++n) {
+                if (n % 64 == 0 && association.isWaiting()) {
+                    association.next();
+                    association.answer(request, 0xfe00);
+                    return;
+                }
+                DicomWriter row;
+                row.put({0x0008, 0x0018}, "UI", LyingServer::instance(n));
+                row.put({0x0008, 0x0052}, "CS", level);
+                row.put({0x0020, 0x000d}, "UI", LyingServer::study);
+                row.put({0x0020, 0x000e}, "UI", LyingServer::series);
+                association.answer(request, 0xff00, row);
+                ++rows;
+            }
+            association.answer(request, 0);
+        });
+    const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    try {
+        archive::retrieve(serverAt(lying.port(), "LIES"), {LyingServer::study, {}}, folder);
+        ADD_FAILURE() << "something was retrieved";
+    } catch (const task::Error &error) {
+        EXPECT_TRUE(error.reason().is(because::studyHasTooManyObjects)) << error.reason().english();
+    }
+    EXPECT_LT(rows, 300000);
+}
+
+// One answer that is far too long costs neither the helper nor the other answers.
+TEST_F(Lies, LongAnswersAreCut) {
+    const ScriptedServer lying(
+        [](ScriptedAssociation &association, const ScriptedRequest &request) {
+            for (int n = 0; n < 3; ++n) {
+                DicomWriter row;
+                row.put({0x0008, 0x0052}, "CS", "STUDY");
+                if (n == 1)
+                    for (int other = 0; other < 8; ++other)
+                        row.put({0x0008, std::uint16_t(0x1030 + other)}, "LO",
+                                std::string(20000, char('a' + other)));
+                row.put({0x0010, 0x0010}, "PN", n == 1 ? std::string(50000, 'n') : "Lies^Jane");
+                row.put({0x0020, 0x000d}, "UI", LyingServer::study + "." + std::to_string(n));
+                association.answer(request, 0xff00, row);
+            }
+            DicomWriter comment;
+            comment.put({0x0000, 0x0902}, "LO", std::string(120000, 'c'));
+            association.answer(request, 0, {}, comment);
+        });
+    const auto result = archive::search({serverAt(lying.port(), "LIES")}, {});
+    EXPECT_FALSE(result.outcomes.at(0).failure.has_value())
+        << result.outcomes[0].failure->english();
+    EXPECT_EQ(result.entries.size(), 3U);
+
+    // And of DICOMweb, with attributes that nobody asked for.
+    HttpServer web([](const HttpRequest &request) {
+        std::string rows;
+        const bool isFirst = request.target.find("offset=0") != std::string::npos;
+        for (int n = 0; isFirst && n < 3; ++n) {
+            std::string row = R"("0020000D":{"vr":"UI","Value":[")" + LyingServer::study + "." +
+                              std::to_string(n) + R"("]})";
+            for (int other = 0; n == 1 && other < 200; ++other)
+                row += R"(,"0009)" + fmt::format("{:04X}", 0x1000 + other) +
+                       R"(":{"vr":"LO","Value":[")" + std::string(1000, 'x') + R"("]})";
+            rows += (rows.empty() ? "{" : ",{") + row + "}";
+        }
+        return HttpAnswer{200, "application/dicom+json", "[" + rows + "]"};
+    });
+    archive::Server server;
+    server.name = "web";
+    server.peer = archive::webPeer(web.url());
+    const auto found = archive::search({server}, {});
+    EXPECT_FALSE(found.outcomes.at(0).failure.has_value()) << found.outcomes[0].failure->english();
+    ASSERT_EQ(found.entries.size(), 3U);
+    for (const archive::FoundEntry &entry : found.entries)
+        for (const auto &[tag, value] : entry.attributes)
+            EXPECT_NE(tag >> 16, 0x0009U);
+}
+
 // Lists that lie: paths and noise as identifiers are not rows, and no study is made of them.
 TEST_F(Lies, IdentifiersOfAListAreChecked) {
     const ScriptedServer lying(
@@ -287,6 +413,36 @@ TEST_F(Lies, IdentifiersOfAListAreChecked) {
         EXPECT_TRUE(error.reason().is(because::serverHasNoSuchStudy)) << error.reason().english();
     }
     EXPECT_TRUE(filesIn(m_folder / "got").empty());
+}
+
+// Slices are sorted by their places only if each is a number: no order of the others is certain.
+TEST_F(Lies, PlacesThatAreNoNumbersDoNotSort) {
+    const std::vector<std::string> axes{"1e300\\0\\0\\0\\1e300\\0", "1\\0\\0\\0\\1\\0"};
+    for (const std::string wrong : {"0\\0\\nan", "0\\0\\inf", "0\\0\\1e300"}) {
+        const ScriptedServer lying(
+            [&](ScriptedAssociation &association, const ScriptedRequest &request) {
+                const std::string level = request.text(0x00080052);
+                for (int n = 0; n < (level == "IMAGE" ? instances : 1); ++n) {
+                    DicomWriter row;
+                    row.put({0x0008, 0x0018}, "UI", LyingServer::instance(n));
+                    row.put({0x0008, 0x0052}, "CS", level);
+                    row.put({0x0020, 0x000d}, "UI", LyingServer::study);
+                    row.put({0x0020, 0x000e}, "UI", LyingServer::series);
+                    row.put({0x0020, 0x0013}, "IS", std::to_string(n));
+                    row.put({0x0020, 0x0032}, "DS",
+                            n == 0 ? wrong : "0\\0\\" + std::to_string(instances - n));
+                    row.put({0x0020, 0x0037}, "DS", n == 0 ? axes[0] : axes[1]);
+                    association.answer(request, 0xff00, row);
+                }
+                association.answer(request, 0);
+            });
+        const auto listed =
+            archive::listInstances(serverAt(lying.port(), "LIES"), {LyingServer::study, {}})
+                .instances;
+        ASSERT_EQ(listed.size(), std::size_t(instances));
+        for (int n = 0; n < instances; ++n)
+            EXPECT_EQ(listed[std::size_t(n)].sopInstanceUid, LyingServer::instance(n)) << wrong;
+    }
 }
 
 // Answers of another kind than the question.

@@ -221,4 +221,35 @@ TEST_F(Pacs, NeitherPatientsNorSecretsShowOutside) {
     EXPECT_FALSE(words.isIn(logText)) << logText;
 }
 
+// The command line refuses it on adding and, of a list that says nothing about it, on use, before
+// it asks for the password.
+TEST_F(PacsScripted, APasswordIsSentWithoutTlsOnlyIfTheUserAllowsIt) {
+    const char *const cli = std::getenv("PELLUCID_CLI");
+    if (cli == nullptr)
+        GTEST_SKIP() << "PELLUCID_CLI is not set";
+    // Without a terminal.
+    const std::string command =
+        "XDG_DATA_HOME='" + m_folder.path().string() + "' setsid -w '" + std::string(cli) + "' ";
+    const std::string add = command + "server add s --web http://192.0.2.1/dicom-web "
+                                      "--authentication basic --user eva";
+    const auto refused = run(add);
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.error.find("--allow-insecure-login"), std::string::npos) << refused.error;
+    EXPECT_EQ(run(command + "server list").out, "");
+    EXPECT_EQ(run(add + " --allow-insecure-login").exitCode, 0);
+    EXPECT_NE(run(command + "server list").out.find("insecure login allowed"), std::string::npos);
+    const auto asked = run(command + "echo s");
+    EXPECT_NE(asked.error.find(task::Reason(because::passwordNeedsATerminal).english()),
+              std::string::npos)
+        << asked.error;
+    const fs::path list = m_folder / "pellucid" / "servers.json";
+    std::string text = readText(list);
+    const std::string consent = "\"allow_insecure_login\": true,";
+    ASSERT_NE(text.find(consent), std::string::npos) << text;
+    writeText(list, text.erase(text.find(consent), consent.size()));
+    const auto used = run(command + "echo s");
+    EXPECT_EQ(used.exitCode, 2);
+    EXPECT_NE(used.error.find("--allow-insecure-login"), std::string::npos) << used.error;
+}
+
 } // namespace pellucid

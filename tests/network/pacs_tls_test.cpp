@@ -4,12 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <sys/socket.h>
 #include <thread>
 #include <unistd.h>
+#include <variant>
 #include <vector>
 
+#include "core/archive/listener.h"
 #include "core/exchange/link.h"
 #include "core/task/error.h"
 #include "tests/network/pacs.h"
@@ -35,6 +39,51 @@ std::size_t applicationBytesIn(const std::string &records) {
     }
     return count;
 }
+
+// A ClientHello (RFC 8446, 4.1.2).
+struct Offer {
+    std::set<int> ciphers, compressions, versions;
+};
+
+Offer offerIn(const std::string &bytes) {
+    const auto number = [&](std::size_t at, int count) {
+        int value = 0;
+        for (int n = 0; n < count; ++n)
+            value = value << 8 | int((unsigned char)(bytes.at(at + std::size_t(n))));
+        return value;
+    };
+    Offer offer;
+    std::size_t at = 5 + 4 + 2 + 32;      // headers of record and message, version, random
+    at += 1 + std::size_t(number(at, 1)); // session
+    const auto numbers = [&](int lengthBytes, int size, std::set<int> &into) {
+        const std::size_t end = at + std::size_t(lengthBytes + number(at, lengthBytes));
+        for (at += std::size_t(lengthBytes); at < end; at += std::size_t(size))
+            into.insert(number(at, size));
+    };
+    numbers(2, 2, offer.ciphers);
+    numbers(1, 1, offer.compressions);
+    constexpr int supportedVersions = 43;
+    const std::size_t end = at + 2 + std::size_t(number(at, 2));
+    for (at += 2; at < end;) {
+        const int type = number(at, 2), length = number(at + 2, 2);
+        at += 4;
+        const std::size_t next = at + std::size_t(length);
+        if (type == supportedVersions)
+            numbers(1, 2, offer.versions);
+        at = next;
+    }
+    return offer;
+}
+
+class NoObjects : public exchange::Receiver {
+public:
+    std::variant<int, std::uint16_t> open(const exchange::Arrival &) override {
+        return exchange::status::outOfResources;
+    }
+    std::uint16_t keep(const exchange::Arrival &, std::uint64_t) override {
+        return exchange::status::outOfResources;
+    }
+};
 
 // Certificates of an authority of our own, made for the test.
 class PacsTls : public Pacs {
@@ -98,6 +147,34 @@ protected:
         server.peer.usesTls = true;
         server.peer.authorities = at("ca.pem");
         return server;
+    }
+    // As DCMTK's echoscu, which shows a certificate. *Shape*: the reason that the receiver gives.
+    std::string receivedFrom(const std::string &name, const archive::ListenerOptions &options) {
+        std::vector<archive::ConnectionEnd> ends;
+        std::optional<archive::Listener> listener(
+            std::in_place, options, [] { return std::make_unique<NoObjects>(); },
+            archive::ListenerObserver{
+                [&](const archive::ConnectionEnd &end) { ends.push_back(end); }});
+        const std::string client =
+            name.empty() ? "+tla" : "+tls '" + at(name + ".key") + "' '" + at(name + ".pem") + "'";
+        const int exitCode =
+            test::run("echoscu " + client + " +cf '" + at("ca.pem") +
+                      "' -aet KNOWN -aec PELLUCID 127.0.0.1 " + std::to_string(listener->port()))
+                .exitCode;
+        listener.reset();
+        EXPECT_EQ(ends.size(), 1U);
+        EXPECT_EQ(exitCode == 0, !ends.at(0).reason.has_value());
+        return ends.at(0).reason ? ends[0].reason->english() : "accepted";
+    }
+    archive::ListenerOptions receiver(const std::string &host) const {
+        archive::ListenerOptions options;
+        options.port = 0;
+        options.senders = {{"KNOWN", host}};
+        options.usesTls = true;
+        options.certificate = at("good.pem");
+        options.key = at("good.key");
+        options.authorities = at("ca.pem");
+        return options;
     }
     static std::string echo(const archive::Server &server) {
         return failureOf([&] {
@@ -215,6 +292,127 @@ TEST_F(PacsTls, AServerWithoutACommonCipherIsNamed) {
                                at("good.key"), "-www"},
                               port);
     EXPECT_THAT(echo(client(port)), testing::HasSubstr("handshake failure"));
+}
+
+// What this program offers (PS3.15, B.12; RFC 9325, 4.2), to both kinds of servers.
+TEST_F(PacsTls, TheOfferFollowsTheProfile) {
+    const std::set<int> tls13{0x1301, 0x1302, 0x1303}, tls12{0xc02b, 0xc02c, 0xc02f, 0xc030};
+    constexpr int secureRenegotiation = 0x00ff; // a signal, no cipher
+    for (const bool isWeb : {false, true}) {
+        SCOPED_TRACE(isWeb);
+        const int port = test::freePort();
+        const test::Server server({"openssl", "s_server", "-accept",
+                                   "127.0.0.1:" + std::to_string(port), "-cert", at("good.pem"),
+                                   "-key", at("good.key"), "-www"},
+                                  port);
+        test::Proxy proxy(port);
+        archive::Server program = client(proxy.port());
+        if (isWeb)
+            program.peer.protocol = exchange::Protocol::web;
+        program.peer.associationSeconds = program.peer.silenceSeconds = 1.0;
+        EXPECT_THROW(
+            exchange::Link(exchange::Connection{program.peer, exchange::Purpose::echo}).echo(),
+            task::Error); // it is no server of this kind
+        const Offer offer = offerIn(proxy.fromProgram());
+        std::set<int> ciphers = offer.ciphers;
+        ciphers.erase(secureRenegotiation);
+        std::set<int> all = tls12;
+        all.insert(tls13.begin(), tls13.end());
+        EXPECT_EQ(ciphers, all);
+        EXPECT_EQ(offer.versions, (std::set<int>{0x0303, 0x0304}));
+        EXPECT_EQ(offer.compressions, std::set<int>{0});
+    }
+}
+
+// Neither a key exchange without forward secrecy nor a cipher without authentication.
+TEST_F(PacsTls, WeakServersAreRefused) {
+    for (const char *const weak :
+         {"AES128-GCM-SHA256", "ECDHE-RSA-AES128-SHA256", "DHE-RSA-AES128-GCM-SHA256",
+          "ECDHE-RSA-AES256-SHA", "ECDHE-RSA-AES128-GCM-SHA256"}) {
+        const int port = test::freePort();
+        const test::Server server({"openssl", "s_server", "-tls1_2", "-cipher",
+                                   weak + std::string(":@SECLEVEL=0"), "-accept",
+                                   "127.0.0.1:" + std::to_string(port), "-cert", at("good.pem"),
+                                   "-key", at("good.key"), "-www"},
+                                  port);
+        const bool isFine = weak == std::string("ECDHE-RSA-AES128-GCM-SHA256");
+        for (const bool isWeb : {false, true}) {
+            archive::Server program = client(port);
+            if (isWeb)
+                program.peer.protocol = exchange::Protocol::web;
+            program.peer.associationSeconds = program.peer.silenceSeconds = 1.0;
+            std::string parameters, failure = "nothing failed";
+            try {
+                exchange::Link link(exchange::Connection{program.peer, exchange::Purpose::echo}, {},
+                                    [&](exchange::Step step, const std::string &found) {
+                                        if (step == exchange::Step::tls)
+                                            parameters = found;
+                                    });
+                link.echo();
+            } catch (const task::Error &error) { // it is no DICOM server either
+                failure = error.reason().english();
+            }
+            if (isFine && !isWeb) {
+                EXPECT_THAT(parameters, testing::HasSubstr(weak));
+            }
+            EXPECT_EQ(failure.find("handshake failure") == std::string::npos, isFine)
+                << weak << (isWeb ? " web: " : ": ") << failure;
+        }
+    }
+}
+
+// And what it accepts as a server.
+TEST_F(PacsTls, TheReceiverFollowsTheProfile) {
+    archive::ListenerOptions options = receiver("127.0.0.1");
+    options.negotiationSeconds = 2.0;
+    const archive::Listener listener(options, [] { return std::make_unique<NoObjects>(); });
+    const auto connects = [&](const std::string &with) {
+        const auto result =
+            test::run("openssl s_client -connect 127.0.0.1:" + std::to_string(listener.port()) +
+                      " -cert '" + at("good.pem") + "' -key '" + at("good.key") + "' -CAfile '" +
+                      at("ca.pem") + "' " + with);
+        return result.out.find("Verify return code: 0 (ok)") != std::string::npos &&
+               result.out.find("Cipher is (NONE)") == std::string::npos;
+    };
+    for (const char *const good :
+         {"-tls1_3", "-tls1_2", "-tls1_2 -cipher ECDHE-RSA-AES256-GCM-SHA384",
+          "-tls1_2 -cipher ECDHE-RSA-AES128-GCM-SHA256"})
+        EXPECT_TRUE(connects(good)) << good;
+    for (const char *const bad :
+         {"-tls1_1 -cipher ALL:@SECLEVEL=0", "-tls1_2 -cipher AES128-GCM-SHA256",
+          "-tls1_2 -cipher DHE-RSA-AES128-GCM-SHA256", "-tls1_2 -cipher ECDHE-RSA-AES128-SHA256",
+          "-tls1_2 -cipher ECDHE-RSA-AES128-SHA:@SECLEVEL=0"})
+        EXPECT_FALSE(connects(bad)) << bad;
+}
+
+// A sender's certificate must be from the authorities that are named, and name the sender.
+TEST_F(PacsTls, SendersShowTheirOwnCertificates) {
+    using testing::AllOf;
+    using testing::HasSubstr;
+    if (!test::isInstalled("echoscu"))
+        GTEST_SKIP() << "echoscu is not installed";
+    certificate("named", "DNS:localhost", "-days 30");
+    certificate("127.0.0.1", "DNS:elsewhere.example.org", "-days 30"); // its common name
+    shell("openssl x509 -req -in 127.0.0.1.csr -CA ca.pem -CAkey ca.key -CAcreateserial -out "
+          "bare.pem -days 30 && cp 127.0.0.1.key bare.key");
+    shell("openssl x509 -req -in good.csr -CA ca2.pem -CAkey ca2.key -CAcreateserial -out "
+          "foreign.pem -extfile good.ext -days 30 && cp good.key foreign.key");
+    const archive::ListenerOptions numbered = receiver("127.0.0.1"), named = receiver("localhost");
+    EXPECT_EQ(receivedFrom("good", numbered), "accepted"); // its address
+    EXPECT_EQ(receivedFrom("good", named), "accepted");
+    EXPECT_EQ(receivedFrom("named", named), "accepted");   // its name, as the user entered it
+    EXPECT_EQ(receivedFrom("bare", numbered), "accepted"); // only a common name
+    EXPECT_THAT(receivedFrom("named", numbered),
+                AllOf(HasSubstr("localhost"), HasSubstr("127.0.0.1")));
+    EXPECT_THAT(receivedFrom("client", named),
+                AllOf(HasSubstr("names client"), HasSubstr("localhost")));
+    EXPECT_THAT(receivedFrom("127.0.0.1", numbered), HasSubstr("elsewhere.example.org"));
+    EXPECT_NE(receivedFrom("foreign", numbered), "accepted");
+    EXPECT_NE(receivedFrom("", numbered), "accepted");
+    archive::ListenerOptions anyone = numbered;
+    anyone.acceptsAnyone = true;
+    EXPECT_EQ(receivedFrom("client", anyone), "accepted");
+    EXPECT_NE(receivedFrom("foreign", anyone), "accepted");
 }
 
 // A server, or somebody before it, that answers with TLS 1.1 although it was offered TLS 1.2 and

@@ -58,8 +58,8 @@ public:
     Server(const std::vector<std::string> &command, int port) : m_port(port) {
         m_pid = ::fork();
         if (m_pid == 0) {
-            ::freopen("/dev/null", "w", stdout);
-            ::freopen("/dev/null", "w", stderr);
+            (void)!::freopen("/dev/null", "w", stdout);
+            (void)!::freopen("/dev/null", "w", stderr);
             std::vector<char *> arguments;
             for (const std::string &part : command)
                 arguments.push_back(const_cast<char *>(part.c_str()));

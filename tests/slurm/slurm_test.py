@@ -276,7 +276,7 @@ def test(slurm, script, program, work):
     killed, about = wait_for("a task in the middle", task_in_the_middle, RENDERING_S)
     node, job = about["node"], about["job"]
     slurm.kill(node, job)
-    leftovers = [path.name for path in out.glob(".*/*") if path.suffix != ".lock"]
+    leftovers = [path.name for path in out.glob(".pellucid-*")]
     before = len(rendered_in(log(killed))[0])
     tell(f"{node} died with task {killed} after {before} studies, {len(done_in(out))} of all; "
          f"unfinished folders at this moment: {len(leftovers)}")

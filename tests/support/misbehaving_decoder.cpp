@@ -71,6 +71,9 @@ bool tryForbidden(std::string_view word) {
     else if (word == "uncounted")
         finish(outcome(::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1,
                               0) != MAP_FAILED));
+    else if (word == "descriptor")
+        finish(outcome(decoder::send(helper::socketDescriptor, {Message::Kind::need, 0, mib, 0},
+                                     helper::socketDescriptor)));
     else if (word == "kill-parent")
         finish(outcome(::kill(::getppid(), SIGTERM) >= 0));
     else if (word == "memory") {
@@ -107,13 +110,15 @@ void act(std::string_view word) {
     else if (word == "ask-for-all")
         decoder::send(helper::socketDescriptor,
                       {Message::Kind::need, 0, std::uint64_t(1) << 50, 0});
+    else if (word == "ask-beyond-the-end")
+        decoder::send(helper::socketDescriptor,
+                      {Message::Kind::need, 0, (std::uint64_t(1) << 63) + 3 * mib, 0});
+    else if (word == "ask-to-the-end")
+        decoder::send(helper::socketDescriptor,
+                      {Message::Kind::need, 0, (std::uint64_t(1) << 63) - 1, 0});
     else if (word == "flood") // without ever listening
         for (;;)
             decoder::send(helper::socketDescriptor, {Message::Kind::need, 0, mib, 0});
-    else if (word == "descriptors")
-        for (int n = 0; n < 4; ++n)
-            decoder::send(helper::socketDescriptor, {Message::Kind::need, 0, mib, 0},
-                          helper::socketDescriptor);
     else if (word == "large-body")
         decoder::send(helper::socketDescriptor,
                       {Message::Kind::done, 0, std::uint64_t(1) << 60, 8});

@@ -224,13 +224,14 @@ private slots:
     void anExistingFileIsReplacedOnlyAfterAQuestion() {
         const QImage first = exported("Projection", 0, 1, false);
         dialogFor("Projection", 0, 2, false);
-        answerWith(QMessageBox::No);
         find<QPushButton>("exportWriteButton")->click();
+        answer(QMessageBox::RejectRole);
         QVERIFY(find<QDialog>("exportDialog")->isVisible());
         const QString path = find<QLineEdit>("exportPathEdit")->text();
         QCOMPARE(QImage(path).size(), first.size());
-        answerWith(QMessageBox::Yes);
-        finish();
+        find<QPushButton>("exportWriteButton")->click();
+        answer(QMessageBox::AcceptRole);
+        waitForEnd();
         QCOMPARE(QImage(path).size(), 2 * first.size());
         QVERIFY(mainWindow().statusBar()->currentMessage().contains("out.png"));
     }
@@ -245,8 +246,8 @@ private slots:
         for (const fs::path &path : {slice, link}) {
             dialogFor("Projection", 4, 1, false);
             find<QLineEdit>("exportPathEdit")->setText(QString::fromStdString(path.string()));
-            answerWith(QMessageBox::Yes);
             find<QPushButton>("exportWriteButton")->click();
+            answer(QMessageBox::AcceptRole);
             QCOMPARE(find<QLabel>("exportMessage")->text(),
                      QString("IM0003.dcm belongs to an open study; choose another name"));
             QVERIFY(readText(slice) == before);
@@ -271,8 +272,8 @@ private slots:
         const QImage before = frame(0);
         dialogFor("Projection", 5, 4, true);
         find<QSpinBox>("exportFramesBox")->setValue(200);
-        answerWith(QMessageBox::Yes);
         find<QPushButton>("exportWriteButton")->click();
+        answer(QMessageBox::AcceptRole);
         const QDir folder(QString::fromStdString(m_folder.path().string()));
         const auto unfinished = [&] {
             return folder.entryList({".*"}, QDir::Hidden | QDir::Dirs | QDir::NoDotAndDotDot);
@@ -333,17 +334,19 @@ private:
         path->setText(QString::fromStdString((m_folder / "out.png").string()));
         find<QComboBox>("exportFormatBox")->setCurrentIndex(format);
     }
-    // Answers the question that the next click asks.
-    void answerWith(QMessageBox::StandardButton button) {
-        QTimer::singleShot(0, this, [button] {
-            auto *const box = qobject_cast<QMessageBox *>(QApplication::activeModalWidget());
-            QVERIFY(box != nullptr);
-            QTest::mouseClick(box->button(button), Qt::LeftButton);
-        });
+    // Answers the question whether to replace a file.
+    void answer(QMessageBox::ButtonRole role) {
+        const auto *const question = find<QMessageBox>("replaceQuestion");
+        for (QAbstractButton *button : question->buttons())
+            if (question->buttonRole(button) == role)
+                QTest::mouseClick(button, Qt::LeftButton);
     }
     // Exports and waits until the dialog is closed.
     void finish() {
         find<QPushButton>("exportWriteButton")->click();
+        waitForEnd();
+    }
+    void waitForEnd() {
         QTRY_VERIFY_WITH_TIMEOUT(mainWindow().findChild<QDialog *>("exportDialog") == nullptr,
                                  patienceMs);
     }

@@ -20,6 +20,7 @@
 
 #include "core/archive/sending.h"
 #include "ui/beside/study_beside.h"
+#include "ui/panels/study_panel.h"
 #include "ui/servers/open_request.h"
 #include "ui/servers/remote_study.h"
 #include "ui/servers/same_patient.h"
@@ -121,6 +122,66 @@ private slots:
         QCOMPARE(field("clientIdEdit")->text(), QString("pellucid"));
         QTest::mouseClick(dialog->findChild<QPushButton *>("removeServerButton"), Qt::LeftButton);
         QVERIFY(bench().servers.servers().empty());
+        dialog->close();
+    }
+
+    // The answer is kept with the server.
+    void aLoginWithoutTlsIsAskedAboutOnce() {
+        find<QAction>("serversAction")->trigger();
+        auto *const dialog = find<QDialog>("serversDialog");
+        const auto field = [&](const char *name) { return dialog->findChild<QLineEdit *>(name); };
+        const auto save = [&] {
+            QTest::mouseClick(dialog->findChild<QPushButton *>("saveServerButton"), Qt::LeftButton);
+            return dialog->findChild<QMessageBox *>("insecureLoginQuestion");
+        };
+        field("serverNameEdit")->setText("web");
+        dialog->findChild<QComboBox *>("protocolBox")->setCurrentIndex(1);
+        field("serverUrlEdit")->setText("http://pacs.example.org/dicom-web");
+        dialog->findChild<QComboBox *>("authenticationBox")->setCurrentIndex(1);
+        field("userEdit")->setText("eva");
+        field("secretEdit")->setText("open sesame");
+        QMessageBox *box = save();
+        QVERIFY(box != nullptr);
+        QCOMPARE(box->defaultButton(), box->button(QMessageBox::Cancel));
+        box->button(QMessageBox::Cancel)->click();
+        QVERIFY(bench().servers.servers().empty());
+        box = save();
+        QVERIFY(box != nullptr && bench().servers.servers().empty());
+        for (QAbstractButton *const button : box->buttons())
+            if (box->buttonRole(button) == QMessageBox::AcceptRole)
+                button->click();
+        QCOMPARE(bench().servers.names(), QStringList{"web"});
+        QVERIFY(bench().servers.servers().front().peer.allowsInsecureLogin);
+        QTRY_VERIFY_WITH_TIMEOUT(
+            dialog->findChild<QMessageBox *>("insecureLoginQuestion") == nullptr, patienceMs);
+        QVERIFY(save() == nullptr);
+        // Another address is another question.
+        field("serverUrlEdit")->setText("http://other.example.org/dicom-web");
+        QVERIFY(save() != nullptr);
+        dialog->close();
+    }
+
+    void aReceiverWithTlsNeedsAuthorities() {
+        addServer("archive", m_dcmqrscp->port());
+        ui::ReceiverSettings settings;
+        settings.isOn = settings.usesTls = true;
+        settings.port = freePort();
+        settings.certificate = settings.key = "/etc/hostname";
+        bench().receiver.setSettings(settings);
+        QVERIFY(!bench().receiver.isListening());
+        QVERIFY(bench().receiver.failure()->is(task::because::receiverNeedsAuthorities));
+        find<QAction>("serversAction")->trigger();
+        auto *const dialog = find<QDialog>("serversDialog");
+        QVERIFY(dialog->findChild<QLabel *>("receiverState")->text().contains("CA certificates"));
+        // It listens where it is told to.
+        settings.usesTls = false;
+        settings.address = "192.0.2.1";
+        bench().receiver.setSettings(settings);
+        QVERIFY(bench().receiver.failure()->is(task::because::isNoListeningAddress));
+        dialog->findChild<QCheckBox *>("receiverTlsBox")->click();
+        dialog->findChild<QLineEdit *>("receiverAddressEdit")->setText("127.0.0.1");
+        QTest::mouseClick(dialog->findChild<QPushButton *>("applyReceiverButton"), Qt::LeftButton);
+        QVERIFY(bench().receiver.isListening());
         dialog->close();
     }
 
@@ -244,6 +305,47 @@ private slots:
         QTRY_VERIFY_WITH_TIMEOUT(bench().transfers.transfers().front().state ==
                                      archive::TransferState::complete,
                                  patienceMs);
+    }
+
+    // A server may send anybody's images under the UID of the study that the user chose.
+    void imagesOfAnotherPatientAreAskedAbout() {
+        addServer("archive", m_dcmqrscp->port());
+        ui::RemoteStudy study;
+        study.study.uid = studyUid();
+        study.study.patientName = "Somebody^Else";
+        study.study.patientId = "another";
+        study.servers = {"archive"};
+        const auto retrieve = [&] {
+            emit find<ui::StudyPanel>("studyPanel")->retrieveRequested(study);
+            QMessageBox *question = nullptr;
+            [&] {
+                QTRY_VERIFY_WITH_TIMEOUT((question = mainWindow().findChild<QMessageBox *>(
+                                              "anotherPatientQuestion")) != nullptr,
+                                         patienceMs);
+            }();
+            return question;
+        };
+        const auto press = [](QMessageBox &question, QMessageBox::ButtonRole role) {
+            for (QAbstractButton *const button : question.buttons())
+                if (question.buttonRole(button) == role)
+                    QTest::mouseClick(button, Qt::LeftButton);
+            QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+        };
+        QMessageBox *question = retrieve();
+        QVERIFY(question != nullptr);
+        QVERIFY(question->text().contains("Somebody^Else"));
+        QVERIFY(question->text().contains("Secret^Name"));
+        // Nothing was shown while it arrived either. The list names the images' own patient.
+        QVERIFY(!document().volume());
+        QVERIFY(document().currentSource() < 0);
+        QTRY_COMPARE_WITH_TIMEOUT(rows(), QStringList{"Secret Name"}, patienceMs);
+        press(*question, QMessageBox::RejectRole);
+        QVERIFY(!document().volume());
+        // Nor if the images are here already.
+        question = retrieve();
+        QVERIFY(question != nullptr && !document().volume());
+        press(*question, QMessageBox::AcceptRole);
+        QTRY_VERIFY_WITH_TIMEOUT(document().volume() && !document().isPreview(), patienceMs);
     }
 
     // The command line may retrieve into the library before the workstation has ever been started.

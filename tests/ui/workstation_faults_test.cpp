@@ -6,12 +6,16 @@
 #include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
+#include <QLabel>
 #include <QListWidget>
 #include <QProcess>
 #include <QPushButton>
 
 #include "app/exit_code.h"
+#include "core/helper/confinement.h"
+#include "core/helper/protection.h"
 #include "core/task/error.h"
 #include "tests/support/little_memory.h"
 #include "ui/document/commands.h"
@@ -74,6 +78,17 @@ private slots:
         QVERIFY(list->item(0)->text().contains("damaged or truncated"));
         settle();
         QVERIFY(changed(before, projection()->picture()) < 0.001);
+    }
+
+    // On a system that cannot confine the helpers, the window says so.
+    void aMissingProtectionIsVisible() {
+        restart();
+        auto *const label = find<QLabel>("unprotectedLabel");
+        QVERIFY(!label->isVisible());
+        std::thread([] { helper::noteProtection("helpers", helper::limitsHold); }).join();
+        QTRY_VERIFY(label->isVisible());
+        QVERIFY(label->toolTip().contains("hostile file"));
+        QVERIFY(find<QListWidget>("problemList")->item(0)->text().contains("cannot confine"));
     }
 
     // Any exception on any thread is reported, and the program still works.
@@ -154,6 +169,9 @@ private slots:
         QSignalSpy failed(&jobs, &ui::JobRunner::failed);
         QSignalSpy failures(static_cast<ui::Application *>(qApp), &ui::Application::failed);
         const auto rests = [&] { return !jobs.isRunning() && !document.isPreview(); };
+        const auto slices = [&] {
+            return document.volume() ? document.volume()->lattice().size().k : 0;
+        };
         program.window().openPaths({headPath()}); // all that is made once is there
         QTRY_VERIFY_WITH_TIMEOUT(document.volume() && rests(), patienceMs);
         auto *const view = program.window().findChild<ui::ProjectionView *>("projectionView");
@@ -169,7 +187,7 @@ private slots:
                                   2000);
             little.reset();
             QVERIFY(isOver);
-            const bool isOpen = document.volume()->lattice().size().k == 128;
+            const bool isOpen = slices() == 128;
             opened += isOpen ? 1 : 0;
             refused += failed.size() + failures.size() > 0 ? 1 : 0;
             for (const auto &failure : failed)
@@ -177,8 +195,7 @@ private slots:
             QVERIFY2(isOpen || failed.size() + failures.size() > 0,
                      qPrintable(QString::number(mb)));
             program.window().openPaths({headPath()});
-            QTRY_VERIFY_WITH_TIMEOUT(document.volume()->lattice().size().k == 80 && rests(),
-                                     patienceMs);
+            QTRY_VERIFY_WITH_TIMEOUT(slices() == 80 && rests(), patienceMs);
         }
         qInfo("%d opened, %d with a reason", opened, refused);
         QVERIFY(opened > 0 && refused > 0);

@@ -3,14 +3,14 @@
 
 #include <QDate>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include "ui/beside/study_projection.h"
 #include "ui/jobs/job_strip.h"
-#include "ui/language/plain_tooltip.h"
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
@@ -35,19 +35,21 @@ QString bannerText(const StudySource &source) {
             if (scan.isValid() && birth.addYears(years) > scan)
                 --years;
             patient << (scan.isValid() && years >= 0
-                            ? StudyBeside::tr("%1 (%2 y)").arg(dateText(study.birthDate)).arg(years)
+                            ? StudyBeside::tr("%1 (%2 y)")
+                                  .arg(dateText(study.birthDate), QString::number(years))
                             : dateText(study.birthDate));
         }
         if (!study.patientId.isEmpty())
             patient << StudyBeside::tr("ID %1").arg(study.patientId);
     }
     const QString gap = QString::fromUtf8("  ·  ");
-    return patient.join(gap) + gap + studyText(study) + gap + seriesText(source.volume);
+    return shownText(patient.join(gap) + gap + studyText(study) + gap + seriesText(source.volume));
 }
 
 StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *parent)
     : QWidget(parent), m_study(card), m_measurements(m_study.document), m_viewer(makeViewer()),
-      m_link(new StudyLink(leader, m_viewer, this)), m_name(new QLabel), m_linked(new QToolButton) {
+      m_link(new StudyLink(leader, m_viewer, this)), m_name(new PlainLabel),
+      m_linked(new QToolButton) {
     setObjectName("studyBeside");
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);

@@ -8,10 +8,11 @@
 #include "ui/opening/open_study.h"
 #include "ui/views/tools/tool.h"
 
-class QLabel;
 class QToolButton;
 
 namespace pellucid::ui {
+
+class PlainLabel;
 
 /// A second study beside the open one: panes of its own under a heading that names it, links it and
 /// closes it.
@@ -49,7 +50,7 @@ private:
     StudyLink *m_link;
     void showName();
 
-    QLabel *m_name;
+    PlainLabel *m_name;
     bool m_showsName = true;
     QToolButton *m_linked;
 };

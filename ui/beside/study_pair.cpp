@@ -2,13 +2,13 @@
 #include "ui/beside/study_pair.h"
 
 #include <QApplication>
-#include <QLabel>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include "ui/beside/study_beside.h"
 #include "ui/document/document.h"
-#include "ui/language/plain_tooltip.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
@@ -26,7 +26,7 @@ void showOverlaysOn(const Viewer &viewer, const Overlays &overlays) {
 } // namespace
 
 StudyPair::StudyPair(const Viewer &open, GraphicsCard &card, QWidget *parent)
-    : QSplitter(parent), m_open(open), m_card(card), m_heading(new QLabel) {
+    : QSplitter(parent), m_open(open), m_card(card), m_heading(new PlainLabel) {
     setObjectName("viewers");
     setChildrenCollapsible(false);
     m_heading->setObjectName("studyHeading");

@@ -8,11 +8,10 @@
 #include "ui/views/tools/tool.h"
 #include "ui/views/viewer.h"
 
-class QLabel;
-
 namespace pellucid::ui {
 
 class GraphicsCard;
+class PlainLabel;
 class StudyBeside;
 struct StudySource;
 
@@ -52,7 +51,7 @@ private:
     Tool m_tool = Tool::window;
     Overlays m_overlays;
     bool m_showsBanner = true;
-    QLabel *m_heading;
+    PlainLabel *m_heading;
     StudyBeside *m_beside = nullptr;
 };
 

@@ -11,6 +11,7 @@
 #include "core/mpr/plane.h"
 #include "core/scene/scene.h"
 #include "core/volume/volume.h"
+#include "ui/language/shown_text.h"
 
 namespace pellucid::ui {
 
@@ -39,7 +40,7 @@ public:
 
 protected:
     EditValue(Document &document, Value before, Value after, const QString &text, DragId drag)
-        : QUndoCommand(text), m_document(document), m_before(std::move(before)),
+        : QUndoCommand(editText(text)), m_document(document), m_before(std::move(before)),
           m_after(std::move(after)), m_drag(drag) {}
     virtual void apply(const Value &value) = 0;
 

@@ -7,9 +7,7 @@
 #include <QDir>
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QLineEdit>
-#include <QMessageBox>
 #include <QPointer>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -26,7 +24,10 @@
 #include "ui/export/recipe_file.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/jobs/job_strip.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/question.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/opening/recent_paths.h"
 #include "ui/servers/server_book.h"
 #include "ui/settings/file_dialogs.h"
@@ -59,7 +60,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
       m_scale(box("exportScaleBox", {"1 x", "2 x", "3 x", "4 x"})),
       m_annotated(new QCheckBox(tr("With annotations"))), m_patient(new QComboBox),
       m_deidentified(new QCheckBox(tr("Without the patient's identity"))), m_path(new QLineEdit),
-      m_where(new QWidget), m_frames(new QSpinBox), m_message(new QLabel) {
+      m_where(new QWidget), m_frames(new QSpinBox), m_message(new PlainLabel) {
     setObjectName("exportDialog");
     setWindowTitle(tr("Export picture"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -165,7 +166,7 @@ void ExportDialog::offerPatient() {
                 .join("  ")
                 .trimmed();
         if (!named.isEmpty())
-            m_patient->addItem(named);
+            m_patient->addItem(shownText(named));
     }
     m_patient->addItem(QString());
     m_patient->setCurrentIndex(0);
@@ -196,7 +197,8 @@ void ExportDialog::showChosen() {
     m_write->setText(isSent ? tr("Send") : tr("Write"));
     if (m_jobs.isRunning()) // the choice is made
         return;
-    QString text = tr("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height());
+    QString text =
+        tr("%1 x %2 pixels").arg(QString::number(pixels.width()), QString::number(pixels.height()));
     if (what.isCapture())
         text +=
             "; " + (m_deidentified->isChecked() ? tr("does not identify the patient")
@@ -239,19 +241,6 @@ void ExportDialog::saveRecipe() {
     }
 }
 
-bool ExportDialog::mayReplace(const QString &path) {
-    const QString first = firstFileOf(chosen(), path);
-    if (path == m_confirmed && first == path)
-        return true;
-    if (!QFileInfo::exists(first))
-        return true;
-    QMessageBox question(QMessageBox::NoIcon, tr("Export picture"),
-                         tr("%1 already exists. Replace it?").arg(QFileInfo(first).fileName()),
-                         QMessageBox::Yes | QMessageBox::No, this);
-    question.setDefaultButton(QMessageBox::No);
-    return question.exec() == QMessageBox::Yes;
-}
-
 void ExportDialog::showMessage(const QString &text, const char *role) {
     m_message->setText(text);
     m_message->setProperty("role", role);
@@ -272,7 +261,7 @@ void ExportDialog::offerServers() {
     m_to->clear();
     m_to->addItem(tr("File"));
     for (const QString &server : m_servers.names())
-        m_to->addItem(server, server);
+        m_to->addItem(shownText(server), server);
     m_to->setCurrentIndex(std::max(0, m_to->findData(before)));
     form()->setRowVisible(m_to, m_to->count() > 1);
 }
@@ -302,9 +291,19 @@ void ExportDialog::write() {
 }
 
 void ExportDialog::writeTo(const QString &path) {
+    const QString first = firstFileOf(chosen(), path);
+    const bool isConfirmed = path == m_confirmed && first == path;
+    if (isConfirmed || !QFileInfo::exists(first))
+        replace(path);
+    else
+        ask(this,
+            {"replaceQuestion", tr("Export picture"),
+             tr("%1 already exists. Replace it?").arg(QFileInfo(first).fileName()), tr("Replace")},
+            [this, path] { replace(path); });
+}
+
+void ExportDialog::replace(const QString &path) {
     try {
-        if (!mayReplace(path))
-            return;
         start(tr("Writing"),
               [this, path, isOfStudy = chosen().isCapture() && !chosen().isDeidentified,
                writer = pictureWriter(chosen(), m_panes, m_document, path)](const Job &job) {

@@ -14,7 +14,6 @@
 class QCheckBox;
 class QComboBox;
 class QFormLayout;
-class QLabel;
 class QLineEdit;
 class QPushButton;
 class QSpinBox;
@@ -23,6 +22,7 @@ namespace pellucid::ui {
 
 class Job;
 class JobRunner;
+class PlainLabel;
 class ServerBook;
 
 /// Exports a picture: asks for pane, format, size, annotations, and a file or a server. The dialog
@@ -44,15 +44,15 @@ signals:
 
 private:
     PictureExport chosen() const;
-    /// Asks before a file is replaced.
-    bool mayReplace(const QString &path);
     void offerPatient();
     void chooseCapture();
     void showChosen();
     void browse();
     void saveRecipe();
     void write();
+    /// Asks before a file is replaced.
     void writeTo(const QString &path);
+    void replace(const QString &path);
     void send(const archive::Server &server, const PictureExport &what);
     /// The server that the picture is sent to; empty: it is written to a file.
     QString chosenServer() const;
@@ -74,7 +74,7 @@ private:
     QLineEdit *m_path;
     QWidget *m_where; ///< the path with its button
     QSpinBox *m_frames;
-    QLabel *m_message;
+    PlainLabel *m_message;
     bool m_isWorking = false;
     QString m_confirmed; ///< a path that the file dialog has asked about
     QString m_sentTo;    ///< the server that has just received it

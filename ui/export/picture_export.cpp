@@ -155,7 +155,7 @@ struct Turn {
 // DESTINATION_0007.png of DESTINATION.png, as the command line names them.
 QString framePath(const QString &path, int frame) {
     const QString stem = path.endsWith(".png", Qt::CaseInsensitive) ? path.chopped(4) : path;
-    return QString("%1_%2.png").arg(stem).arg(frame, 4, 10, QChar('0'));
+    return stem + "_" + QString::number(frame).rightJustified(4, '0') + ".png";
 }
 
 // A picture of the projection, or a turn of it, that any thread can write.

@@ -4,17 +4,18 @@
 #include <utility>
 
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
 
 #include "ui/jobs/job_runner.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 
 namespace pellucid::ui {
 
 JobStrip::JobStrip(JobRunner &jobs, const QString &name, std::function<void()> cancel,
                    QWidget *parent)
-    : QWidget(parent), m_progress(new QProgressBar), m_title(new QLabel),
+    : QWidget(parent), m_progress(new QProgressBar), m_title(new PlainLabel),
       m_cancel(new QPushButton(tr("Cancel"))) {
     setObjectName(name + "Strip");
     m_progress->setObjectName(name + "Progress");
@@ -52,7 +53,7 @@ JobStrip::JobStrip(JobRunner &jobs, const QString &name, std::function<void()> c
 void JobStrip::showStarted(const QString &title) {
     if (!isVisible()) // a further stage of the same job keeps its progress
         m_progress->setValue(0);
-    m_title->setText(title);
+    m_title->setText(shownText(title));
     show();
 }
 

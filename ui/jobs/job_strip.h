@@ -5,13 +5,13 @@
 
 #include <QWidget>
 
-class QLabel;
 class QProgressBar;
 class QPushButton;
 
 namespace pellucid::ui {
 
 class JobRunner;
+class PlainLabel;
 
 /// Shows the title and the progress of the running job, and a button that cancels it. Hidden while
 /// no job runs.
@@ -26,7 +26,7 @@ private:
     void showStarted(const QString &title);
 
     QProgressBar *m_progress;
-    QLabel *m_title;
+    PlainLabel *m_title;
     QPushButton *m_cancel;
 };
 

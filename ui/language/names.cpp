@@ -3,6 +3,8 @@
 
 #include <QCoreApplication>
 
+#include "ui/language/shown_text.h"
+
 namespace pellucid::ui {
 
 namespace {
@@ -94,7 +96,7 @@ namespace {
 } // namespace
 
 QString translatedName(const std::string &english) {
-    return QCoreApplication::translate("Names", english.c_str());
+    return shownText(QCoreApplication::translate("Names", english.c_str()));
 }
 
 } // namespace pellucid::ui

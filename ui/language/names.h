@@ -7,7 +7,8 @@
 
 namespace pellucid::ui {
 
-/// Translates the names of built-in presets, classes and windows; returns other names unchanged.
+/// Translates the names of built-in presets, classes and windows; other names are shown as they
+/// are: `shownText`.
 QString translatedName(const std::string &english);
 
 } // namespace pellucid::ui

@@ -7,6 +7,8 @@
 #include <QRegularExpression>
 #include <QStringList>
 
+#include "ui/language/shown_text.h"
+
 namespace pellucid::ui {
 
 namespace {
@@ -33,7 +35,7 @@ QString withoutUids(QString text) {
 }
 
 QString translated(const task::Argument &argument) {
-    return argument.reasons.empty() ? withoutUids(QString::fromStdString(argument.text))
+    return argument.reasons.empty() ? withoutUids(shownText(QString::fromStdString(argument.text)))
                                     : joined(argument.reasons, betweenReasons);
 }
 

@@ -65,7 +65,7 @@ public:
     /// Copies a file and returns its final path.
     fs::path add(const fs::path &from, const std::string &series, const std::string &instance) {
         if (!m_incoming)
-            m_incoming.emplace(m_place.incomingFolder(), files::SessionFolder::Parent::goes);
+            m_incoming.emplace(m_place.incomingFolder());
         const fs::path incoming = m_incoming->path() / std::to_string(m_copies.size());
         std::error_code failed;
         fs::copy_file(from, incoming, fs::copy_options::overwrite_existing, failed);
@@ -306,8 +306,7 @@ Removal removeStudy(Library &library, const StudyFacts &study) {
     Removal removal;
     removal.copies = library.copiesOf(study);
     if (!removal.copies.empty()) {
-        removal.names = std::make_shared<files::SessionFolder>(library.place().incomingFolder(),
-                                                               files::SessionFolder::Parent::goes);
+        removal.names = std::make_shared<files::SessionFolder>(library.place().incomingFolder());
         writeNames(removal.names->path(), removal.copies);
     }
     library.remove(study);

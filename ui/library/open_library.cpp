@@ -112,7 +112,8 @@ fs::path freeName(const LibraryPlace &place) {
     const QString day = QDate::currentDate().toString(Qt::ISODate);
     for (int n = 1;; ++n) {
         const fs::path path =
-            place.folder / QString("library-damaged-%1-%2.sqlite").arg(day).arg(n).toStdString();
+            place.folder /
+            QString("library-damaged-%1-%2.sqlite").arg(day, QString::number(n)).toStdString();
         std::error_code ignored;
         if (!fs::exists(path, ignored))
             return path;

@@ -60,7 +60,7 @@ bool isAmong(const QString &word, const QStringList &words) {
 } // namespace
 
 QString recentEntry(const StudyFacts &study) {
-    return QString("%1%2:%3").arg(studyPrefix).arg(study.libraryId).arg(digestOf(study));
+    return studyPrefix + QString::number(study.libraryId) + ":" + digestOf(study);
 }
 
 std::optional<StudyFacts> recentStudy(const QString &entry, StudyLibrary &library) {

@@ -485,7 +485,9 @@ void StudyOpener::openArriving(const StudyFacts &study,
             const auto show = [&](const dicom::PartialVolume &partial,
                                   const task::Progress &progress) {
                 const volume::Volume &soFar = partial.volume;
-                job.stage(tr("%1 of %2 slices").arg(partial.slices).arg(partial.count));
+                job.stage(
+                    tr("%1 of %2 slices")
+                        .arg(QString::number(partial.slices), QString::number(partial.count)));
                 job.deliver([this, soFar, window = initialWindow(soFar)] {
                     m_document.setVolume(soFar, window, classify::defaultFieldWindow(soFar), true);
                 });

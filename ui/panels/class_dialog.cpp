@@ -9,14 +9,15 @@
 #include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QKeyEvent>
-#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 
 #include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/language/number_text.h"
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/panels/class_steps.h"
 #include "ui/panels/limit_box.h"
 #include "ui/theme/dialog_place.h"
@@ -34,7 +35,7 @@ ClassDialog::ClassDialog(Document &document, std::size_t index, QWidget *parent)
     : QDialog(parent), m_document(document), m_index(index),
       m_original(document.scene().look.classes[index]), m_tissue(m_original), m_name(new QLineEdit),
       m_source(new QComboBox), m_edge(new QDoubleSpinBox), m_color(new QPushButton),
-      m_steps(new ClassSteps(m_original, document.scene().look)), m_message(new QLabel) {
+      m_steps(new ClassSteps(m_original, document.scene().look)), m_message(new PlainLabel) {
     const classify::TissueClass &tissue = m_original;
     setObjectName("classDialog");
     setWindowTitle(tr("Class"));
@@ -69,7 +70,7 @@ ClassDialog::ClassDialog(Document &document, std::size_t index, QWidget *parent)
     connect(buttons, &QDialogButtonBox::accepted, this, &ClassDialog::accept);
     connect(buttons, &QDialogButtonBox::rejected, this, &ClassDialog::reject);
     connect(m_color, &QPushButton::clicked, this, &ClassDialog::chooseColor);
-    connect(m_steps, &ClassSteps::changed, m_message, &QLabel::clear);
+    connect(m_steps, &ClassSteps::changed, m_message, &PlainLabel::clear);
     for (QDoubleSpinBox *box : {m_low, m_high, m_softness})
         connect(box, &QDoubleSpinBox::valueChanged, this, &ClassDialog::showTint);
     showColor();
@@ -99,7 +100,7 @@ void ClassDialog::addSource(QFormLayout &form) {
     if (!own.isEmpty() && !segments.contains(own))
         segments << own;
     for (const QString &name : segments)
-        m_source->addItem(tr("Segment %1").arg(name), name);
+        m_source->addItem(tr("Segment %1").arg(shownText(name)), name);
     m_source->setCurrentIndex(m_tissue.isDrawn ? drawn
                               : own.isEmpty()  ? ofValues
                                                : m_source->findData(own));

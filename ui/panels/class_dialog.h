@@ -8,7 +8,6 @@
 class QComboBox;
 class QDoubleSpinBox;
 class QFormLayout;
-class QLabel;
 class QLineEdit;
 class QPushButton;
 
@@ -17,6 +16,7 @@ namespace pellucid::ui {
 class ClassSteps;
 class Document;
 class LimitBox;
+class PlainLabel;
 
 /// Edits one class: its source, its steps and its edge. While the dialog is open, the planes are
 /// tinted where values belong to the class.
@@ -55,7 +55,7 @@ private:
     QDoubleSpinBox *m_edge;
     QPushButton *m_color;
     ClassSteps *m_steps;
-    QLabel *m_message;
+    PlainLabel *m_message;
 };
 
 } // namespace pellucid::ui

@@ -4,10 +4,12 @@
 #include <utility>
 
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QToolButton>
+
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 
 namespace pellucid::ui {
 
@@ -36,8 +38,8 @@ QIcon groupIcon(const QColor &color, int shownCount, int count) {
 } // namespace
 
 ClassGroup::ClassGroup(const QString &title, std::filesystem::path path, QWidget *parent)
-    : QWidget(parent), m_title(title), m_path(std::move(path)), m_fold(new QToolButton),
-      m_eye(new QToolButton), m_name(new QLabel) {
+    : QWidget(parent), m_title(shownText(title)), m_path(std::move(path)), m_fold(new QToolButton),
+      m_eye(new QToolButton), m_name(new PlainLabel) {
     setObjectName("classGroup");
     m_fold->setObjectName("classGroupFold");
     m_fold->setProperty("role", "bare");
@@ -45,11 +47,10 @@ ClassGroup::ClassGroup(const QString &title, std::filesystem::path path, QWidget
     m_eye->setProperty("role", "bare");
     m_eye->setIconSize({16, 16});
     m_eye->setToolTip(tr("Show or hide all classes of this group that the list shows"));
-    m_eye->setAccessibleName(tr("Show %1").arg(title));
+    m_eye->setAccessibleName(tr("Show %1").arg(m_title));
     m_name->setObjectName("classGroupName");
     m_name->setProperty("role", "muted");
     m_name->setMinimumWidth(20);
-    m_name->setTextFormat(Qt::PlainText);
     auto *row = new QHBoxLayout(this);
     row->setContentsMargins(0, 6, 2, 0);
     row->setSpacing(4);
@@ -69,14 +70,14 @@ void ClassGroup::showFold() {
     m_fold->setArrowType(m_isFolded ? Qt::RightArrow : Qt::DownArrow);
     const QString text = m_isFolded ? tr("Unfold %1").arg(m_title) : tr("Fold %1").arg(m_title);
     m_fold->setAccessibleName(text);
-    m_fold->setToolTip(text);
+    m_fold->setToolTip(plainToolTip(text));
 }
 
 void ClassGroup::showCounts(int shownCount, int count) {
     m_eye->setIcon(groupIcon(palette().color(QPalette::WindowText), shownCount, count));
     m_name->setText(
         tr("%1: %2 of %3").arg(m_title, QString::number(shownCount), QString::number(count)));
-    m_name->setToolTip(m_name->text());
+    m_name->setToolTip(plainToolTip(m_name->text()));
 }
 
 void ClassGroup::mousePressEvent(QMouseEvent *event) {

@@ -5,10 +5,11 @@
 
 #include <QWidget>
 
-class QLabel;
 class QToolButton;
 
 namespace pellucid::ui {
+
+class PlainLabel;
 
 /// The heading of the classes that come from one file of segments: it folds them, and shows or
 /// hides them together.
@@ -36,7 +37,7 @@ private:
     std::filesystem::path m_path;
     bool m_isFolded = false;
     QToolButton *m_fold, *m_eye;
-    QLabel *m_name;
+    PlainLabel *m_name;
 };
 
 } // namespace pellucid::ui

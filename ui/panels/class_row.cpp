@@ -3,12 +3,13 @@
 
 #include <QContextMenuEvent>
 #include <QGridLayout>
-#include <QLabel>
 #include <QPainter>
 #include <QStyle>
 #include <QToolButton>
 
 #include "ui/language/names.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 #include "ui/language/step_text.h"
 #include "ui/panels/value_slider.h"
 
@@ -49,8 +50,8 @@ QString rangeText(const classify::TissueClass &tissue, const segment::Segment *s
 } // namespace
 
 ClassRow::ClassRow(int index, QWidget *parent)
-    : QWidget(parent), m_index(index), m_dot(new QToolButton), m_name(new QLabel),
-      m_range(new QLabel),
+    : QWidget(parent), m_index(index), m_dot(new QToolButton), m_name(new PlainLabel),
+      m_range(new PlainLabel),
       m_weight(new ValueSlider({.largest = classify::TransferFunction::largestWeight},
                                QString("classSlider%1").arg(index),
                                QString("classWeight%1").arg(index))) {
@@ -63,8 +64,6 @@ ClassRow::ClassRow(int index, QWidget *parent)
     m_range->setObjectName("classRange");
     m_range->setProperty("role", "small");
     m_name->setMinimumWidth(20);
-    m_name->setTextFormat(Qt::PlainText);
-    m_range->setTextFormat(Qt::PlainText);
     m_range->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // cut to what there is
     m_weight->setFixedWidth(134);
     auto *grid = new QGridLayout(this);
@@ -90,7 +89,8 @@ void ClassRow::show(const classify::TissueClass &tissue, const segment::Segment 
     m_dot->setAccessibleName(tr("Show %1").arg(name));
     m_weight->setNames(tr("Weight of %1").arg(name), tr("Weight; double-click sets it to 1"));
     m_name->setText(name);
-    m_range->setToolTip(rangeText(tissue, segment));
+    m_rangeText = rangeText(tissue, segment);
+    m_range->setToolTip(plainToolTip(m_rangeText));
     cutRange();
     m_weight->setValue(tissue.weight);
     setProperty("selected", isSelected);
@@ -99,7 +99,7 @@ void ClassRow::show(const classify::TissueClass &tissue, const segment::Segment 
 
 void ClassRow::cutRange() {
     m_range->setText(
-        m_range->fontMetrics().elidedText(m_range->toolTip(), Qt::ElideRight, m_range->width()));
+        m_range->fontMetrics().elidedText(m_rangeText, Qt::ElideRight, m_range->width()));
 }
 
 void ClassRow::resizeEvent(QResizeEvent *event) {

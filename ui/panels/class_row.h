@@ -7,11 +7,11 @@
 #include "core/segment/segmentation.h"
 #include "ui/document/commands.h"
 
-class QLabel;
 class QToolButton;
 
 namespace pellucid::ui {
 
+class PlainLabel;
 class ValueSlider;
 
 /// One class of the table: a dot in its color that shows or hides it, its name and range, a slider
@@ -42,7 +42,8 @@ private:
 
     int m_index;
     QToolButton *m_dot;
-    QLabel *m_name, *m_range;
+    PlainLabel *m_name, *m_range;
+    QString m_rangeText; ///< all of it
     ValueSlider *m_weight;
 };
 

@@ -6,7 +6,6 @@
 
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QListWidget>
 #include <QMenu>
 #include <QPushButton>
@@ -14,6 +13,8 @@
 #include <QVBoxLayout>
 
 #include "ui/language/names.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 #include "ui/language/step_text.h"
 #include "ui/panels/limit_box.h"
 
@@ -30,7 +31,7 @@ constexpr int listHeight = 110;
 
 QPushButton *makeButton(const QString &text, const char *name, const QString &tip) {
     auto *button = new QPushButton(text);
-    button->setToolTip(tip);
+    button->setToolTip(plainToolTip(tip));
     button->setObjectName(name);
     button->setAutoDefault(false);
     return button;
@@ -104,11 +105,12 @@ void ClassSteps::fillMenu(QMenu &menu) {
         for (const classify::TissueClass &other : m_look.classes) {
             if (other.name == m_tissue.name || dependsOn(m_look, other, m_tissue.name))
                 continue;
-            others->addAction(translatedName(other.name), this, [this, &kind, name = other.name] {
-                Step step{kind.kind};
-                step.operand.name = name;
-                add(step);
-            });
+            others->addAction(menuText(translatedName(other.name)), this,
+                              [this, &kind, name = other.name] {
+                                  Step step{kind.kind};
+                                  step.operand.name = name;
+                                  add(step);
+                              });
         }
         others->setEnabled(!others->isEmpty());
     }
@@ -149,7 +151,7 @@ void ClassSteps::list(int selected) {
         m_list->clear();
         for (const Step &step : m_steps) {
             auto *const item = new QListWidgetItem(stepWords(step), m_list);
-            item->setToolTip(stepName(step.kind) + ": " + stepWords(step));
+            item->setToolTip(plainToolTip(stepName(step.kind) + ": " + stepWords(step)));
         }
         m_list->setCurrentRow(selected);
     }
@@ -182,7 +184,7 @@ void ClassSteps::showNumbers() {
             box->setSingleStep(1.0);
         }
         box->give(step.at(parameter.name));
-        auto *label = new QLabel(parameterText(parameter));
+        auto *label = new PlainLabel(parameterText(parameter));
         label->setWordWrap(true);
         label->setBuddy(box);
         form->addRow(label, box);

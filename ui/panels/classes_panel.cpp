@@ -5,7 +5,6 @@
 
 #include <QColorDialog>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
@@ -16,6 +15,8 @@
 #include "ui/document/document.h"
 #include "ui/document/region_commands.h"
 #include "ui/language/names.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 #include "ui/panels/class_dialog.h"
 #include "ui/panels/class_group.h"
 #include "ui/panels/class_row.h"
@@ -33,11 +34,6 @@ classify::TissueClass ownClass(const classify::FieldWindow &window) {
 // More classes than a panel shows at once.
 constexpr std::size_t manyClasses = 12;
 
-// In menus, an ampersand marks a key.
-QString menuText(const std::string &text) {
-    return QString::fromStdString(text).replace('&', "&&");
-}
-
 QString capitalised(const std::string &name) {
     QString text = QString::fromStdString(name);
     return text.isEmpty() ? text : text.at(0).toUpper() + text.mid(1);
@@ -48,8 +44,8 @@ QString capitalised(const std::string &name) {
 ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_add(new QPushButton(tr("Add class"))),
       m_list(new QWidget), m_rows(new QVBoxLayout(m_list)),
-      m_empty(new QLabel(tr("The transfer function applies to the whole volume. Add a class to "
-                            "show tissues separately."))),
+      m_empty(new PlainLabel(tr("The transfer function applies to the whole volume. Add a class to "
+                                "show tissues separately."))),
       m_search(new QLineEdit), m_area(new QScrollArea) {
     setObjectName("classesPanel");
     setAttribute(Qt::WA_StyledBackground);
@@ -298,7 +294,8 @@ void ClassesPanel::showAddMenu() {
         for (classify::TissueClass tissue :
              isHu ? classify::standardClasses() : classify::differenceClasses()) {
             tissue.name = capitalised(tissue.name).toStdString();
-            menu.addAction(translatedName(tissue.name), this, [this, tissue] { add(tissue); });
+            menu.addAction(menuText(translatedName(tissue.name)), this,
+                           [this, tissue] { add(tissue); });
         }
         menu.addSeparator();
     }
@@ -329,15 +326,16 @@ void ClassesPanel::addSegments(QMenu &menu) {
             for (const segment::Segment &segment : segmentation.segments)
                 if (!isShown(segment)) {
                     if (of == nullptr)
-                        of = menu.addMenu(menuText(segmentation.title));
+                        of = menu.addMenu(menuText(QString::fromStdString(segmentation.title)));
                     const auto tissue = preprocess::classOf(segment, index++);
-                    of->addAction(menuText(segment.name), this, [this, tissue] { add(tissue); });
+                    of->addAction(menuText(QString::fromStdString(segment.name)), this,
+                                  [this, tissue] { add(tissue); });
                 }
         }
     if (const int source = m_document.currentSource(); source >= 0)
         for (const auto &[path, title] : m_document.sources()[std::size_t(source)].segmentations)
             if (!loaded.contains(path))
-                menu.addAction(tr("Segments of %1").arg(menuText(title.toStdString())), this,
+                menu.addAction(tr("Segments of %1").arg(menuText(title)), this,
                                [this, path = path] { emit segmentationRequested({path}); });
     menu.addAction(tr("Open segmentation..."), this, [this] { emit segmentationRequested({}); });
 }

@@ -13,7 +13,6 @@
 #include "core/segment/segmentation.h"
 #include "ui/document/commands.h"
 
-class QLabel;
 class QLineEdit;
 class QMenu;
 class QPushButton;
@@ -26,6 +25,7 @@ class ClassDialog;
 class ClassGroup;
 class ClassRow;
 class Document;
+class PlainLabel;
 
 /// The tissue classes of the look, with visibility, weight, range and color. Classes of segments
 /// are grouped by their file. A long list can be searched.
@@ -74,7 +74,7 @@ private:
     QPushButton *m_add;
     QWidget *m_list;
     QVBoxLayout *m_rows;
-    QLabel *m_empty;
+    PlainLabel *m_empty;
     QLineEdit *m_search;
     QScrollArea *m_area;
     std::vector<ClassRow *> m_shown;

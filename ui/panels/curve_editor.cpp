@@ -185,9 +185,8 @@ void CurveEditor::paintEvent(QPaintEvent *) {
     painter.setPen(m_theme.color("curve"));
     painter.drawText(area.adjusted(6, 2, 0, 0), Qt::AlignLeft | Qt::AlignTop,
                      tr("weight %1 at %2%3")
-                         .arg(m_function.at(f), 0, 'f', 2)
-                         .arg(numberText(value))
-                         .arg(m_unit.isEmpty() ? QString() : " " + m_unit));
+                         .arg(QString::number(m_function.at(f), 'f', 2), numberText(value),
+                              m_unit.isEmpty() ? QString() : " " + m_unit));
 }
 
 void CurveEditor::mousePressEvent(QMouseEvent *event) {

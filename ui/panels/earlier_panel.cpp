@@ -5,14 +5,13 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
-#include <QLabel>
-#include <QMessageBox>
-#include <QPushButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
-#include "ui/language/plain_tooltip.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/question.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/servers/earlier_studies.h"
 
 namespace pellucid::ui {
@@ -24,7 +23,7 @@ constexpr int indexRole = Qt::UserRole, uidRole = Qt::UserRole + 1;
 // The patient as a study names it, to be compared by eye.
 QString identityText(const StudyFacts &study) {
     return QString("%1, %2, ID %3")
-        .arg(patientText(study), dateText(study.birthDate), study.patientId);
+        .arg(patientText(study), dateText(study.birthDate), shownText(study.patientId));
 }
 
 QString placeText(const EarlierStudy &one) {
@@ -32,7 +31,7 @@ QString placeText(const EarlierStudy &one) {
         return EarlierPanel::tr("here");
     // The others are in the tooltip: the date needs the room.
     const QString server = one.servers.size() > 1
-                               ? QString("%1 +%2").arg(one.servers[0]).arg(one.servers.size() - 1)
+                               ? one.servers[0] + " +" + QString::number(one.servers.size() - 1)
                                : one.servers.value(0);
     return one.instances > 0 ? EarlierPanel::tr("%1, %n images", "", one.instances).arg(server)
                              : server;
@@ -41,7 +40,7 @@ QString placeText(const EarlierStudy &one) {
 } // namespace
 
 EarlierPanel::EarlierPanel(EarlierStudies &studies, QWidget *parent)
-    : QWidget(parent), m_studies(studies), m_tree(new QTreeWidget), m_state(new QLabel),
+    : QWidget(parent), m_studies(studies), m_tree(new QTreeWidget), m_state(new PlainLabel),
       m_inAdvance(new QComboBox) {
     setObjectName("earlierPanel");
     setAttribute(Qt::WA_StyledBackground);
@@ -58,14 +57,13 @@ EarlierPanel::EarlierPanel(EarlierStudies &studies, QWidget *parent)
     m_state->setObjectName("earlierState");
     m_state->setProperty("role", "muted");
     m_state->setWordWrap(true);
-    m_state->setTextFormat(Qt::PlainText);
     m_inAdvance->setObjectName("inAdvanceBox");
     m_inAdvance->setToolTip(
         tr("Retrieves the latest earlier studies of the same modality when a study is opened"));
     m_inAdvance->addItems(
         {tr("none"), tr("the latest"), tr("the latest two"), tr("the latest three")});
     m_inAdvance->setCurrentIndex(studies.inAdvance());
-    auto *label = new QLabel(tr("Retrieve in advance"));
+    auto *label = new PlainLabel(tr("Retrieve in advance"));
     label->setBuddy(m_inAdvance);
     auto *choice = new QHBoxLayout;
     choice->addWidget(label);
@@ -128,15 +126,15 @@ void EarlierPanel::list() {
         auto *const item = new QTreeWidgetItem(
             m_tree, {one.isCertain ? studyText(one.study)
                                    : patientText(one.study) + ", " + studyText(one.study),
-                     placeText(one)});
+                     shownText(placeText(one))});
         item->setData(0, indexRole, int(n));
         item->setData(0, uidRole, one.study.uid);
         if (!current.isEmpty() && one.study.uid == current)
             m_tree->setCurrentItem(item);
-        const QString tip = plainToolTip(tr("Click to open it beside") + "\n" +
-                                         identityText(one.study) + "\n" + one.servers.join(", "));
-        item->setToolTip(0, tip);
-        item->setToolTip(1, tip);
+        const QString tip = tr("Click to open it beside") + "\n" + identityText(one.study) + "\n" +
+                            one.servers.join(", ");
+        for (const int column : {0, 1})
+            item->setToolTip(column, plainToolTip(tip));
     }
     QStringList texts;
     if (m_studies.isSearching())
@@ -168,22 +166,12 @@ void EarlierPanel::activate(const QTreeWidgetItem &item) {
         emit besideRequested(chosen);
         return;
     }
-    auto *question =
-        new QMessageBox(QMessageBox::NoIcon, tr("Perhaps another patient"),
-                        tr("This study may be of another patient:\n%1\n\nOpen it beside?")
-                            .arg(identityText(chosen.study)),
-                        QMessageBox::Cancel, window());
-    question->setObjectName("otherPatientQuestion");
-    question->setAttribute(Qt::WA_DeleteOnClose);
-    question->setTextFormat(Qt::PlainText);
-    const QPushButton *const yes = question->addButton(tr("Open"), QMessageBox::AcceptRole);
-    question->setDefaultButton(QMessageBox::Cancel);
-    connect(question, &QMessageBox::buttonClicked, this,
-            [this, chosen, yes](const QAbstractButton *button) {
-                if (button == static_cast<const void *>(yes))
-                    emit besideRequested(chosen);
-            });
-    question->open();
+    ask(window(),
+        {"otherPatientQuestion", tr("Perhaps another patient"),
+         tr("This study may be of another patient:\n%1\n\nOpen it beside?")
+             .arg(identityText(chosen.study)),
+         tr("Open")},
+        [this, chosen] { emit besideRequested(chosen); });
 }
 
 } // namespace pellucid::ui

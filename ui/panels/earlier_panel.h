@@ -4,13 +4,13 @@
 #include <QWidget>
 
 class QComboBox;
-class QLabel;
 class QTreeWidget;
 class QTreeWidgetItem;
 
 namespace pellucid::ui {
 
 class EarlierStudies;
+class PlainLabel;
 struct EarlierStudy;
 
 /// The other studies of the patient. A click opens one beside the open study.
@@ -33,7 +33,7 @@ private:
 
     EarlierStudies &m_studies;
     QTreeWidget *m_tree;
-    QLabel *m_state;
+    PlainLabel *m_state;
     QComboBox *m_inAdvance;
 };
 

@@ -11,7 +11,6 @@
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QHeaderView>
-#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QScrollBar>
@@ -23,8 +22,10 @@
 #include <QVBoxLayout>
 
 #include "core/decoder/decoder.h"
-#include "ui/language/plain_tooltip.h"
+#include "core/files/table_cell.h"
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 
 namespace pellucid::ui {
 
@@ -32,12 +33,16 @@ namespace {
 
 enum Column { tagColumn, nameColumn, typeColumn, valueColumn, columnCount };
 
+QString text(const std::string &utf8) {
+    return shownText(QString::fromStdString(utf8));
+}
+
 } // namespace
 
 HeaderDialog::HeaderDialog(const QStringList &files, int file, QWidget *parent)
     : QDialog(parent), m_files(files), m_number(new QSpinBox),
-      m_slider(new QSlider(Qt::Horizontal)), m_search(new QLineEdit), m_name(new QLabel),
-      m_message(new QLabel), m_tree(new QTreeWidget) {
+      m_slider(new QSlider(Qt::Horizontal)), m_search(new QLineEdit), m_name(new PlainLabel),
+      m_message(new PlainLabel), m_tree(new QTreeWidget) {
     setObjectName("headerDialog");
     setWindowTitle(tr("DICOM header"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -51,11 +56,9 @@ HeaderDialog::HeaderDialog(const QStringList &files, int file, QWidget *parent)
     m_number->setAccessibleName(tr("Number of the file"));
     m_slider->setRange(1, int(files.size()));
     m_slider->setAccessibleName(tr("Number of the file"));
-    m_name->setTextFormat(Qt::PlainText);
     m_name->setProperty("role", "muted");
     m_name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_message->setObjectName("headerMessage");
-    m_message->setTextFormat(Qt::PlainText);
     m_message->setWordWrap(true);
     m_message->hide();
     m_tree->setObjectName("headerTree");
@@ -106,8 +109,8 @@ void HeaderDialog::showFile(int file) {
     m_number->setValue(file + 1);
     m_slider->setValue(file + 1);
     const QString path = m_files.at(file);
-    m_name->setText(QFileInfo(path).fileName());
-    m_name->setToolTip(path);
+    m_name->setText(shownText(QFileInfo(path).fileName()));
+    m_name->setToolTip(plainToolTip(path));
     m_jobs.start(
         tr("Reading %1").arg(QFileInfo(path).fileName()),
         [this, path](const Job &job) {
@@ -138,11 +141,11 @@ void HeaderDialog::fill(const decoder::AttributeList &list) {
     for (const decoder::Attribute &attribute : list.attributes) {
         const bool isItem = attribute.tag == 0;
         auto *row = new QTreeWidgetItem;
-        row->setText(tagColumn, QString::fromStdString(tagText(attribute)));
-        row->setText(nameColumn, isItem ? tr("Item %1").arg(QString::fromStdString(attribute.name))
-                                        : QString::fromStdString(attribute.name));
-        row->setText(typeColumn, QString::fromStdString(attribute.vr));
-        row->setText(valueColumn, QString::fromStdString(attribute.value));
+        row->setText(tagColumn, text(tagText(attribute)));
+        row->setText(nameColumn,
+                     isItem ? tr("Item %1").arg(text(attribute.name)) : text(attribute.name));
+        row->setText(typeColumn, text(attribute.vr));
+        row->setText(valueColumn, text(attribute.value));
         row->setToolTip(valueColumn, plainToolTip(QString::fromStdString(attribute.value)));
         parents.resize(std::size_t(attribute.depth));
         if (parents.empty())
@@ -191,11 +194,14 @@ void HeaderDialog::search() {
 void HeaderDialog::copySelected() {
     const bool isAll = m_tree->selectedItems().isEmpty();
     QString text;
+    const auto cell = [](const QString &text) {
+        return QString::fromStdString(files::tabbedField(files::tableCell(text.toStdString())));
+    };
     const std::function<void(const QTreeWidgetItem &, int)> add = [&](const QTreeWidgetItem &row,
                                                                       int depth) {
         if (!row.isHidden() && (isAll || row.isSelected()))
             text += QString(2 * depth, ' ') + row.text(tagColumn) + '\t' + row.text(typeColumn) +
-                    '\t' + row.text(nameColumn) + '\t' + row.text(valueColumn) + '\n';
+                    '\t' + cell(row.text(nameColumn)) + '\t' + cell(row.text(valueColumn)) + '\n';
         for (int n = 0; n < row.childCount(); ++n)
             add(*row.child(n), depth + 1);
     };

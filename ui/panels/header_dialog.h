@@ -7,13 +7,14 @@
 #include "core/decoder/attribute.h"
 #include "ui/jobs/job_runner.h"
 
-class QLabel;
 class QLineEdit;
 class QSlider;
 class QSpinBox;
 class QTreeWidget;
 
 namespace pellucid::ui {
+
+class PlainLabel;
 
 /// The attributes of the files of a series, with a search for tags, names and values. Stays open
 /// beside the picture.
@@ -36,7 +37,7 @@ private:
     QSpinBox *m_number;
     QSlider *m_slider;
     QLineEdit *m_search;
-    QLabel *m_name, *m_message;
+    PlainLabel *m_name, *m_message;
     QTreeWidget *m_tree;
     QString m_warning; ///< about the file that is shown; empty if there is none
 };

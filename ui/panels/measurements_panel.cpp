@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <QHeaderView>
-#include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QTreeWidget>
@@ -15,11 +14,13 @@
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
 #include "ui/language/measurement_text.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 
 namespace pellucid::ui {
 
 MeasurementsPanel::MeasurementsPanel(Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_list(new QTreeWidget), m_hint(new QLabel),
+    : QWidget(parent), m_document(document), m_list(new QTreeWidget), m_hint(new PlainLabel),
       m_export(new QPushButton(tr("Export"))) {
     setObjectName("measurementsPanel");
     setAttribute(Qt::WA_StyledBackground);
@@ -74,11 +75,13 @@ void MeasurementsPanel::showAll() {
     for (std::size_t n = 0; n < all.size(); ++n) {
         const auto &[measurement, result] = all[n];
         QTreeWidgetItem *item = m_list->topLevelItem(int(n));
-        item->setText(0, measurement.name.empty() ? kindText(measurement)
-                                                  : QString::fromStdString(measurement.name));
+        item->setText(0, measurement.name.empty()
+                             ? kindText(measurement)
+                             : shownText(QString::fromStdString(measurement.name)));
         item->setText(1, mainFigure(result, *m_document.volume()));
-        item->setToolTip(0, kindText(measurement));
-        item->setToolTip(1, allFigures(measurement, result, *m_document.volume()).join('\n'));
+        item->setToolTip(0, plainToolTip(kindText(measurement)));
+        item->setToolTip(
+            1, plainToolTip(allFigures(measurement, result, *m_document.volume()).join('\n')));
     }
     m_hint->setVisible(all.empty());
     m_list->setVisible(!all.empty());

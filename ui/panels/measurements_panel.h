@@ -5,13 +5,13 @@
 
 #include <glm/vec3.hpp>
 
-class QLabel;
 class QPushButton;
 class QTreeWidget;
 
 namespace pellucid::ui {
 
 class Document;
+class PlainLabel;
 
 /// Lists the measurements of the open study with name and figure. A click shows a measurement, a
 /// second click on its name renames it, Delete removes it.
@@ -37,7 +37,7 @@ private:
 
     Document &m_document;
     QTreeWidget *m_list;
-    QLabel *m_hint;
+    PlainLabel *m_hint;
     QPushButton *m_export;
 };
 

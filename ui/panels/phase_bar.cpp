@@ -2,18 +2,18 @@
 #include "ui/panels/phase_bar.h"
 
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QToolButton>
 
+#include "ui/language/plain_label.h"
 #include "ui/opening/phases.h"
 
 namespace pellucid::ui {
 
 PhaseBar::PhaseBar(Phases &phases, QWidget *parent)
     : QWidget(parent), m_phases(phases), m_play(new QToolButton),
-      m_slider(new QSlider(Qt::Horizontal)), m_label(new QLabel) {
+      m_slider(new QSlider(Qt::Horizontal)), m_label(new PlainLabel) {
     setObjectName("phaseBar");
     setAttribute(Qt::WA_StyledBackground);
     m_play->setObjectName("playPhasesButton");
@@ -48,7 +48,8 @@ void PhaseBar::showPhases() {
     const int now = m_phases.current();
     m_slider->setValue(now);
     m_play->setChecked(m_phases.isPlaying());
-    QString text = tr("Phase %1 of %2").arg(now + 1).arg(m_phases.count());
+    QString text =
+        tr("Phase %1 of %2").arg(QString::number(now + 1), QString::number(m_phases.count()));
     if (now >= 0 && !m_phases.label(now).isEmpty())
         text += ", " + m_phases.label(now);
     m_label->setText(text);

@@ -3,13 +3,13 @@
 
 #include <QWidget>
 
-class QLabel;
 class QSlider;
 class QToolButton;
 
 namespace pellucid::ui {
 
 class Phases;
+class PlainLabel;
 
 /// Selects and plays the phases of the open series; hidden if there is only one.
 class PhaseBar : public QWidget {
@@ -23,7 +23,7 @@ private:
     Phases &m_phases;
     QToolButton *m_play;
     QSlider *m_slider;
-    QLabel *m_label;
+    PlainLabel *m_label;
 };
 
 } // namespace pellucid::ui

@@ -6,11 +6,9 @@
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QKeyEvent>
-#include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
-#include <QMessageBox>
 #include <QPainter>
 #include <QPointer>
 #include <QPushButton>
@@ -26,7 +24,10 @@
 #include "ui/document/region_commands.h"
 #include "ui/engine/look_previewer.h"
 #include "ui/language/names.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/question.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/theme/theme.h"
 
@@ -101,7 +102,7 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_library(presets::PresetLibrary::ofUser()),
       m_corner(new QWidget), m_listsAll(new QPushButton(tr("All"))), m_save(new QPushButton),
       m_gallery(new QListWidget), m_name(new QLineEdit), m_confirm(new QPushButton(tr("Save"))),
-      m_nameRow(new QWidget), m_message(new QLabel), m_empty(new QLabel) {
+      m_nameRow(new QWidget), m_message(new PlainLabel), m_empty(new PlainLabel) {
     setObjectName("presetsPanel");
     setAttribute(Qt::WA_StyledBackground);
     m_gallery->setObjectName("presetGallery");
@@ -233,9 +234,9 @@ void PresetsPanel::list() {
         const QString name = QString::fromStdString(entry.preset.name);
         auto *item = new QListWidgetItem(emptyIcon(), translatedName(entry.preset.name));
         item->setData(nameRole, name);
-        item->setToolTip(entry.preset.notes.empty()
-                             ? name
-                             : name + ": " + QString::fromStdString(entry.preset.notes));
+        item->setToolTip(plainToolTip(
+            entry.preset.notes.empty() ? name
+                                       : name + ": " + QString::fromStdString(entry.preset.notes)));
         item->setSizeHint(m_gallery->gridSize()); // of two lines, also if the name has one
         m_gallery->addItem(item);
     }
@@ -389,7 +390,7 @@ bool PresetsPanel::eventFilter(QObject *watched, QEvent *event) {
 class PresetsPanel::Removal : public QUndoCommand {
 public:
     Removal(PresetsPanel &panel, const presets::Preset &preset)
-        : QUndoCommand(tr("Delete preset %1").arg(QString::fromStdString(preset.name))),
+        : QUndoCommand(editText(tr("Delete preset %1").arg(QString::fromStdString(preset.name)))),
           m_panel(&panel), m_preset(preset) {}
     void redo() override {
         if (m_isRemoved)
@@ -427,22 +428,14 @@ private:
 };
 
 void PresetsPanel::askToRemove(const QString &name) {
-    auto *question = new QMessageBox(
-        QMessageBox::NoIcon, tr("Delete preset"),
-        tr("Delete the preset %1? Undo brings it back as long as the study is open.").arg(name),
-        QMessageBox::Cancel, window());
-    question->setObjectName("removePresetQuestion");
-    question->setAttribute(Qt::WA_DeleteOnClose);
-    question->setTextFormat(Qt::PlainText);
-    QPushButton *const yes = question->addButton(tr("Delete"), QMessageBox::AcceptRole);
-    question->setDefaultButton(QMessageBox::Cancel);
-    connect(question, &QMessageBox::buttonClicked, this,
-            [this, name, yes](const QAbstractButton *button) {
-                const auto *const entry = m_library.find(name.toStdString());
-                if (button == static_cast<const void *>(yes) && entry != nullptr)
-                    m_document.undoStack()->push(new Removal(*this, entry->preset));
-            });
-    question->open();
+    ask(window(),
+        {"removePresetQuestion", tr("Delete preset"),
+         tr("Delete the preset %1? Undo brings it back as long as the study is open.").arg(name),
+         tr("Delete")},
+        [this, name] {
+            if (const auto *const entry = m_library.find(name.toStdString()))
+                m_document.undoStack()->push(new Removal(*this, entry->preset));
+        });
 }
 
 void PresetsPanel::importPreset() {
@@ -457,8 +450,8 @@ void PresetsPanel::importPreset() {
             auto imported = presets::importSlicerPreset(path.toStdString());
             preset = std::move(imported.preset);
             fit = tr("'%1' was fitted; the largest error of its opacity is %2")
-                      .arg(QString::fromStdString(preset.name))
-                      .arg(imported.largestError, 0, 'g', 2);
+                      .arg(QString::fromStdString(preset.name),
+                           QString::number(imported.largestError, 'g', 2));
         } else {
             preset = presets::readPreset(path.toStdString());
         }

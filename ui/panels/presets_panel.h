@@ -6,7 +6,6 @@
 #include "core/presets/preset_library.h"
 #include "core/task/reason.h"
 
-class QLabel;
 class QLineEdit;
 class QListWidget;
 class QListWidgetItem;
@@ -15,6 +14,7 @@ class QPushButton;
 namespace pellucid::ui {
 
 class Document;
+class PlainLabel;
 
 /// The presets that suit the open study, each with a small picture of it. A click applies a preset;
 /// two clicks save the current look as one.
@@ -66,7 +66,7 @@ private:
     QLineEdit *m_name;
     QPushButton *m_confirm;
     QWidget *m_nameRow;
-    QLabel *m_message, *m_empty;
+    PlainLabel *m_message, *m_empty;
     QString m_chosen; ///< the preset that was chosen or saved last
 };
 

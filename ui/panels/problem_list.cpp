@@ -5,13 +5,14 @@
 #include <map>
 
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
 #include <QVBoxLayout>
 
 #include "ui/document/document.h"
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 
 namespace pellucid::ui {
 
@@ -33,7 +34,7 @@ bool isNoImage(const task::Reason &reason) {
 } // namespace
 
 ProblemList::ProblemList(Document &document, const Theme &theme, QWidget *parent)
-    : QWidget(parent), m_document(document), m_theme(theme), m_heading(new QLabel),
+    : QWidget(parent), m_document(document), m_theme(theme), m_heading(new PlainLabel),
       m_list(new QListWidget) {
     m_list->setObjectName("problemList");
     m_list->setAccessibleName(tr("Problems"));
@@ -73,7 +74,7 @@ void ProblemList::showProblems() {
     }
     const auto add = [this](const QString &text, const QString &tip, const task::Reason &reason) {
         auto *item = new QListWidgetItem(text, m_list);
-        item->setToolTip(tip);
+        item->setToolTip(plainToolTip(tip));
         if (isNoImage(reason))
             item->setForeground(m_theme.color("muted"));
     };
@@ -91,7 +92,8 @@ void ProblemList::showProblems() {
             continue;
         }
         for (std::size_t n = 0; n < same.size(); ++n) {
-            const QString name = QString::fromStdString(same[n]->path.filename().string());
+            const QString name =
+                shownText(QString::fromStdString(same[n]->path.filename().string()));
             add(name.isEmpty() ? why : name + ": " + why, paths[int(n)], *reason);
         }
     }

@@ -5,12 +5,12 @@
 
 #include "ui/theme/theme.h"
 
-class QLabel;
 class QListWidget;
 
 namespace pellucid::ui {
 
 class Document;
+class PlainLabel;
 
 /// Lists the files that were not used when opening or importing, with reasons, until the user
 /// clears it. Many files with the same reason share a row. Hidden while empty.
@@ -28,7 +28,7 @@ private:
 
     Document &m_document;
     Theme m_theme;
-    QLabel *m_heading;
+    PlainLabel *m_heading;
     QListWidget *m_list;
 };
 

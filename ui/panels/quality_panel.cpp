@@ -7,14 +7,15 @@
 
 #include <QComboBox>
 #include <QFormLayout>
-#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QStyle>
 
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/views/overlay.h"
 
 namespace pellucid::ui {
@@ -32,7 +33,7 @@ QComboBox *addBox(QFormLayout *form, const QString &text, const char *name, cons
     auto *box = new QComboBox;
     box->setObjectName(name);
     box->setAccessibleName(text);
-    box->setToolTip(tip);
+    box->setToolTip(plainToolTip(tip));
     form->addRow(text, box);
     return box;
 }
@@ -65,11 +66,12 @@ QString whySpectra(plan::SpectrumOf what) {
     return {};
 }
 
-QLabel *addFigure(QFormLayout *form, const QString &text, const char *name, const QString &tip) {
-    auto *label = new QLabel;
+PlainLabel *addFigure(QFormLayout *form, const QString &text, const char *name,
+                      const QString &tip) {
+    auto *label = new PlainLabel;
     label->setObjectName(name);
     label->setAccessibleName(text);
-    label->setToolTip(tip);
+    label->setToolTip(plainToolTip(tip));
     form->addRow(text, label);
     return label;
 }
@@ -165,7 +167,7 @@ void QualityPanel::addFigures(QFormLayout *form) {
     m_leftOut = addFigure(form, tr("Skipped"), "leftOutLabel",
                           tr("Stages that are skipped because this scene does not need them"));
     m_leftOut->setWordWrap(true);
-    m_reason = new QLabel;
+    m_reason = new PlainLabel;
     m_reason->setObjectName("planReasonLabel");
     m_reason->setProperty("role", "muted");
     m_reason->setWordWrap(true);
@@ -275,7 +277,7 @@ void QualityPanel::showScene() {
 }
 
 void QualityPanel::clearPlan() {
-    for (QLabel *label :
+    for (PlainLabel *label :
          {m_time, m_error, m_largest, m_plan, m_padded, m_model, m_widths, m_leftOut})
         label->setText(QString::fromUtf8("\xe2\x80\x93"));
     m_reason->clear();
@@ -305,9 +307,9 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
     };
     m_padded->setText(tr("%1 x %2 x %3").arg(padding(0), padding(1), padding(2)));
     m_plan->setText(tr("%1, %2 bit, %3 MB")
-                        .arg(QString::fromStdString(spectrum.kernels[0].name()))
-                        .arg(8 * fourier::bytesPerCell(spectrum.storage) / 2)
-                        .arg(spectrum.bytes() >> 20));
+                        .arg(QString::fromStdString(spectrum.kernels[0].name()),
+                             QString::number(8 * fourier::bytesPerCell(spectrum.storage) / 2),
+                             QString::number(spectrum.bytes() >> 20)));
     const render::EngineParts parts = shown.prepared.engine->parts();
     m_shownFrame = {plan,
                     {int(parts.spectra.fields.size()), shown.prepared.of,
@@ -339,11 +341,10 @@ void QualityPanel::showModel() {
         reasons << whySpectra(kind.of);
     }
     m_model->setText(tr("Spectra: %1; slices: %2; images: %3; multiplications: %4 million")
-                         .arg(spectra.join(tr(", ")))
-                         .arg(model.slices)
-                         .arg(model.images)
-                         .arg(1e-6 * model.multiplyAdds, 0, 'f', 1));
-    m_model->setToolTip(reasons.join('\n'));
+                         .arg(spectra.join(tr(", ")), QString::number(model.slices),
+                              QString::number(model.images),
+                              QString::number(1e-6 * model.multiplyAdds, 'f', 1)));
+    m_model->setToolTip(plainToolTip(reasons.join('\n')));
     QStringList leftOut;
     for (const plan::LeftOut what : model.leftOut)
         switch (what) {
@@ -386,7 +387,7 @@ void QualityPanel::showWidths() {
     QStringList shares;
     for (std::size_t width = m_times.widthShares.size(); width-- > 0;)
         if (const double share = m_times.widthShares[width]; share > 0.0)
-            shares << (width > 0 ? tr("width %1: %2").arg(width).arg(percent(share))
+            shares << (width > 0 ? tr("width %1: %2").arg(QString::number(width), percent(share))
                                  : tr("not read: %1").arg(percent(share)));
     m_widths->setText(shares.isEmpty() ? QString::fromUtf8("\xe2\x80\x93") : shares.join(", "));
 }

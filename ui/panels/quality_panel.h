@@ -12,13 +12,13 @@
 
 class QComboBox;
 class QFormLayout;
-class QLabel;
 class QLineEdit;
 class QPushButton;
 
 namespace pellucid::ui {
 
 class Document;
+class PlainLabel;
 
 /// The requested quality of the projection, and the resulting error, speed and plan.
 class QualityPanel : public QWidget {
@@ -60,7 +60,7 @@ private:
     QPushButton *m_more;
     QComboBox *m_quality, *m_reconstruction, *m_kernel, *m_padding, *m_storage;
     QLineEdit *m_tolerance;
-    QLabel *m_time, *m_error, *m_largest, *m_plan, *m_padded, *m_model, *m_widths, *m_leftOut,
+    PlainLabel *m_time, *m_error, *m_largest, *m_plan, *m_padded, *m_model, *m_widths, *m_leftOut,
         *m_reason;
     picture::FrameTimes m_times; ///< of the last frame that is no draft
 };

@@ -3,13 +3,13 @@
 
 #include <QCheckBox>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
 
 #include "core/classify/couch.h"
 #include "ui/document/document.h"
 #include "ui/document/region_commands.h"
+#include "ui/language/plain_label.h"
 #include "ui/panels/value_slider.h"
 
 namespace pellucid::ui {
@@ -19,7 +19,7 @@ RadiographPanel::RadiographPanel(Document &document, QWidget *parent)
       m_detail(new ValueSlider({1.0, std::nullopt}, "detailSlider", "detailValue")),
       m_latitude(new ValueSlider({1.0, std::nullopt}, "latitudeSlider", "latitudeValue")),
       m_sharpness(new ValueSlider({2.0, 0.0}, "sharpnessSlider", "sharpnessValue")),
-      m_detailMark(new QLabel), m_latitudeMark(new QLabel), m_corner(new QWidget),
+      m_detailMark(new PlainLabel), m_latitudeMark(new PlainLabel), m_corner(new QWidget),
       m_withoutCouch(new QCheckBox(tr("Without couch"))),
       m_automatic(new QPushButton(tr("Automatic"))) {
     setObjectName("radiographPanel");
@@ -80,14 +80,14 @@ QWidget *RadiographPanel::corner() {
 }
 
 void RadiographPanel::addRow(const QString &name, const QString &tip, ValueSlider *slider,
-                             QLabel *mark) {
+                             PlainLabel *mark) {
     auto *row = new QHBoxLayout;
     row->setSpacing(6);
-    auto *label = new QLabel(name);
+    auto *label = new PlainLabel(name);
     label->setFixedWidth(60);
     slider->setNames(name, tip);
     if (mark == nullptr)
-        mark = new QLabel;
+        mark = new PlainLabel;
     mark->setProperty("role", "muted");
     mark->setFixedWidth(mark->fontMetrics().horizontalAdvance(tr("auto")) + 2);
     row->addWidget(label);
@@ -121,7 +121,7 @@ void RadiographPanel::showScene() {
     m_sharpness->setValue(m_document.scene().image.detail);
     // An automatic value is known as soon as the picture is.
     const auto exposure = m_document.exposure();
-    const auto showShare = [](ValueSlider *slider, QLabel *mark,
+    const auto showShare = [](ValueSlider *slider, PlainLabel *mark,
                               const std::optional<double> &chosen,
                               const std::optional<double> &automatic) {
         if (chosen || automatic)

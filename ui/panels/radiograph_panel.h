@@ -8,12 +8,12 @@
 #include "ui/document/commands.h"
 
 class QCheckBox;
-class QLabel;
 class QPushButton;
 
 namespace pellucid::ui {
 
 class Document;
+class PlainLabel;
 class ValueSlider;
 
 /// How the projection is shown as a radiograph: detail and latitude of its multi-scale contrast,
@@ -30,14 +30,14 @@ public:
 private:
     using Share = std::optional<double> scene::Tone::*;
     void addRow(const QString &name, const QString &tip, ValueSlider *slider,
-                QLabel *mark = nullptr);
+                PlainLabel *mark = nullptr);
     void connectShare(ValueSlider *slider, const QString &name, Share share);
     void set(const QString &what, DragId drag, Share share, const std::optional<double> &value);
     void showScene();
 
     Document &m_document;
     ValueSlider *m_detail, *m_latitude, *m_sharpness;
-    QLabel *m_detailMark, *m_latitudeMark;
+    PlainLabel *m_detailMark, *m_latitudeMark;
     QWidget *m_corner;
     QCheckBox *m_withoutCouch;
     QPushButton *m_automatic;

@@ -7,11 +7,12 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QSignalBlocker>
 
 #include "ui/document/document.h"
 #include "ui/language/names.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 
 namespace pellucid::ui {
 
@@ -51,7 +52,7 @@ void setEntries(QComboBox &box, const std::vector<Entry> &entries, int chosen) {
 
 RegionBar::RegionBar(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_use(new QComboBox), m_where(new QComboBox),
-      m_text(new QLabel), m_found(new QLabel), m_erases(new QCheckBox(tr("Erase"))),
+      m_text(new PlainLabel), m_found(new PlainLabel), m_erases(new QCheckBox(tr("Erase"))),
       m_isBone(new QCheckBox(tr("Bone"))) {
     setObjectName("regionBar");
     setAttribute(Qt::WA_StyledBackground);
@@ -65,7 +66,7 @@ RegionBar::RegionBar(Document &document, QWidget *parent)
     m_use->setToolTip(tr("What the region does to the classes"));
     m_where->setObjectName("regionClassBox");
     m_where->setAccessibleName(tr("Classes that the region changes"));
-    m_where->setToolTip(m_where->accessibleName());
+    m_where->setToolTip(plainToolTip(m_where->accessibleName()));
     m_erases->setObjectName("eraseBox");
     m_erases->setToolTip(tr("The brush erases; hold Shift to paint"));
     m_isBone->setObjectName("regionBoneBox");
@@ -122,7 +123,7 @@ QDoubleSpinBox *RegionBar::makeNumber(const char *name, const QString &text, con
     auto *box = new QDoubleSpinBox;
     box->setObjectName(name);
     box->setAccessibleName(text);
-    box->setToolTip(tip);
+    box->setToolTip(plainToolTip(tip));
     box->setPrefix(text + " ");
     box->setDecimals(1);
     box->setRange(low, high);

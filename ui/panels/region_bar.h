@@ -8,11 +8,11 @@
 class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
-class QLabel;
 
 namespace pellucid::ui {
 
 class Document;
+class PlainLabel;
 struct RegionOptions;
 
 /// The options of the tool that marks regions, above the panes while such a tool is chosen.
@@ -30,7 +30,7 @@ private:
 
     Document &m_document;
     QComboBox *m_use, *m_where;
-    QLabel *m_text, *m_found;
+    PlainLabel *m_text, *m_found;
     QCheckBox *m_erases, *m_isBone;
     QDoubleSpinBox *m_leak, *m_ball, *m_slab;
 };

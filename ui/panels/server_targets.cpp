@@ -4,9 +4,16 @@
 #include <QDragEnterEvent>
 #include <QMimeData>
 
+#include "ui/language/shown_text.h"
 #include "ui/settings/file_dialogs.h"
 
 namespace pellucid::ui {
+
+namespace {
+
+constexpr int nameRole = Qt::UserRole;
+
+} // namespace
 
 ServerTargets::ServerTargets(QWidget *parent) : QListWidget(parent) {
     setObjectName("serverTargets");
@@ -20,8 +27,10 @@ ServerTargets::ServerTargets(QWidget *parent) : QListWidget(parent) {
 void ServerTargets::list(const QStringList &servers) {
     clear();
     for (const QString &server : servers) {
-        auto *const item = new QListWidgetItem(server, this);
-        item->setToolTip(tr("Drop studies or files here to send them to %1").arg(server));
+        auto *const item = new QListWidgetItem(shownText(server), this);
+        item->setData(nameRole, server);
+        item->setToolTip(
+            plainToolTip(tr("Drop studies or files here to send them to %1").arg(server)));
     }
     // As high as its rows, up to a few.
     constexpr int mostRows = 4;
@@ -54,7 +63,7 @@ void ServerTargets::dropEvent(QDropEvent *event) {
         return;
     event->setDropAction(Qt::CopyAction);
     event->accept();
-    emit dropped(localPaths(*event->mimeData()), target->text());
+    emit dropped(localPaths(*event->mimeData()), target->data(nameRole).toString());
 }
 
 } // namespace pellucid::ui

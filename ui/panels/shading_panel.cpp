@@ -10,12 +10,13 @@
 #include <QComboBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QVBoxLayout>
 
 #include "ui/document/document.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 #include "ui/panels/depth_curve.h"
 #include "ui/panels/light_sphere.h"
 #include "ui/panels/value_slider.h"
@@ -36,7 +37,7 @@ constexpr double ambientUnderLight = 0.1;
 QPushButton *linkButton(const QString &text, const char *name, const QString &tip) {
     auto *button = new QPushButton(text);
     button->setObjectName(name);
-    button->setToolTip(tip);
+    button->setToolTip(plainToolTip(tip));
     button->setProperty("role", "link");
     return button;
 }
@@ -118,7 +119,7 @@ void ShadingPanel::layOut() {
     rows->setSpacing(3);
     const auto add = [&](const QString &text, ValueSlider *slider) {
         auto *row = new QHBoxLayout;
-        auto *label = new QLabel(text);
+        auto *label = new PlainLabel(text);
         label->setFixedWidth(54);
         row->addWidget(label);
         row->addWidget(slider, 1);

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/spectrum_panel.h"
 
-#include <QLabel>
 #include <QVBoxLayout>
 
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/panels/spectrum_plot.h"
 
 namespace pellucid::ui {
 
 SpectrumPanel::SpectrumPanel(const Theme &theme, QWidget *parent)
-    : QWidget(parent), m_plot(new SpectrumPlot(theme)), m_hint(new QLabel), m_readout(new QLabel) {
+    : QWidget(parent), m_plot(new SpectrumPlot(theme)), m_hint(new PlainLabel),
+      m_readout(new PlainLabel) {
     setObjectName("spectrumPanel");
     setAttribute(Qt::WA_StyledBackground);
     m_hint->setObjectName("spectrumHint");
@@ -27,7 +28,7 @@ SpectrumPanel::SpectrumPanel(const Theme &theme, QWidget *parent)
     column->addWidget(m_plot, 1);
     column->addWidget(m_readout);
     column->addWidget(m_hint, 1);
-    connect(m_plot, &SpectrumPlot::pointedAt, m_readout, &QLabel::setText);
+    connect(m_plot, &SpectrumPlot::pointedAt, m_readout, &PlainLabel::setText);
     clear({});
 }
 

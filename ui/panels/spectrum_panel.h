@@ -9,10 +9,9 @@
 #include "core/task/reason.h"
 #include "ui/theme/theme.h"
 
-class QLabel;
-
 namespace pellucid::ui {
 
+class PlainLabel;
 class SpectrumPlot;
 
 /// The slice of the spectrum that the projection's view takes, with a readout at the mouse.
@@ -35,7 +34,7 @@ protected:
 
 private:
     SpectrumPlot *m_plot;
-    QLabel *m_hint, *m_readout;
+    PlainLabel *m_hint, *m_readout;
 };
 
 } // namespace pellucid::ui

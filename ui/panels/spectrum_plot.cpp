@@ -151,9 +151,8 @@ void SpectrumPlot::mouseMoveEvent(QMouseEvent *event) {
         m_slice->decibels[std::size_t(row) * std::size_t(m_slice->side) + std::size_t(column)];
     const QString strength = tr("%1 dB").arg(numberText(std::round(decibels) + 0.0, 1.0));
     emit pointedAt(frequency > 0.0 ? tr("%1 cycles/mm (period %2 mm): %3")
-                                         .arg(frequency, 0, 'f', 3)
-                                         .arg(1.0 / frequency, 0, 'f', 1)
-                                         .arg(strength)
+                                         .arg(QString::number(frequency, 'f', 3),
+                                              QString::number(1.0 / frequency, 'f', 1), strength)
                                    : tr("0 cycles/mm: %1").arg(strength));
 }
 

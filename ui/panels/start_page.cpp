@@ -2,9 +2,11 @@
 #include "ui/panels/start_page.h"
 
 #include <QDir>
-#include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
+
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 
 namespace pellucid::ui {
 
@@ -13,7 +15,7 @@ namespace {
 QPushButton *button(const QString &text, const char *name, const QString &tip) {
     auto *b = new QPushButton(text);
     b->setObjectName(name);
-    b->setToolTip(tip);
+    b->setToolTip(plainToolTip(tip));
     b->setMinimumWidth(260);
     return b;
 }
@@ -24,10 +26,11 @@ StartPage::StartPage(QWidget *parent)
     : QWidget(parent), m_resume(button({}, "resumeButton", {})), m_recent(new QVBoxLayout) {
     setObjectName("startPage");
     setAttribute(Qt::WA_StyledBackground);
-    auto *title = new QLabel(tr("Open a study"));
+    auto *title = new PlainLabel(tr("Open a study"));
     title->setProperty("role", "title");
-    auto *hint = new QLabel(tr("Drop DICOM files, folders, a DICOMDIR, a ZIP archive or a volume "
-                               "(NRRD, NIfTI, MetaImage) anywhere in this window."));
+    auto *hint =
+        new PlainLabel(tr("Drop DICOM files, folders, a DICOMDIR, a ZIP archive or a volume "
+                          "(NRRD, NIfTI, MetaImage) anywhere in this window."));
     hint->setProperty("role", "muted");
     hint->setWordWrap(true);
     hint->setAlignment(Qt::AlignCenter);
@@ -35,7 +38,7 @@ StartPage::StartPage(QWidget *parent)
         button(tr("Open files..."), "openFilesButton", tr("Choose DICOM or volume files (Ctrl+O)"));
     auto *folder = button(tr("Open folder..."), "openFolderButton",
                           tr("Choose a folder; it is searched recursively (Ctrl+Shift+O)"));
-    auto *phantomTitle = new QLabel(tr("TRY A PHANTOM"));
+    auto *phantomTitle = new PlainLabel(tr("TRY A PHANTOM"));
     phantomTitle->setProperty("role", "heading");
     auto *head = button(tr("Head phantom"), "headPhantomButton",
                         tr("A built-in head: skull, brain, sinuses, teeth"));
@@ -84,13 +87,13 @@ void StartPage::setRecent(const std::vector<Recent> &recent) {
     }
     if (recent.empty())
         return;
-    auto *heading = new QLabel(tr("RECENT"));
+    auto *heading = new PlainLabel(tr("RECENT"));
     heading->setProperty("role", "heading");
     m_recent->addWidget(heading, 0, Qt::AlignHCenter);
     for (const Recent &one : recent) {
-        auto *link = new QPushButton(one.text);
+        auto *link = new QPushButton(menuText(one.text));
         link->setProperty("role", "link");
-        link->setToolTip(tr("Open %1").arg(one.text));
+        link->setToolTip(plainToolTip(tr("Open %1").arg(one.text)));
         m_recent->addWidget(link, 0, Qt::AlignHCenter);
         connect(link, &QPushButton::clicked, this,
                 [this, entry = one.entry] { emit recentRequested(entry); });

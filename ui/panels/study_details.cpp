@@ -7,10 +7,10 @@
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QPixmap>
 #include <QVBoxLayout>
 
+#include "ui/language/plain_label.h"
 #include "ui/studies/thumbnail.h"
 
 namespace pellucid::ui {
@@ -21,9 +21,8 @@ struct StudyDetailsTexts {
     Q_DECLARE_TR_FUNCTIONS(StudyDetailsTexts)
 };
 
-QLabel *value(const QString &text) {
-    auto *label = new QLabel(text.isEmpty() ? QString::fromUtf8("–") : text);
-    label->setTextFormat(Qt::PlainText);
+PlainLabel *value(const QString &text) {
+    auto *label = new PlainLabel(text.isEmpty() ? QString::fromUtf8("–") : text);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     label->setWordWrap(true);
     return label;
@@ -36,7 +35,7 @@ QString folderOf(const QStringList &files) {
 void addFacts(QFormLayout *form, const StudyFacts &study, const VolumeFacts &volume,
               const QStringList &files) {
     const auto row = [form](const QString &name, const QString &text) {
-        auto *label = new QLabel(name);
+        auto *label = new PlainLabel(name);
         label->setProperty("role", "muted");
         form->addRow(label, value(text));
     };
@@ -51,11 +50,14 @@ void addFacts(QFormLayout *form, const StudyFacts &study, const VolumeFacts &vol
     row(StudyDetailsTexts::tr("Modality"), volume.modality);
     row(StudyDetailsTexts::tr("Body part"), volume.bodyPart);
     row(StudyDetailsTexts::tr("Slices, rows, columns"),
-        QString::fromUtf8("%1 × %2 × %3").arg(volume.size.k).arg(volume.size.j).arg(volume.size.i));
+        QString::fromUtf8("%1 × %2 × %3")
+            .arg(QString::number(volume.size.k), QString::number(volume.size.j),
+                 QString::number(volume.size.i)));
     if (volume.spacingMm.x > 0.0)
-        row(StudyDetailsTexts::tr("Pixel spacing"), QString::fromUtf8("%1 × %2 mm")
-                                                        .arg(volume.spacingMm.x, 0, 'f', 3)
-                                                        .arg(volume.spacingMm.y, 0, 'f', 3));
+        row(StudyDetailsTexts::tr("Pixel spacing"),
+            QString::fromUtf8("%1 × %2 mm")
+                .arg(QString::number(volume.spacingMm.x, 'f', 3),
+                     QString::number(volume.spacingMm.y, 'f', 3)));
     if (volume.placed) {
         row(StudyDetailsTexts::tr("Slice spacing"),
             StudyDetailsTexts::tr("%1 mm").arg(volume.spacingMm.z, 0, 'f', 3));
@@ -68,9 +70,9 @@ void addFacts(QFormLayout *form, const StudyFacts &study, const VolumeFacts &vol
                           : StudyDetailsTexts::tr("%1, referenced in place").arg(files.size()));
     row(StudyDetailsTexts::tr("Folder"), folderOf(files));
     for (const QString &warning : warningTexts(volume)) {
-        QLabel *const text = value(warning);
+        PlainLabel *const text = value(warning);
         text->setProperty("role", "warning");
-        form->addRow(new QLabel, text);
+        form->addRow(new PlainLabel, text);
     }
 }
 
@@ -86,7 +88,7 @@ void showStudyDetails(const StudyFacts &study, const VolumeFacts &volume, const 
     form->setLabelAlignment(Qt::AlignLeft);
     form->setHorizontalSpacing(18);
     addFacts(form, study, volume, files);
-    auto *picture = new QLabel;
+    auto *picture = new PlainLabel;
     picture->setFixedSize(thumbnailPixels + 16, thumbnailPixels + 16);
     picture->setAlignment(Qt::AlignCenter);
     picture->setStyleSheet("background: black;");

@@ -7,6 +7,7 @@
 #include <QUrl>
 
 #include "ui/document/document.h"
+#include "ui/language/shown_text.h"
 #include "ui/studies/search_words.h"
 
 namespace pellucid::ui {
@@ -167,12 +168,13 @@ QString StudyList::whereText(const QModelIndex &at) const {
     const RemoteStudy *const remote = this->remote(at);
     if (remote == nullptr)
         return {};
-    const QString servers = remote->servers.join(", ");
+    const QString servers = shownText(remote->servers.join(", "));
     const int here = isOnlyRemote(at) ? 0 : entryAt(at.row()).instancesHere;
     if (remote->instances == 0)
         return servers;
     return here == 0 ? tr("%1: %n images", "", remote->instances).arg(servers)
-                     : tr("%1: %2 of %3 here").arg(servers).arg(here).arg(remote->instances);
+                     : tr("%1: %2 of %3 here")
+                           .arg(servers, QString::number(here), QString::number(remote->instances));
 }
 
 const StudyFacts &StudyList::study(const QModelIndex &at) const {
@@ -356,11 +358,11 @@ QVariant StudyList::data(const QModelIndex &at, int role) const {
                       (whereText(at).isEmpty() ? QStringList() : QStringList{whereText(at)}))
                          .join(", ");
     case Qt::ToolTipRole:
-        return v != nullptr
-                   ? (QStringList{seriesText(*v), sizeText(*v)} + warningTexts(*v)).join("\n")
-                   : (QStringList{patientText(s), s.patientId, studyText(s), whereText(at)})
-                         .join("\n")
-                         .trimmed();
+        return plainToolTip(
+            v != nullptr ? (QStringList{seriesText(*v), sizeText(*v)} + warningTexts(*v)).join("\n")
+                         : (QStringList{patientText(s), s.patientId, studyText(s), whereText(at)})
+                               .join("\n")
+                               .trimmed());
     case Qt::DecorationRole:
         return v != nullptr ? QVariant(thumbnail(at)) : QVariant();
     default:

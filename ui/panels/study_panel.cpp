@@ -8,10 +8,8 @@
 #include <QDragEnterEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
-#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QShortcut>
 #include <QToolButton>
@@ -20,8 +18,10 @@
 
 #include "ui/document/document.h"
 #include "ui/jobs/job_strip.h"
-#include "ui/language/plain_tooltip.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/question.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/panels/header_dialog.h"
 #include "ui/panels/problem_list.h"
 #include "ui/panels/study_details.h"
@@ -46,7 +46,7 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, ServerSearch &
                        const Theme &theme, QWidget *parent)
     : QWidget(parent), m_document(document), m_library(library), m_list(document, library),
       m_search(new QLineEdit), m_tree(new QTreeView), m_corner(new QPushButton(tr("Import"))),
-      m_empty(new QLabel), m_servers(servers), m_serverStates(new QLabel) {
+      m_empty(new PlainLabel), m_servers(servers), m_serverStates(new PlainLabel) {
     setObjectName("studyPanel");
     setAttribute(Qt::WA_StyledBackground);
     setAcceptDrops(true);
@@ -285,7 +285,7 @@ void StudyPanel::showMenu(const QPoint &at) {
         menu->addSeparator();
     }
     if (const RemoteStudy *const remote = m_list.remote(index))
-        add(tr("Retrieve from %1").arg(remote->servers.value(0)), "retrieveStudyAction",
+        add(tr("Retrieve from %1").arg(menuText(remote->servers.value(0))), "retrieveStudyAction",
             [this, remote = *remote] { emit retrieveRequested(remote); });
     addServersTo(*menu, index);
     if (m_list.isOnlyRemote(index)) {
@@ -314,7 +314,7 @@ void StudyPanel::addServersTo(QMenu &menu, const QModelIndex &index) {
     send->setObjectName("sendMenu");
     const QPersistentModelIndex row(index);
     for (const QString &server : servers)
-        connect(send->addAction(server), &QAction::triggered, this,
+        connect(send->addAction(menuText(server)), &QAction::triggered, this,
                 [this, row, server] { emit sendRequested(m_list.files(row), server); });
 }
 
@@ -356,20 +356,11 @@ void StudyPanel::remove(const StudyFacts &study) {
         what += "\n\n" + tr("%n files that were copied into the library are deleted.", "", copied);
     if (referred > 0)
         what += "\n\n" + tr("%n files elsewhere stay where they are.", "", referred);
-    auto *question = new QMessageBox(QMessageBox::NoIcon, tr("Remove from the library"), what,
-                                     QMessageBox::Cancel, window());
-    question->setObjectName("removeStudyQuestion");
-    question->setAttribute(Qt::WA_DeleteOnClose);
-    QPushButton *const yes = question->addButton(tr("Remove"), QMessageBox::AcceptRole);
-    question->setDefaultButton(QMessageBox::Cancel);
-    connect(question, &QMessageBox::buttonClicked, this,
-            [this, study, yes](const QAbstractButton *button) {
-                if (button == static_cast<const void *>(yes)) {
-                    close(study);
-                    m_library.remove(study);
-                }
-            });
-    question->open();
+    ask(window(), {"removeStudyQuestion", tr("Remove from the library"), what, tr("Remove")},
+        [this, study] {
+            close(study);
+            m_library.remove(study);
+        });
 }
 
 void StudyPanel::close(const StudyFacts &study) {

@@ -9,7 +9,6 @@
 #include "ui/studies/study_source.h"
 #include "ui/theme/theme.h"
 
-class QLabel;
 class QLineEdit;
 class QMenu;
 class QPushButton;
@@ -18,6 +17,7 @@ class QTreeView;
 namespace pellucid::ui {
 
 class Document;
+class PlainLabel;
 class ServerSearch;
 
 /// The open studies and those of the library, with search, sort order, a context menu, the running
@@ -73,9 +73,9 @@ private:
     QElapsedTimer m_sinceToggle; ///< since a study was expanded or collapsed
     QTreeView *m_tree;
     QPushButton *m_corner;
-    QLabel *m_empty;
+    PlainLabel *m_empty;
     ServerSearch &m_servers;
-    QLabel *m_serverStates; ///< how the servers fare
+    PlainLabel *m_serverStates; ///< how the servers fare
     QTimer m_typing, m_resting;
 };
 

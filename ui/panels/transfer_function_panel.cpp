@@ -7,7 +7,6 @@
 #include <QClipboard>
 #include <QGuiApplication>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QVBoxLayout>
@@ -16,7 +15,9 @@
 #include "ui/document/document.h"
 #include "ui/language/names.h"
 #include "ui/language/number_text.h"
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/panels/curve_editor.h"
 #include "ui/panels/limit_box.h"
 
@@ -30,7 +31,7 @@ constexpr double maxValue = 9e8, typicalRange = 2000.0;
 QPushButton *addLink(QHBoxLayout *row, const QString &text, const char *name, const QString &tip) {
     auto *button = new QPushButton(text);
     button->setObjectName(name);
-    button->setToolTip(tip);
+    button->setToolTip(plainToolTip(tip));
     button->setProperty("role", "link");
     row->addWidget(button);
     return button;
@@ -41,7 +42,7 @@ QPushButton *addLink(QHBoxLayout *row, const QString &text, const char *name, co
 TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &theme,
                                              QWidget *parent)
     : QWidget(parent), m_document(document), m_editor(new CurveEditor(theme)),
-      m_subject(new QLabel), m_points(new QSpinBox), m_weight(new QDoubleSpinBox),
+      m_subject(new PlainLabel), m_points(new QSpinBox), m_weight(new QDoubleSpinBox),
       m_low(new LimitBox("curveLowBox", -maxValue, maxValue, typicalRange)),
       m_high(new LimitBox("curveHighBox", -maxValue, maxValue, typicalRange)) {
     setObjectName("transferFunctionPanel");

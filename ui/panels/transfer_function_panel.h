@@ -8,14 +8,14 @@
 #include "ui/theme/theme.h"
 
 class QDoubleSpinBox;
-class QLabel;
 class QSpinBox;
 
 namespace pellucid::ui {
 
 class CurveEditor;
-class LimitBox;
 class Document;
+class LimitBox;
+class PlainLabel;
 
 /// Edits the transfer function of the whole volume or the selected class: curve, number of control
 /// points, typed weights, copy and paste.
@@ -46,7 +46,7 @@ private:
 
     Document &m_document;
     CurveEditor *m_editor;
-    QLabel *m_subject;
+    PlainLabel *m_subject;
     QSpinBox *m_points;
     QDoubleSpinBox *m_weight;
     LimitBox *m_low, *m_high; ///< the range of the curve

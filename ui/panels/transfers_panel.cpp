@@ -2,14 +2,14 @@
 #include "ui/panels/transfers_panel.h"
 
 #include <QHeaderView>
-#include <QLabel>
 #include <QMenu>
 #include <QPushButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
-#include "ui/language/plain_tooltip.h"
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/panels/server_targets.h"
 #include "ui/servers/server_book.h"
 #include "ui/servers/study_receiver.h"
@@ -24,15 +24,21 @@ using archive::TransferState;
 
 constexpr int idRole = Qt::UserRole;
 
+QString share(const Transfer &transfer) {
+    return TransfersPanel::tr("%1 of %2")
+        .arg(QString::number(transfer.received), QString::number(transfer.total));
+}
+
 } // namespace
 
 TransfersPanel::TransfersPanel(TransferQueue &queue, StudyReceiver &receiver, ServerBook &servers,
                                QWidget *parent)
     : QWidget(parent), m_queue(queue), m_receiver(receiver), m_servers(servers),
       m_targets(new ServerTargets),
-      m_dropHere(new QLabel(tr("Drop studies or files here to send:"))), m_receiving(new QLabel),
-      m_tree(new QTreeWidget),
-      m_empty(new QLabel(tr("Nothing has been retrieved yet. Search for a study, and double-click "
+      m_dropHere(new PlainLabel(tr("Drop studies or files here to send:"))),
+      m_receiving(new PlainLabel), m_tree(new QTreeWidget),
+      m_empty(
+          new PlainLabel(tr("Nothing has been retrieved yet. Search for a study, and double-click "
                             "one that a server has."))),
       m_corner(new QPushButton(tr("Clear"))) {
     setObjectName("transfersPanel");
@@ -92,8 +98,7 @@ void TransfersPanel::showReceiver() {
     else if (m_receiver.isListening())
         m_receiving->setText(tr("%1 receives on port %2; %n objects have arrived", "",
                                 int(m_receiver.receivedCount()))
-                                 .arg(now.ae)
-                                 .arg(now.port));
+                                 .arg(now.ae, QString::number(now.port)));
 }
 
 void TransfersPanel::list() {
@@ -114,28 +119,25 @@ void TransfersPanel::list() {
             state = tr("waiting");
             break;
         case TransferState::running:
-            state = transfer.total == 0 ? tr("listing")
-                                        : tr("%1 of %2").arg(transfer.received).arg(transfer.total);
+            state = transfer.total == 0 ? tr("listing") : share(transfer);
             break;
         case TransferState::complete:
             state = tr("%n images", "", int(transfer.total));
             break;
         case TransferState::incomplete:
-            state = QString::fromUtf8("\u26A0 ") +
-                    tr("%1 of %2").arg(transfer.received).arg(transfer.total);
+            state = QString::fromUtf8("\u26A0 ") + share(transfer);
             break;
         case TransferState::cancelled:
             state = tr("cancelled");
             break;
         }
         const QString title = QString::fromStdString(transfer.title);
-        item->setText(0, (title.isEmpty() ? title : title + ", ") +
-                             QString::fromStdString(transfer.server));
+        item->setText(0, shownText((title.isEmpty() ? title : title + ", ") +
+                                   QString::fromStdString(transfer.server)));
         item->setText(1, state);
         item->setData(0, idRole, qint64(transfer.id));
-        const QString tip = reason ? plainToolTip(translated(*reason)) : QString();
-        item->setToolTip(0, tip);
-        item->setToolTip(1, tip);
+        for (const int column : {0, 1})
+            item->setToolTip(column, plainToolTip(reason ? translated(*reason) : QString()));
     }
 }
 

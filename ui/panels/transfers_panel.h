@@ -3,13 +3,13 @@
 
 #include <QWidget>
 
-class QLabel;
 class QPushButton;
 class QTreeWidget;
 class QTreeWidgetItem;
 
 namespace pellucid::ui {
 
+class PlainLabel;
 class ServerBook;
 class ServerTargets;
 class StudyReceiver;
@@ -40,9 +40,9 @@ private:
     StudyReceiver &m_receiver;
     ServerBook &m_servers;
     ServerTargets *m_targets;
-    QLabel *m_dropHere, *m_receiving;
+    PlainLabel *m_dropHere, *m_receiving;
     QTreeWidget *m_tree;
-    QLabel *m_empty;
+    PlainLabel *m_empty;
     QPushButton *m_corner;
 };
 

@@ -8,6 +8,8 @@
 #include <QHBoxLayout>
 #include <QSlider>
 
+#include "ui/language/shown_text.h"
+
 namespace pellucid::ui {
 
 namespace {
@@ -60,8 +62,8 @@ void ValueSlider::setValue(double value) {
 void ValueSlider::setNames(const QString &accessibleName, const QString &tip) {
     m_slider->setAccessibleName(accessibleName);
     m_value->setAccessibleName(accessibleName);
-    m_slider->setToolTip(tip);
-    m_value->setToolTip(tip);
+    m_slider->setToolTip(plainToolTip(tip));
+    m_value->setToolTip(plainToolTip(tip));
 }
 
 bool ValueSlider::eventFilter(QObject *watched, QEvent *event) {

@@ -5,24 +5,24 @@
 #include <QDesktopServices>
 #include <QDialogButtonBox>
 #include <QGuiApplication>
-#include <QLabel>
 #include <QPushButton>
 #include <QUrl>
 #include <QVBoxLayout>
 
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 
 namespace pellucid::ui {
 
 LoginDialog::LoginDialog(const QString &server, std::shared_ptr<archive::Login> login,
                          QWidget *parent)
-    : QDialog(parent), m_server(server), m_login(std::move(login)), m_message(new QLabel),
+    : QDialog(parent), m_server(server), m_login(std::move(login)), m_message(new PlainLabel),
       m_open(new QPushButton(tr("&Open the browser"))),
       m_copy(new QPushButton(tr("&Copy the address"))) {
     setObjectName("loginDialog");
-    setWindowTitle(tr("Log in to %1").arg(server));
+    setWindowTitle(tr("Log in to %1").arg(titleText(server)));
     m_message->setObjectName("loginMessage");
-    m_message->setTextFormat(Qt::PlainText);
     m_message->setWordWrap(true);
     m_message->setMinimumWidth(360);
     m_message->setText(tr("The server %1 asks for a login in the browser.").arg(server));

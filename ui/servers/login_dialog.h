@@ -8,10 +8,11 @@
 #include "core/archive/login.h"
 #include "ui/jobs/job_runner.h"
 
-class QLabel;
 class QPushButton;
 
 namespace pellucid::ui {
+
+class PlainLabel;
 
 /// Opens the page of a login server in the browser, and waits until the user has logged in there.
 /// It is accepted when the login has its tokens.
@@ -27,7 +28,7 @@ private:
     const QString m_server;
     const std::shared_ptr<archive::Login> m_login;
     QString m_url; ///< of the page; empty until it is known
-    QLabel *m_message;
+    PlainLabel *m_message;
     QPushButton *m_open, *m_copy;
     JobRunner m_jobs;
 };

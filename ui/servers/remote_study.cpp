@@ -24,6 +24,11 @@ RemoteStudy remoteStudy(const archive::FoundEntry &entry) {
     return remote;
 }
 
+archive::Patient patientOf(const StudyFacts &study) {
+    return {study.patientName.toStdString(), study.patientId.toStdString(),
+            study.birthDate.toStdString()};
+}
+
 archive::SearchTerms searchTermsOf(const QString &words) {
     static const QRegularExpression range("^\\d{8}-(\\d{8})?$|^-\\d{8}$"),
         isoDate("^(\\d{4})-(\\d{2})-(\\d{2})$"), hasDigit("\\d");

@@ -4,6 +4,7 @@
 #include <QString>
 #include <QStringList>
 
+#include "core/archive/object_folder.h"
 #include "core/archive/search.h"
 #include "ui/studies/study_facts.h"
 
@@ -17,6 +18,8 @@ struct RemoteStudy {
 };
 
 RemoteStudy remoteStudy(const archive::FoundEntry &entry);
+
+archive::Patient patientOf(const StudyFacts &study);
 
 /// What the words of a search mean to a server: dates, a modality, an identifier, a name.
 archive::SearchTerms searchTermsOf(const QString &words);

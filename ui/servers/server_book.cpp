@@ -14,6 +14,7 @@
 
 #include "core/task/error.h"
 #include "ui/jobs/job_runner.h"
+#include "ui/language/shown_text.h"
 #include "ui/servers/login_dialog.h"
 
 namespace pellucid::ui {
@@ -377,7 +378,7 @@ void ServerBook::ask(const std::shared_ptr<Pending> &pending, const QString &key
     dialog->setObjectName("secretDialog");
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setWindowTitle(tr("Server"));
-    dialog->setLabelText(question);
+    dialog->setLabelText(shownText(question));
     dialog->setTextEchoMode(QLineEdit::Password);
     // Not by textValueSelected(), which comes after finished().
     whenEnded(dialog, [this, pending, key, dialog](bool isAccepted) {

@@ -8,6 +8,8 @@
 #include "core/archive/receiving.h"
 #include "core/archive/run_transfer.h"
 #include "core/archive/transfer_log.h"
+#include "core/files/user_folders.h"
+#include "core/system/log.h"
 #include "core/task/error.h"
 #include "ui/servers/server_book.h"
 
@@ -20,7 +22,6 @@ namespace because = task::because;
 // A sender may keep a connection for hours. What it has brought is listed meanwhile, but rarely:
 // listing reads the whole study.
 constexpr int listingMs = 20000;
-constexpr std::size_t mostTold = 50;
 
 } // namespace
 
@@ -29,6 +30,7 @@ ReceiverSettings ReceiverSettings::load() {
     const ReceiverSettings defaults;
     ReceiverSettings r;
     r.isOn = settings.value("receiver/on", defaults.isOn).toBool();
+    r.address = settings.value("receiver/address").toString();
     r.port = std::clamp(settings.value("receiver/port", defaults.port).toInt(), 1, 65535);
     r.ae = settings.value("receiver/ae", defaults.ae).toString();
     r.usesTls = settings.value("receiver/tls", defaults.usesTls).toBool();
@@ -41,6 +43,7 @@ ReceiverSettings ReceiverSettings::load() {
 void ReceiverSettings::save() const {
     QSettings settings;
     settings.setValue("receiver/on", isOn);
+    settings.setValue("receiver/address", address);
     settings.setValue("receiver/port", port);
     settings.setValue("receiver/ae", ae);
     settings.setValue("receiver/tls", usesTls);
@@ -89,6 +92,7 @@ void StudyReceiver::setSettings(const ReceiverSettings &settings) {
 
 archive::ListenerOptions StudyReceiver::options() const {
     archive::ListenerOptions options;
+    options.address = m_settings.address.toStdString();
     options.port = m_settings.port;
     options.ae = m_settings.ae.trimmed().toStdString();
     options.usesTls = m_settings.usesTls;
@@ -118,19 +122,12 @@ void StudyReceiver::restart() {
 void StudyReceiver::start() {
     try {
         const archive::ListenerOptions wanted = options();
-        archive::requireAeTitle(wanted.ae);
+        archive::requireValid(wanted);
         if (wanted.senders.empty())
             throw task::Error(task::ErrorCode::usage, because::noSenderIsKnown);
-        if (wanted.usesTls && (wanted.certificate.empty() || wanted.key.empty()))
-            throw task::Error(task::ErrorCode::usage, because::certificateNeedsItsKey);
         if (wanted.usesTls && archive::isEncryptedKey(wanted.key))
             throw task::Error(task::ErrorCode::usage, because::keyOfReceiverHasAPassword);
-        std::error_code failed;
-        std::filesystem::create_directories(archive::libraryObjectFolder(), failed);
-        if (failed)
-            throw task::Error(task::ErrorCode::output,
-                              because::cannotBeMade(task::systemReason(failed.value())),
-                              archive::libraryObjectFolder());
+        files::createPrivateFolders(archive::libraryObjectFolder());
         const auto tell = [this](const task::Reason &reason, const std::string &what) {
             QMetaObject::invokeMethod(
                 this,
@@ -148,9 +145,10 @@ void StudyReceiver::start() {
             archive::ListenerObserver{[this, tell](const archive::ConnectionEnd &end) {
                 // Whoever scans the network does not fill the list of problems.
                 if (end.reason && !end.reason->is(because::wasCancelled) &&
-                    m_toldOf.insert(end.sender + end.reason->encoded()).second &&
-                    m_toldOf.size() <= mostTold)
+                    m_refused.isNew(end.address, *end.reason))
                     tell(*end.reason, end.sender);
+                if (const auto summary = m_refused.summary())
+                    system::log(summary->english());
                 QMetaObject::invokeMethod(
                     this,
                     [this] {

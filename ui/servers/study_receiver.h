@@ -4,13 +4,12 @@
 #include <atomic>
 #include <memory>
 #include <optional>
-#include <set>
-#include <string>
 
 #include <QObject>
 #include <QTimer>
 
 #include "core/archive/listener.h"
+#include "core/archive/refused_connections.h"
 #include "core/archive/retrieval.h"
 #include "core/task/reason.h"
 
@@ -21,6 +20,7 @@ class ServerBook;
 /// How this program receives what servers send, stored in the user's settings. Off at first.
 struct ReceiverSettings {
     bool isOn = false;
+    QString address; ///< of this computer, IPv4; empty: all
     int port = archive::defaultListenerPort;
     QString ae = "PELLUCID"; ///< AE title of this program
     bool usesTls = false;
@@ -71,7 +71,7 @@ private:
     ReceiverSettings m_settings;
     std::optional<task::Reason> m_failure;
     std::atomic<qint64> m_count = 0;
-    std::set<std::string> m_toldOf;      ///< senders and reasons; for the threads of connections
+    archive::RefusedConnections m_refused;
     QTimer m_listing;                    ///< runs from an arrival until it is listed
     std::unique_ptr<Running> m_listener; ///< last: its threads use the others
 };

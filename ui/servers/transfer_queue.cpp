@@ -38,18 +38,11 @@ public:
     }
 
     /// *Requires*: the largest series comes first.
-    std::shared_ptr<dicom::ArrivingSeries> begin(const std::vector<archive::Instance> &instances,
-                                                 const std::filesystem::path &folder) {
+    std::shared_ptr<dicom::ArrivingSeries> begin(const std::vector<archive::Instance> &instances) {
         for (const archive::Instance &instance : instances)
             if (instance.seriesUid == instances.front().seriesUid)
                 m_numbers.emplace(instance.sopInstanceUid, m_numbers.size());
         m_series = std::make_shared<dicom::ArrivingSeries>(m_numbers.size());
-        const archive::ObjectFolder objects(folder,
-                                            archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
-        for (const archive::Instance &instance : instances)
-            if (objects.has(instance.studyUid, instance.seriesUid, instance.sopInstanceUid))
-                add(instance.sopInstanceUid,
-                    objects.pathOf(instance.studyUid, instance.seriesUid, instance.sopInstanceUid));
         return m_series;
     }
     void add(const std::string &sopInstanceUid, const std::filesystem::path &path) {
@@ -120,6 +113,7 @@ void TransferQueue::add(const RemoteStudy &study, QWidget *asking, Urgency urgen
         transfer.title = studyText(study.study).toStdString();
         transfer.folder = archive::libraryObjectFolder();
         transfer.isForLater = urgency == Urgency::later;
+        m_listed[study.study.uid] = patientOf(study.study);
         const qint64 id = TransferLog(TransferLog::fileOfUser()).add(transfer);
         m_elsewhere.erase(id);
         read();
@@ -211,9 +205,11 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
             }
         emit changed();
     };
+    const auto report = std::make_shared<archive::RetrievalReport>();
     m_jobs.start(
         tr("Retrieving %1").arg(QString::fromStdString(transfer.title)),
-        [this, transfer, server, show,
+        [this, transfer, server, show, report,
+         listed = m_listed.value(QString::fromStdString(transfer.wanted.studyUid)),
          destination = m_receiver.destinationFor(server)](const Job &job) {
             archive::RetrievalObserver observer;
             auto shown = std::chrono::steady_clock::now();
@@ -225,19 +221,22 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
                 job.deliver([show, state] { show(state); });
             };
             SeriesToShow arrivals;
+            std::shared_ptr<dicom::ArrivingSeries> series;
             observer.listed = [&](const std::vector<archive::Instance> &instances) {
-                job.deliver([this, uid = QString::fromStdString(transfer.wanted.studyUid),
-                             series = arrivals.begin(instances, transfer.folder)] {
-                    emit arriving(uid, series);
-                });
+                series = arrivals.begin(instances);
             };
-            observer.stored = [&](const archive::StoredObject &object) {
+            observer.matches = [&](const archive::StoredObject &object) {
                 arrivals.add(object.sopInstanceUid, object.path);
+                if (series) // from the first object on
+                    job.deliver(
+                        [this, uid = QString::fromStdString(transfer.wanted.studyUid),
+                         begun = std::exchange(series, nullptr)] { emit arriving(uid, begun); });
             };
             TransferLog log(TransferLog::fileOfUser());
-            archive::runTransfer(log, transfer.id, server, observer, job.progress(), destination);
+            *report = archive::runTransfer(log, transfer.id, server, observer, job.progress(),
+                                           destination, listed);
         },
-        [this, transfer](const Outcome &outcome) {
+        [this, transfer, report](const Outcome &outcome) {
             m_running = 0;
             attempt([this] { read(); });
             listArrivals();
@@ -247,7 +246,7 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
             if (ended != m_transfers.end() && ended->state == TransferState::complete)
                 emit completed(
                     QString::fromStdString((transfer.folder / transfer.wanted.studyUid).string()),
-                    !isForLater(transfer.id));
+                    !isForLater(transfer.id), *report);
             // The user is asked to log in; what has arrived is not asked for again.
             if (outcome.kind == Outcome::Kind::failed && m_asking != nullptr &&
                 !isForLater(transfer.id) && outcome.reason->is(task::because::loginHasExpired)) {

@@ -54,8 +54,10 @@ signals:
     void changed();
     /// The largest series of a study begins to arrive.
     void arriving(const QString &studyUid, const std::shared_ptr<dicom::ArrivingSeries> &series);
-    /// All of a study is here. `isAwaited`: a user asked for it.
-    void completed(const QString &folder, bool isAwaited);
+    /// All of a study is here, perhaps with images of a patient who is not the one listed.
+    /// `isAwaited`: a user asked for it.
+    void completed(const QString &folder, bool isAwaited,
+                   const pellucid::archive::RetrievalReport &report);
     void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
@@ -80,7 +82,8 @@ private:
     QTimer m_look;
     QPair<QDateTime, QDateTime> m_logTimes; ///< when the log was last written
     std::size_t m_arrivalsSeen = 0;
-    QPointer<QWidget> m_asking; ///< windows come and go
+    QHash<QString, archive::Patient> m_listed; ///< with which patient a study was asked for, by UID
+    QPointer<QWidget> m_asking;                ///< windows come and go
     JobRunner m_jobs;
 };
 

@@ -16,6 +16,8 @@
 #include <QUrl>
 #include <QVariant>
 
+#include "ui/language/shown_text.h"
+
 namespace pellucid::ui {
 
 namespace {
@@ -103,10 +105,10 @@ QLineEdit *addFileRow(QFormLayout &form, const QString &label, const char *name,
                       const QString &tip) {
     auto *edit = new QLineEdit;
     edit->setObjectName(name);
-    edit->setToolTip(tip);
+    edit->setToolTip(plainToolTip(tip));
     auto *choose = new QToolButton;
     choose->setText("...");
-    choose->setToolTip(tip);
+    choose->setToolTip(plainToolTip(tip));
     QObject::connect(choose, &QToolButton::clicked, edit, [edit, label] {
         const QStringList chosen = askForFiles(edit, label);
         if (!chosen.isEmpty())

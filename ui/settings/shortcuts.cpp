@@ -8,6 +8,8 @@
 #include <QRegularExpression>
 #include <QSettings>
 
+#include "ui/language/shown_text.h"
+
 namespace pellucid::ui {
 
 namespace {
@@ -40,7 +42,7 @@ void showKey(QAction &action) {
         action.setProperty(tipProperty, plain(action.toolTip()));
     const QString tip = action.property(tipProperty).toString();
     const QString key = action.shortcut().toString(QKeySequence::NativeText);
-    action.setToolTip(key.isEmpty() ? tip : QString("%1 (%2)").arg(tip, key));
+    action.setToolTip(plainToolTip(key.isEmpty() ? tip : QString("%1 (%2)").arg(tip, key)));
 }
 
 void add(const QMenu &menu, const QString &path, std::vector<ShortcutEntry> &entries) {

@@ -114,9 +114,8 @@ StudySource differenceSource(const StudySource &minuend, const StudySource &subt
     StudySource source =
         pairSource(minuend, subtrahend,
                    QString("difference %1 %2 %3%4")
-                       .arg(weights.minuend)
-                       .arg(weights.subtrahend)
-                       .arg(minuend.digest().left(16) + " " + subtrahend.digest().left(16),
+                       .arg(QString::number(weights.minuend), QString::number(weights.subtrahend),
+                            minuend.digest().left(16) + " " + subtrahend.digest().left(16),
                             method.alignment ? " aligned" : ""));
     QString &name = source.volume.description;
     name = weightedName(nameOf(minuend), seriesText(subtrahend.volume), weights);

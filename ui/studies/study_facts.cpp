@@ -12,6 +12,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 
 namespace pellucid::ui {
 
@@ -91,12 +92,9 @@ QString VolumeFacts::key() const {
     // versions.
     return seriesUid + "\n" + text(dicom::labelText(label)) + "\n" +
            QString("%1 %2 %3 %4 %5 %6")
-               .arg(size.i)
-               .arg(size.j)
-               .arg(size.k)
-               .arg(spacingMm.x, 0, 'f', 2)
-               .arg(spacingMm.y, 0, 'f', 2)
-               .arg(spacingMm.z, 0, 'f', 2) +
+               .arg(QString::number(size.i), QString::number(size.j), QString::number(size.k),
+                    QString::number(spacingMm.x, 'f', 2), QString::number(spacingMm.y, 'f', 2),
+                    QString::number(spacingMm.z, 'f', 2)) +
            "\n" + file;
 }
 
@@ -146,17 +144,18 @@ QString patientText(const StudyFacts &study) {
         return StudyFactsTexts::tr("Phantoms");
     if (study.patientId == "files") // these contain no patient data
         return StudyFactsTexts::tr("Files");
-    const QString name = QString(study.patientName).replace('^', ' ').simplified();
+    const QString name = shownText(study.patientName).replace('^', ' ').simplified();
     if (!name.isEmpty())
         return name;
-    return study.patientId.isEmpty() ? StudyFactsTexts::tr("Unnamed") : study.patientId;
+    return study.patientId.isEmpty() ? StudyFactsTexts::tr("Unnamed") : shownText(study.patientId);
 }
 
 QString studyText(const StudyFacts &study) {
     if (study.patientId == "files")
         return StudyFactsTexts::tr("Volume files");
     const QString result =
-        (dateText(study.date) + " " + study.modalities + " " + study.description).simplified();
+        shownText(dateText(study.date) + " " + study.modalities + " " + study.description)
+            .simplified();
     return result.isEmpty() ? StudyFactsTexts::tr("Study") : result;
 }
 
@@ -170,10 +169,9 @@ bool arePhases(const VolumeFacts &a, const VolumeFacts &b) {
 
 QString seriesText(const VolumeFacts &volume) {
     if (volume.size.count() == 0) // it begins to arrive, and nothing more is known
-        return volume.description;
-    QString result = QString("%1 %2")
-                         .arg(volume.seriesNumber)
-                         .arg(volume.description.isEmpty() ? volume.modality : volume.description);
+        return shownText(volume.description);
+    QString result = QString::number(volume.seriesNumber) + " " +
+                     shownText(volume.description.isEmpty() ? volume.modality : volume.description);
     if (volume.phases > 1)
         result += ", " + StudyFactsTexts::tr("%n phases", "", volume.phases);
     else if (!volume.label.empty())
@@ -184,11 +182,13 @@ QString seriesText(const VolumeFacts &volume) {
 QString sizeText(const VolumeFacts &v) {
     if (v.size.count() == 0)
         return {};
-    QString result = QString::fromUtf8("%1 × %2 × %3").arg(v.size.i).arg(v.size.j).arg(v.size.k);
+    QString result =
+        QString::fromUtf8("%1 × %2 × %3")
+            .arg(QString::number(v.size.i), QString::number(v.size.j), QString::number(v.size.k));
     if (v.spacingMm.x > 0.0)
         result += QString::fromUtf8("\n%1 × %2")
-                      .arg(v.spacingMm.x, 0, 'f', 2)
-                      .arg(v.spacingMm.y, 0, 'f', 2);
+                      .arg(QString::number(v.spacingMm.x, 'f', 2),
+                           QString::number(v.spacingMm.y, 'f', 2));
     if (v.spacingMm.z > 0.0)
         result += QString::fromUtf8(" × %1").arg(v.spacingMm.z, 0, 'f', 2);
     return v.spacingMm.x > 0.0 ? result + " mm" : result;
@@ -202,7 +202,8 @@ QStringList warningTexts(const VolumeFacts &volume) {
 }
 
 QString dateText(const QString &date) {
-    return date.size() == 8 ? date.left(4) + "-" + date.mid(4, 2) + "-" + date.right(2) : date;
+    const QString shown = shownText(date);
+    return shown.size() == 8 ? shown.left(4) + "-" + shown.mid(4, 2) + "-" + shown.right(2) : shown;
 }
 
 } // namespace pellucid::ui

@@ -18,7 +18,7 @@
 
 #include "core/mpr/reslice.h"
 #include "ui/document/document.h"
-#include "ui/language/plain_tooltip.h"
+#include "ui/language/shown_text.h"
 #include "ui/theme/theme.h"
 #include "ui/views/crosshair.h"
 #include "ui/views/overlay.h"

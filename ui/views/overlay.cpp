@@ -13,6 +13,7 @@
 
 #include "core/scene/camera.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/theme/theme.h"
 
 namespace pellucid::ui {
@@ -81,6 +82,7 @@ void drawWarningMark(QPainter &painter, const QRect &area, std::size_t count,
 
 void drawText(QPainter &painter, const QRect &area, int flags, const QString &text,
               const QColor &color) {
+    const QString shown = shownLines(text);
     // On bone, a thin outline is not enough: a faint one around it separates text and picture.
     const bool isLight = color.lightness() > 110;
     QColor outline = isLight ? QColor(0, 0, 0) : QColor(255, 255, 255);
@@ -88,13 +90,13 @@ void drawText(QPainter &painter, const QRect &area, int flags, const QString &te
     painter.setPen(outline);
     for (const QPoint &offset : {QPoint(-2, 0), QPoint(2, 0), QPoint(0, -2), QPoint(0, 2),
                                  QPoint(-1, -1), QPoint(1, -1), QPoint(-1, 1), QPoint(1, 1)})
-        painter.drawText(area.translated(offset), flags, text);
+        painter.drawText(area.translated(offset), flags, shown);
     outline.setAlpha(isLight ? 190 : 210);
     painter.setPen(outline);
     for (const QPoint &offset : {QPoint(-1, 0), QPoint(1, 0), QPoint(0, -1), QPoint(0, 1)})
-        painter.drawText(area.translated(offset), flags, text);
+        painter.drawText(area.translated(offset), flags, shown);
     painter.setPen(color);
-    painter.drawText(area, flags, text);
+    painter.drawText(area, flags, shown);
 }
 
 void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dvec3 &right,

@@ -27,13 +27,13 @@ QString slabText(const mpr::Slab &slab) {
     const QString mode = slab.mode == mpr::SlabMode::mean      ? PlaneTextsTexts::tr("mean")
                          : slab.mode == mpr::SlabMode::maximum ? PlaneTextsTexts::tr("MIP")
                                                                : PlaneTextsTexts::tr("MinIP");
-    return PlaneTextsTexts::tr("%1, %2 mm").arg(mode).arg(slab.thicknessMm);
+    return PlaneTextsTexts::tr("%1, %2 mm").arg(mode, QString::number(slab.thicknessMm));
 }
 
 // "S 142.5": the patient's direction of the coordinate, and its absolute value.
 QString coordinateText(const glm::dvec3 &axis, double mm) {
     const std::string side = scene::patientLetters(mm < 0.0 ? -axis : axis);
-    return QString("%1 %2").arg(QString::fromStdString(side)).arg(std::abs(mm), 0, 'f', 1);
+    return QString::fromStdString(side) + " " + QString::number(std::abs(mm), 'f', 1);
 }
 
 // In planes across filled gaps, draws the edges of the gaps. Returns whether this plane lies within
@@ -84,7 +84,7 @@ QString sliceText(const Document &document, const glm::dvec3 &axis) {
     const int count = numberAt(range.highMm);
     const int number =
         std::clamp(numberAt(glm::dot(document.crosshair().mm, axis)), 1, std::max(1, count));
-    return count > 1 ? QString("%1 / %2").arg(number).arg(count) : QString();
+    return count > 1 ? QString::number(number) + " / " + QString::number(count) : QString();
 }
 
 QString windowText(const Document &document) {

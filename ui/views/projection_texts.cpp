@@ -52,9 +52,8 @@ QString qualityText(const DescribedFrame &described) {
 QString figuresText(const DescribedFrame &described) {
     const RenderedFrame &frame = described.frame;
     return QString("%1  %2  %3")
-        .arg(frame.onCard ? "GPU" : "CPU")
-        .arg(millisecondsText(frame.times.totalMs()))
-        .arg(frame.draft ? ProjectionTexts::tr("draft") : qualityText(described));
+        .arg(QString(frame.onCard ? "GPU" : "CPU"), millisecondsText(frame.times.totalMs()),
+             frame.draft ? ProjectionTexts::tr("draft") : qualityText(described));
 }
 
 QString anglesText(const scene::PositionerAngles &angles) {

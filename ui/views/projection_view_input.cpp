@@ -11,7 +11,7 @@
 
 #include "core/scene/positioner_angles.h"
 #include "ui/document/document.h"
-#include "ui/language/plain_tooltip.h"
+#include "ui/language/shown_text.h"
 #include "ui/views/camera_moves.h"
 #include "ui/views/projection_overlay.h"
 #include "ui/views/projection_view.h"

@@ -5,7 +5,6 @@
 
 #include <QDialogButtonBox>
 #include <QFormLayout>
-#include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
 #include <QRegularExpression>
@@ -15,6 +14,7 @@
 #include "core/scene/positioner_angles.h"
 #include "ui/document/document.h"
 #include "ui/language/names.h"
+#include "ui/language/plain_label.h"
 #include "ui/views/projection_texts.h"
 #include "ui/views/projection_view.h"
 
@@ -91,7 +91,7 @@ AngleDialog::AngleDialog(const Document &document, ProjectionView &projection, Q
     buttons->button(QDialogButtonBox::Close)->setAutoDefault(false);
     auto *column = new QVBoxLayout(this);
     column->addLayout(form);
-    column->addWidget(new QLabel(tr("Common angulations")));
+    column->addWidget(new PlainLabel(tr("Common angulations")));
     column->addWidget(m_common, 1);
     column->addWidget(buttons);
     resize(280, 420);

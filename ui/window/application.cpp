@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/application.h"
 
+#include <utility>
+
+#include "core/helper/protection.h"
 #include "core/task/progress.h"
 #include "ui/language/failure.h"
+#include "ui/language/plain_label.h"
 
 namespace pellucid::ui {
 
@@ -12,8 +16,25 @@ constexpr qint64 silenceMs = 2000;
 
 } // namespace
 
+Application::Application(int &argc, char **argv) : QApplication(argc, argv) {
+    helper::whenUnprotected([this] {
+        QMetaObject::invokeMethod(
+            this,
+            [this] {
+                if (!std::exchange(m_isUnprotected, true))
+                    emit unprotected();
+            },
+            Qt::QueuedConnection);
+    });
+}
+
+Application::~Application() {
+    helper::whenUnprotected({});
+}
+
 bool Application::notify(QObject *receiver, QEvent *event) {
     try {
+        keepPlain(receiver, *event);
         return QApplication::notify(receiver, event);
     } catch (const task::Cancelled &) {
         // Nothing waits for the result.

@@ -7,12 +7,12 @@
 #include <QDialogButtonBox>
 #include <QGuiApplication>
 #include <QHeaderView>
-#include <QLabel>
 #include <QPushButton>
 #include <QTableWidget>
 #include <QVBoxLayout>
 
 #include "core/files/atomic_file.h"
+#include "core/files/table_cell.h"
 #include "core/preprocess/segment_class.h"
 #include "core/preprocess/step_cache.h"
 #include "core/task/error.h"
@@ -20,6 +20,7 @@
 #include "ui/jobs/job_strip.h"
 #include "ui/language/names.h"
 #include "ui/language/number_text.h"
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/settings/file_dialogs.h"
 
@@ -54,7 +55,7 @@ std::vector<ClassVolumesDialog::Row> measured(const volume::Volume &volume,
 
 ClassVolumesDialog::ClassVolumesDialog(const Document &document, QWidget *parent)
     : QDialog(parent), m_document(document), m_table(new QTableWidget(0, count)),
-      m_message(new QLabel), m_copy(new QPushButton(tr("Copy"))),
+      m_message(new PlainLabel), m_copy(new QPushButton(tr("Copy"))),
       m_save(new QPushButton(tr("Save as..."))) {
     setObjectName("classVolumesDialog");
     setWindowTitle(tr("Volumes of the classes"));
@@ -155,10 +156,11 @@ QString ClassVolumesDialog::table(QChar separator) const {
         for (int c = 0; c < count; ++c) {
             const QTableWidgetItem *const item =
                 row < 0 ? m_table->horizontalHeaderItem(c) : m_table->item(row, c);
-            QString text = item->text();
-            if (separator == ',') // RFC 4180
-                text = '"' + text.replace('"', "\"\"") + '"';
-            cells << text;
+            std::string cell = item->text().toStdString();
+            if (row >= 0 && c == nameColumn)
+                cell = files::tableCell(cell);
+            cells << QString::fromStdString(separator == ',' ? files::csvField(cell)
+                                                             : files::tabbedField(cell));
         }
         lines << cells.join(separator);
     }

@@ -11,13 +11,13 @@
 #include "core/measure/measurement.h"
 #include "ui/jobs/job_runner.h"
 
-class QLabel;
 class QPushButton;
 class QTableWidget;
 
 namespace pellucid::ui {
 
 class Document;
+class PlainLabel;
 
 /// How large the classes of the look are, and which values they have.
 class ClassVolumesDialog : public QDialog {
@@ -47,7 +47,7 @@ private:
     const Document &m_document;
     std::vector<classify::TissueClass> m_measured; ///< what the table shows
     QTableWidget *m_table;
-    QLabel *m_message;
+    PlainLabel *m_message;
     QPushButton *m_copy, *m_save;
     JobRunner m_jobs; ///< last: its work refers to the others
 };

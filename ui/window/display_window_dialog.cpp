@@ -9,7 +9,6 @@
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
-#include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QTableWidget>
@@ -18,6 +17,7 @@
 #include "ui/document/document.h"
 #include "ui/language/names.h"
 #include "ui/language/number_text.h"
+#include "ui/language/plain_label.h"
 
 namespace pellucid::ui {
 
@@ -62,8 +62,9 @@ DisplayWindowDialog::DisplayWindowDialog(Document &document, QWidget *parent)
     auto *form = new QFormLayout;
     form->addRow(tr("Width"), m_width);
     form->addRow(tr("Center"), m_center);
-    auto *hint = new QLabel(tr("The first eight presets of a unit are on the keys 1 to 8. Key 0 "
-                               "sets the automatic window, key 9 the file's own."));
+    auto *hint =
+        new PlainLabel(tr("The first eight presets of a unit are on the keys 1 to 8. Key 0 "
+                          "sets the automatic window, key 9 the file's own."));
     hint->setProperty("role", "muted");
     hint->setWordWrap(true);
     auto *edits = new QHBoxLayout;
@@ -79,7 +80,7 @@ DisplayWindowDialog::DisplayWindowDialog(Document &document, QWidget *parent)
     column->addLayout(form);
     column->addWidget(m_add, 0, Qt::AlignLeft);
     column->addSpacing(8);
-    column->addWidget(new QLabel(tr("Presets")));
+    column->addWidget(new PlainLabel(tr("Presets")));
     column->addWidget(m_table, 1);
     column->addLayout(edits);
     column->addWidget(hint);

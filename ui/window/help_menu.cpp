@@ -6,7 +6,6 @@
 #include <QDialogButtonBox>
 #include <QFile>
 #include <QHeaderView>
-#include <QLabel>
 #include <QLocale>
 #include <QMenu>
 #include <QPlainTextEdit>
@@ -15,6 +14,7 @@
 #include <QVBoxLayout>
 
 #include "ui/document/add_command.h"
+#include "ui/language/plain_label.h"
 #include "ui/window/libraries.h"
 #include "ui/window/manual_window.h"
 
@@ -65,14 +65,14 @@ void showAbout(QWidget &window) {
     dialog->setObjectName("aboutDialog");
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setWindowTitle(HelpMenuTexts::tr("About Pellucid"));
-    auto *name = new QLabel("Pellucid " + QCoreApplication::applicationVersion());
+    auto *name = new PlainLabel("Pellucid " + QCoreApplication::applicationVersion());
     name->setProperty("role", "title");
     auto *what =
-        new QLabel(HelpMenuTexts::tr("Projections of DICOM studies in the frequency domain."));
-    auto *warning = new QLabel(HelpMenuTexts::tr("Not for diagnostic use."));
+        new PlainLabel(HelpMenuTexts::tr("Projections of DICOM studies in the frequency domain."));
+    auto *warning = new PlainLabel(HelpMenuTexts::tr("Not for diagnostic use."));
     warning->setObjectName("aboutWarning");
     warning->setProperty("role", "warning");
-    auto *terms = new QLabel(
+    auto *terms = new PlainLabel(
         HelpMenuTexts::tr("Free software under the GNU General Public License, version 3 "
                           "or later; without any warranty."));
     terms->setWordWrap(true);

@@ -5,13 +5,14 @@
 #include <QDir>
 #include <QHBoxLayout>
 #include <QKeyEvent>
-#include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
 #include <QRadioButton>
 #include <QSettings>
 #include <QVBoxLayout>
 
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 #include "ui/settings/file_dialogs.h"
 
 namespace pellucid::ui {
@@ -24,8 +25,9 @@ constexpr int listHeight = 140;
 } // namespace
 
 ImportDialog::ImportDialog(const QStringList &paths, QWidget *parent)
-    : QDialog(parent), m_hint(new QLabel(tr("Choose files, folders, a DICOMDIR or ZIP archives. "
-                                            "Folders are searched recursively."))),
+    : QDialog(parent),
+      m_hint(new PlainLabel(tr("Choose files, folders, a DICOMDIR or ZIP archives. "
+                               "Folders are searched recursively."))),
       m_list(new QListWidget), m_remove(new QPushButton(tr("Remove"))),
       m_refer(new QRadioButton(tr("&Reference the files in place"))),
       m_copy(new QRadioButton(tr("&Copy the files into the library"))) {
@@ -88,8 +90,9 @@ void ImportDialog::add(const QStringList &paths) {
     for (const QString &path : paths)
         if (!m_paths.contains(path)) {
             m_paths << path;
-            auto *item = new QListWidgetItem(QDir::toNativeSeparators(path), m_list);
-            item->setToolTip(item->text());
+            const QString text = QDir::toNativeSeparators(path);
+            auto *item = new QListWidgetItem(shownText(text), m_list);
+            item->setToolTip(plainToolTip(text));
         }
     showPaths();
 }

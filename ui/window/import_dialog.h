@@ -6,12 +6,13 @@
 
 #include "ui/library/import_studies.h"
 
-class QLabel;
 class QListWidget;
 class QPushButton;
 class QRadioButton;
 
 namespace pellucid::ui {
+
+class PlainLabel;
 
 /// Selects what to import, and whether by reference or by copy; remembers that choice.
 class ImportDialog : public QDialog {
@@ -32,7 +33,7 @@ private:
     void accept() override;
 
     QStringList m_paths;
-    QLabel *m_hint;
+    PlainLabel *m_hint;
     QListWidget *m_list;
     QPushButton *m_remove;
     QRadioButton *m_refer, *m_copy;

@@ -9,7 +9,6 @@
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QFileInfo>
-#include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QScreen>
@@ -25,7 +24,9 @@
 #include "ui/beside/study_projection.h"
 #include "ui/document/add_command.h"
 #include "ui/jobs/job_strip.h"
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/panels/classes_panel.h"
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/phase_bar.h"
@@ -194,9 +195,9 @@ void MainWindow::connectStudyDocks() {
     connect(&m_bench.library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
         m_bench.study.document.addProblems(result.skipped);
         statusBar()->showMessage(tr("Imported: %1 series, %2 files; %3 not used")
-                                     .arg(result.series)
-                                     .arg(result.files)
-                                     .arg(result.skipped.size()),
+                                     .arg(QString::number(result.series),
+                                          QString::number(result.files),
+                                          QString::number(result.skipped.size())),
                                  8000);
     });
     connect(&m_docks->measurements(), &MeasurementsPanel::viewRequested, m_projection,
@@ -218,7 +219,7 @@ void MainWindow::createFileMenu() {
     if (const auto *const application = qobject_cast<Application *>(qApp))
         connect(application, &Application::failed, this, &MainWindow::report);
     connect(m_file, &FileMenu::messageShown, this,
-            [this](const QString &text) { statusBar()->showMessage(text, 4000); });
+            [this](const QString &text) { statusBar()->showMessage(shownText(text), 4000); });
     connect(m_file, &FileMenu::quitRequested, this, &QWidget::close);
     connect(m_file, &FileMenu::recentForgotten, m_reopening, &Reopening::forgetAll);
     connect(m_file, &FileMenu::preferencesRequested, this, [this] { openPreferences(); });
@@ -239,7 +240,7 @@ void MainWindow::createFileMenu() {
             [this](const QString &folder) { openPaths({folder}); });
     connect(m_servers, &ServerCommands::besideRequested, m_pair, &StudyPair::openBeside);
     connect(m_servers, &ServerCommands::messageShown, this,
-            [this](const QString &text) { statusBar()->showMessage(text, 4000); });
+            [this](const QString &text) { statusBar()->showMessage(shownText(text), 4000); });
     connect(m_start, &StartPage::openFilesRequested, m_file, &FileMenu::chooseFiles);
     connect(m_start, &StartPage::openFolderRequested, m_file, &FileMenu::chooseFolder);
 }
@@ -310,10 +311,10 @@ void MainWindow::createHelpMenu() {
 }
 
 void MainWindow::createStatusBar() {
-    m_readout = new QLabel;
+    m_readout = new PlainLabel;
     m_readout->setObjectName("cursorReadout");
     m_readout->setMinimumWidth(280);
-    m_engine = new QLabel;
+    m_engine = new PlainLabel;
     m_engine->setObjectName("engineLabel");
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_readout);
@@ -321,6 +322,17 @@ void MainWindow::createStatusBar() {
         new JobStrip(m_bench.study.jobs, "job", [this] { m_bench.study.preparer.cancel(); }));
     statusBar()->addWidget(new JobStrip(m_bench.exports, "export"));
     statusBar()->addPermanentWidget(m_engine);
+    if (const auto *const application = qobject_cast<Application *>(qApp)) {
+        auto *const unprotected = new PlainLabel(tr("Not protected"));
+        unprotected->setObjectName("unprotectedLabel");
+        unprotected->setProperty("role", "warning");
+        unprotected->setToolTip(plainToolTip(translated(task::because::systemDoesNotProtect)));
+        statusBar()->addPermanentWidget(unprotected);
+        unprotected->setVisible(application->isUnprotected());
+        connect(application, &Application::unprotected, unprotected, &QWidget::show);
+        connect(application, &Application::unprotected, this,
+                [this] { report(task::because::systemDoesNotProtect, {}); });
+    }
     connect(&m_bench.study.jobs, &JobRunner::failed, this, &MainWindow::reportLoad);
     connect(&m_bench.study.regions.jobs(), &JobRunner::failed, this, &MainWindow::report);
     connect(&m_bench.study.document, &Document::editRefused, this,
@@ -331,8 +343,8 @@ void MainWindow::createStatusBar() {
         m_engine->setText(text);
     });
     for (MprView *view : m_mpr)
-        connect(view, &MprView::readoutChanged, m_readout, &QLabel::setText);
-    connect(m_pair, &StudyPair::readoutChanged, m_readout, &QLabel::setText);
+        connect(view, &MprView::readoutChanged, m_readout, &PlainLabel::setText);
+    connect(m_pair, &StudyPair::readoutChanged, m_readout, &PlainLabel::setText);
     m_engine->setText(m_bench.card.description());
 }
 
@@ -395,10 +407,11 @@ void MainWindow::setPreferences(const Preferences &preferences) {
 // The patient's name appears only if the user asked for it.
 void MainWindow::showTitle() {
     const int open = m_bench.study.document.currentSource();
-    setWindowTitle(m_preferences.showsPatient && open >= 0
-                       ? patientText(m_bench.study.document.sources()[std::size_t(open)].study) +
-                             " - Pellucid"
-                       : QString("Pellucid"));
+    setWindowTitle(
+        m_preferences.showsPatient && open >= 0
+            ? titleText(patientText(m_bench.study.document.sources()[std::size_t(open)].study)) +
+                  " - Pellucid"
+            : QString("Pellucid"));
 }
 
 void MainWindow::openPhantom(const QString &kind) {
@@ -448,7 +461,8 @@ void MainWindow::showClassVolumes() {
         dialog = new ClassVolumesDialog(document, this);
         connect(dialog, &ClassVolumesDialog::failed, this, &MainWindow::report);
         connect(dialog, &ClassVolumesDialog::saved, this, [this](const QString &path) {
-            statusBar()->showMessage(tr("Saved: %1").arg(QFileInfo(path).fileName()), 4000);
+            statusBar()->showMessage(tr("Saved: %1").arg(shownText(QFileInfo(path).fileName())),
+                                     4000);
         });
     }
     dialog->show();

@@ -11,7 +11,6 @@
 #include "ui/theme/theme.h"
 #include "ui/window/workbench.h"
 
-class QLabel;
 class QStackedWidget;
 
 namespace pellucid::ui {
@@ -20,6 +19,7 @@ class FileMenu;
 class LookDocks;
 class MprView;
 class PaneArea;
+class PlainLabel;
 class PreferencesDialog;
 class ProjectionView;
 class Reopening;
@@ -105,7 +105,7 @@ private:
     StudyDocks *m_docks = nullptr;
     ToolsMenu *m_tools = nullptr;
     ViewMenu *m_view = nullptr;
-    QLabel *m_readout = nullptr, *m_engine = nullptr;
+    PlainLabel *m_readout = nullptr, *m_engine = nullptr;
 };
 
 } // namespace pellucid::ui

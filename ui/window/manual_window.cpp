@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QLineEdit>
 #include <QScreen>
 #include <QScrollBar>
@@ -18,6 +17,8 @@
 #include <QTreeWidgetItemIterator>
 #include <QVBoxLayout>
 
+#include "ui/language/plain_label.h"
+
 namespace pellucid::ui {
 
 namespace {
@@ -29,7 +30,7 @@ constexpr int shortestSearch = 2;
 } // namespace
 
 ManualWindow::ManualWindow(const QUrl &page)
-    : m_search(new QLineEdit), m_count(new QLabel), m_contents(new QTreeWidget),
+    : m_search(new QLineEdit), m_count(new PlainLabel), m_contents(new QTreeWidget),
       m_text(new QTextBrowser) {
     setObjectName("manualWindow");
     setAttribute(Qt::WA_DeleteOnClose);
@@ -150,7 +151,9 @@ void ManualWindow::showFound() {
         m_count->clear();
     else
         m_count->setText(m_found.isEmpty() ? tr("Nothing found")
-                                           : tr("%1 of %2").arg(m_shown + 1).arg(m_found.size()));
+                                           : tr("%1 of %2")
+                                                 .arg(QString::number(m_shown + 1),
+                                                      QString::number(m_found.size())));
 }
 
 // Marks the section at the top of the window.

@@ -4,12 +4,13 @@
 #include <QUrl>
 #include <QWidget>
 
-class QLabel;
 class QLineEdit;
 class QTextBrowser;
 class QTreeWidget;
 
 namespace pellucid::ui {
+
+class PlainLabel;
 
 /// The manual: its contents, made from its headings, beside its text, and a search.
 class ManualWindow : public QWidget {
@@ -26,7 +27,7 @@ private:
     void followScrolling();
 
     QLineEdit *m_search;
-    QLabel *m_count;
+    PlainLabel *m_count;
     QTreeWidget *m_contents;
     QTextBrowser *m_text;
     QList<int> m_found; ///< positions in the text

@@ -9,6 +9,7 @@
 
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
+#include "ui/language/shown_text.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
@@ -68,9 +69,8 @@ void PaneMenus::addMeasurement(QMenu &menu, Document &document, int measurement)
         return;
     const measure::Measurement chosen = measured[std::size_t(measurement)].measurement;
     const QString name = QString::fromStdString(chosen.name).simplified().left(30);
-    menu.addAction(name.isEmpty() ? tr("&Delete")
-                                  : tr("&Delete %1").arg(QString(name).replace('&', "&&")),
-                   this, [&document, chosen] {
+    menu.addAction(name.isEmpty() ? tr("&Delete") : tr("&Delete %1").arg(menuText(name)), this,
+                   [&document, chosen] {
                        auto all = document.measurements();
                        const auto found = std::find(all.begin(), all.end(), chosen);
                        if (found == all.end())
@@ -98,7 +98,8 @@ void PaneMenus::addProjection(QMenu &menu) {
                       "topViewAction", "bottomViewAction"});
     addNamed(menu, {"anglesAction"});
     menu.addSeparator();
-    menu.addAction(tr("&Fit to the patient") + "\tR", m_viewer.projection, &ProjectionView::fitView);
+    menu.addAction(tr("&Fit to the patient") + "\tR", m_viewer.projection,
+                   &ProjectionView::fitView);
     addNamed(menu, {"filmAction", "automaticToneAction", "removeCouchAction", "depthCueAction",
                     "compareAction"});
 }

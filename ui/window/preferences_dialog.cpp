@@ -11,13 +11,14 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeySequenceEdit>
-#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 #include "ui/studies/search_words.h"
 
 namespace pellucid::ui {
@@ -37,7 +38,7 @@ QComboBox *box(const char *name, const std::vector<std::pair<QString, QVariant>>
 QCheckBox *check(const char *name, const QString &text, const QString &tip, bool isOn) {
     auto *check = new QCheckBox(text);
     check->setObjectName(name);
-    check->setToolTip(tip);
+    check->setToolTip(plainToolTip(tip));
     check->setChecked(isOn);
     return check;
 }
@@ -153,7 +154,7 @@ QWidget *PreferencesDialog::makeShortcuts() {
     none->setObjectName("noKeyButton");
     auto *all = new QPushButton(tr("Restore all defaults"));
     all->setObjectName("defaultKeysButton");
-    m_conflict = new QLabel;
+    m_conflict = new PlainLabel;
     m_conflict->setObjectName("shortcutConflict");
     m_conflict->setProperty("role", "warning");
     m_conflict->setWordWrap(true);

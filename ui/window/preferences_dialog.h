@@ -9,12 +9,13 @@
 class QCheckBox;
 class QComboBox;
 class QKeySequenceEdit;
-class QLabel;
 class QLineEdit;
 class QTabWidget;
 class QTreeWidget;
 
 namespace pellucid::ui {
+
+class PlainLabel;
 
 /// The preferences and the keys of all actions. Changes are saved and take effect at once.
 class PreferencesDialog : public QDialog {
@@ -50,7 +51,7 @@ private:
     QLineEdit *m_filter;
     QTreeWidget *m_commands;
     QKeySequenceEdit *m_key;
-    QLabel *m_conflict;
+    PlainLabel *m_conflict;
 };
 
 } // namespace pellucid::ui

@@ -4,13 +4,13 @@
 #include <QCheckBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStyle>
 #include <QVBoxLayout>
 
+#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/servers/study_receiver.h"
 #include "ui/settings/file_dialogs.h"
@@ -21,7 +21,8 @@ ReceiverForm::ReceiverForm(StudyReceiver &receiver, QWidget *parent)
     : QWidget(parent), m_receiver(receiver), m_form(new QFormLayout),
       m_on(new QCheckBox(tr("&Receive what the DICOM servers in the list send"))),
       m_tls(new QCheckBox(tr("&Encrypt connections (TLS)"))), m_ae(new QLineEdit),
-      m_port(new QSpinBox), m_state(new QLabel), m_apply(new QPushButton(tr("&Apply"))) {
+      m_address(new QLineEdit), m_port(new QSpinBox), m_state(new PlainLabel),
+      m_apply(new QPushButton(tr("&Apply"))) {
     setObjectName("receiverForm");
     const ReceiverSettings &now = receiver.settings();
     m_on->setObjectName("receiverOnBox");
@@ -30,6 +31,11 @@ ReceiverForm::ReceiverForm(StudyReceiver &receiver, QWidget *parent)
     m_ae->setObjectName("receiverAeEdit");
     m_ae->setToolTip(tr("The name under which servers send to this program"));
     m_ae->setText(now.ae);
+    m_address->setObjectName("receiverAddressEdit");
+    m_address->setPlaceholderText(tr("all addresses"));
+    m_address->setToolTip(
+        tr("Address of this computer on the network of the servers, to receive only there"));
+    m_address->setText(now.address);
     m_port->setObjectName("receiverPortBox");
     m_port->setRange(1, 65535);
     m_port->setToolTip(tr("The port that servers send to; usually 11112"));
@@ -39,6 +45,7 @@ ReceiverForm::ReceiverForm(StudyReceiver &receiver, QWidget *parent)
     m_tls->setChecked(now.usesTls);
     m_form->addRow(m_on);
     m_form->addRow(tr("AE title of this program"), m_ae);
+    m_form->addRow(tr("Listen on"), m_address);
     m_form->addRow(tr("Port"), m_port);
     m_form->addRow({}, m_tls);
     m_certificate = addFileRow(*m_form, tr("Certificate"), "receiverCertificateEdit",
@@ -49,12 +56,11 @@ ReceiverForm::ReceiverForm(StudyReceiver &receiver, QWidget *parent)
     m_key->setText(now.key);
     m_authorities =
         addFileRow(*m_form, tr("Authorities"), "receiverAuthoritiesEdit",
-                   tr("Authorities that must have issued the senders' certificates (PEM); empty: "
-                      "senders need no certificate"));
+                   tr("CA certificates that issue the senders' certificates (PEM); each of these "
+                      "must name its sender's host or address"));
     m_authorities->setText(now.authorities);
     m_state->setObjectName("receiverState");
     m_state->setWordWrap(true);
-    m_state->setTextFormat(Qt::PlainText);
     m_apply->setObjectName("applyReceiverButton");
     m_apply->setAutoDefault(false);
     auto *actions = new QHBoxLayout;
@@ -74,6 +80,7 @@ ReceiverForm::ReceiverForm(StudyReceiver &receiver, QWidget *parent)
 
 void ReceiverForm::enableFields() {
     m_ae->setEnabled(m_on->isChecked());
+    m_address->setEnabled(m_on->isChecked());
     m_port->setEnabled(m_on->isChecked());
     m_tls->setEnabled(m_on->isChecked());
     for (QLineEdit *const edit : {m_certificate, m_key, m_authorities})
@@ -81,9 +88,10 @@ void ReceiverForm::enableFields() {
 }
 
 void ReceiverForm::apply() {
-    m_receiver.setSettings({m_on->isChecked(), m_port->value(), m_ae->text().trimmed(),
-                            m_tls->isChecked(), m_certificate->text().trimmed(),
-                            m_key->text().trimmed(), m_authorities->text().trimmed()});
+    m_receiver.setSettings({m_on->isChecked(), m_address->text().trimmed(), m_port->value(),
+                            m_ae->text().trimmed(), m_tls->isChecked(),
+                            m_certificate->text().trimmed(), m_key->text().trimmed(),
+                            m_authorities->text().trimmed()});
     showState();
 }
 
@@ -95,8 +103,7 @@ void ReceiverForm::showState() {
     else if (m_receiver.isListening())
         text = tr("%1 receives on port %2; %n objects have arrived", "",
                   int(m_receiver.receivedCount()))
-                   .arg(now.ae)
-                   .arg(now.port);
+                   .arg(now.ae, QString::number(now.port));
     m_state->setText(text);
     m_state->setProperty("role", m_receiver.failure() ? "warning" : "muted");
     m_state->style()->unpolish(m_state);

@@ -5,13 +5,13 @@
 
 class QCheckBox;
 class QFormLayout;
-class QLabel;
 class QLineEdit;
 class QPushButton;
 class QSpinBox;
 
 namespace pellucid::ui {
 
+class PlainLabel;
 class StudyReceiver;
 
 /// Turns receiving on and off, and says whether it works.
@@ -28,9 +28,9 @@ private:
     StudyReceiver &m_receiver;
     QFormLayout *m_form;
     QCheckBox *m_on, *m_tls;
-    QLineEdit *m_ae, *m_certificate, *m_key, *m_authorities;
+    QLineEdit *m_ae, *m_certificate, *m_key, *m_authorities, *m_address;
     QSpinBox *m_port;
-    QLabel *m_state;
+    PlainLabel *m_state;
     QPushButton *m_apply;
 };
 

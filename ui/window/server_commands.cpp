@@ -7,12 +7,11 @@
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QMainWindow>
-#include <QMessageBox>
 #include <QPointer>
-#include <QPushButton>
 #include <QSettings>
 
 #include "core/archive/sending.h"
+#include "ui/language/question.h"
 #include "ui/panels/earlier_panel.h"
 #include "ui/panels/study_panel.h"
 #include "ui/panels/transfers_panel.h"
@@ -59,8 +58,16 @@ void ServerCommands::connectTransfers() {
             [this] { emit messageShown(tr("A study has arrived")); });
     // What was asked for is shown, unless another study is open by then.
     connect(&m_bench.transfers, &TransferQueue::completed, this,
-            [this](const QString &folder, bool isAwaited) {
+            [this](const QString &folder, bool isAwaited, const archive::RetrievalReport &report) {
                 const QString uid = QFileInfo(folder).fileName();
+                if (report.ofAnotherPatient > 0) {
+                    if (m_besideAwaited && m_besideAwaited->study.uid == uid)
+                        m_besideAwaited.reset();
+                    if (isAwaited)
+                        askForAnotherPatient(report.listed, report.named,
+                                             [this, folder] { emit studyArrived(folder); });
+                    return;
+                }
                 const bool isIdle =
                     m_bench.study.document.currentSource() < 0 && !m_bench.study.jobs.isRunning();
                 const bool isForBeside = m_besideAwaited && m_besideAwaited->study.uid == uid;
@@ -73,6 +80,25 @@ void ServerCommands::connectTransfers() {
                 else
                     emit messageShown(tr("A study has arrived"));
             });
+}
+
+void ServerCommands::askForAnotherPatient(const archive::Patient &listed,
+                                          const archive::Patient &named,
+                                          const std::function<void()> &open) {
+    const auto textOf = [](const archive::Patient &patient) {
+        QStringList parts;
+        for (const std::string *const part : {&patient.name, &patient.id, &patient.birthDate})
+            if (!part->empty())
+                parts << QString::fromStdString(*part);
+        return parts.join(", ");
+    };
+    ask(&m_window,
+        {"anotherPatientQuestion", tr("Another patient"),
+         tr("The server lists the study for one patient, but images of it name another.\n\n"
+            "Listed: %1\nNamed: %2\n\nThe study is in the library. Open it?")
+             .arg(textOf(listed), textOf(named)),
+         tr("Open")},
+        open);
 }
 
 void ServerCommands::connectEarlier() {
@@ -148,7 +174,15 @@ bool ServerCommands::openHere(const StudyFacts &wanted) {
         emit messageShown(tr("This study has no volume"));
         return true;
     }
-    emit besideRequested(librarySource(*study, *best, m_bench.library.files(*study, *best)));
+    const auto open =
+        [this, source = librarySource(*study, *best, m_bench.library.files(*study, *best))] {
+            emit besideRequested(source);
+        };
+    const archive::Patient listed = patientOf(wanted), named = patientOf(*study);
+    if (archive::isOfAnother(listed, named))
+        askForAnotherPatient(listed, named, open);
+    else
+        open();
     return true;
 }
 
@@ -177,26 +211,16 @@ void ServerCommands::open(const OpenRequest &request) {
         find(request);
         return;
     }
-    delete m_window.findChild<QMessageBox *>("linkQuestion"); // only the last link counts
-    auto *question = new QMessageBox(
-        QMessageBox::NoIcon, tr("Open a link"),
-        tr("Another program asks to open a study from the server %1. Allow links to this server?")
-            .arg(request.server),
-        QMessageBox::Cancel, &m_window);
-    question->setObjectName("linkQuestion");
-    question->setAttribute(Qt::WA_DeleteOnClose);
-    question->setTextFormat(Qt::PlainText);
-    const QPushButton *const yes = question->addButton(tr("Allow"), QMessageBox::AcceptRole);
-    question->setDefaultButton(QMessageBox::Cancel);
-    connect(question, &QMessageBox::buttonClicked, this,
-            [this, request, allowed, yes](const QAbstractButton *button) {
-                if (button != static_cast<const void *>(yes))
-                    return;
-                QSettings settings;
-                settings.setValue(allowedKey, settings.value(allowedKey).toStringList() << allowed);
-                find(request);
-            });
-    question->open();
+    ask(&m_window,
+        {"linkQuestion", tr("Open a link"),
+         tr("Another program asks to open a study from the server %1. Allow links to this server?")
+             .arg(request.server),
+         tr("Allow")},
+        [this, request, allowed] {
+            QSettings settings;
+            settings.setValue(allowedKey, settings.value(allowedKey).toStringList() << allowed);
+            find(request);
+        });
 }
 
 // Asks the server for the study's facts, which its list and its heading show while it arrives.
@@ -257,9 +281,8 @@ void ServerCommands::send(const QStringList &files, const QString &server) {
                         for (const dicom::Skipped &file : report.notSent)
                             emit failed(file.reason, QString::fromStdString(file.path.string()));
                         emit messageShown(tr("%1 of %2 sent to %3")
-                                              .arg(report.state.sent)
-                                              .arg(report.state.files)
-                                              .arg(name));
+                                              .arg(QString::number(report.state.sent),
+                                                   QString::number(report.state.files), name));
                     });
                 },
                 [this, name](const Outcome &outcome) {

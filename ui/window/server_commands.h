@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include <QObject>
 #include <QStringList>
 
+#include "core/archive/retrieval.h"
 #include "core/task/reason.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/servers/earlier_studies.h"
@@ -41,6 +43,9 @@ signals:
 
 private:
     void connectTransfers();
+    /// A server may send anybody's images: they are not shown as those of the patient listed.
+    void askForAnotherPatient(const archive::Patient &listed, const archive::Patient &named,
+                              const std::function<void()> &open);
     void connectEarlier();
     void retrieve(const RemoteStudy &study);
     void find(const OpenRequest &request);

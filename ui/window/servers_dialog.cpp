@@ -6,7 +6,6 @@
 #include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPointer>
@@ -19,7 +18,10 @@
 
 #include "core/archive/login.h"
 #include "core/exchange/link.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/question.h"
 #include "ui/language/reasons.h"
+#include "ui/language/shown_text.h"
 #include "ui/servers/server_book.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/window/receiver_form.h"
@@ -37,7 +39,7 @@ using exchange::Step;
 QLineEdit *lineEdit(const char *name, const QString &tip) {
     auto *edit = new QLineEdit;
     edit->setObjectName(name);
-    edit->setToolTip(tip);
+    edit->setToolTip(plainToolTip(tip));
     return edit;
 }
 
@@ -45,7 +47,7 @@ QSpinBox *spinBox(const char *name, int low, int high, const QString &tip) {
     auto *box = new QSpinBox;
     box->setObjectName(name);
     box->setRange(low, high);
-    box->setToolTip(tip);
+    box->setToolTip(plainToolTip(tip));
     return box;
 }
 
@@ -60,7 +62,7 @@ QString shown(const std::string &text) {
 } // namespace
 
 ServersDialog::ServersDialog(ServerBook &book, StudyReceiver &receiver, QWidget *parent)
-    : QDialog(parent), m_book(book), m_list(new QListWidget), m_message(new QLabel),
+    : QDialog(parent), m_book(book), m_list(new QListWidget), m_message(new PlainLabel),
       m_test(new QPushButton(tr("&Test"))), m_save(new QPushButton(tr("&Save"))),
       m_remove(new QPushButton(tr("&Remove"))) {
     setObjectName("serversDialog");
@@ -76,7 +78,6 @@ ServersDialog::ServersDialog(ServerBook &book, StudyReceiver &receiver, QWidget 
     m_test->setObjectName("testServerButton");
     m_test->setToolTip(tr("Connect step by step, and show the step that fails"));
     m_save->setObjectName("saveServerButton");
-    m_message->setTextFormat(Qt::PlainText); // of servers, too
     m_message->setObjectName("serverMessage");
     m_message->setWordWrap(true);
     m_message->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -248,7 +249,8 @@ void ServersDialog::enableFields() {
 
 void ServersDialog::list(const QString &selected) {
     m_list->clear();
-    m_list->addItems(m_book.names());
+    for (const QString &name : m_book.names())
+        m_list->addItem(shownText(name));
     m_list->setCurrentRow(int(m_book.names().indexOf(selected)));
 }
 
@@ -328,23 +330,51 @@ Server ServersDialog::entered() const {
     server.limit = std::uint32_t(m_limit->value());
     server.mayUncompress = !m_uncompress->isHidden() && m_uncompress->isChecked();
     archive::requireValid(server);
+    // The user has agreed when it was saved.
+    for (const Server &saved : m_book.servers())
+        if (saved.name == server.name && saved.peer.authentication == peer.authentication &&
+            archive::addressOf(saved.peer) == archive::addressOf(peer))
+            peer.allowsInsecureLogin = saved.peer.allowsInsecureLogin;
     return server;
 }
 
-void ServersDialog::save() {
+void ServersDialog::withEntered(const std::function<void(const Server &)> &then) {
     try {
-        const Server server = entered();
-        m_book.put(server);
-        list(shown(server.name));
-        report(tr("Saved"), "muted");
+        Server server = entered();
+        if (!exchange::hasInsecureLogin(server.peer)) {
+            then(server);
+            return;
+        }
+        ask(this,
+            {"insecureLoginQuestion", tr("Login without TLS"),
+             tr("Without TLS, others on the network can read the password or token for %1. Send it "
+                "without TLS?")
+                 .arg(shown(server.peer.host)),
+             tr("Send without TLS")},
+            [this, server, then]() mutable {
+                server.peer.allowsInsecureLogin = true;
+                try {
+                    then(server);
+                } catch (const task::Error &error) {
+                    report(translated(error.reason()), "warning");
+                }
+            });
     } catch (const task::Error &error) {
         report(translated(error.reason()), "warning");
     }
 }
 
+void ServersDialog::save() {
+    withEntered([this](const Server &server) {
+        m_book.put(server);
+        list(shown(server.name));
+        report(tr("Saved"), "muted");
+    });
+}
+
 void ServersDialog::remove() {
     try {
-        m_book.remove(m_list->currentItem() == nullptr ? QString() : m_list->currentItem()->text());
+        m_book.remove(m_book.names().value(m_list->currentRow()));
         list(m_book.names().value(0));
         if (m_book.servers().empty())
             showServer({}, true);
@@ -354,13 +384,6 @@ void ServersDialog::remove() {
 }
 
 void ServersDialog::test() {
-    Server server;
-    try {
-        server = entered();
-    } catch (const task::Error &error) {
-        report(translated(error.reason()), "warning");
-        return;
-    }
     const auto run = [this](const Server &complete) {
         report(tr("Connecting..."), "muted");
         const QStringList names{tr("Name"), "TCP", "TLS", tr("Association"), tr("Offers")};
@@ -392,12 +415,14 @@ void ServersDialog::test() {
             });
     };
     // A saved server's secret need not be typed again; the address is that of the secret.
-    m_book.withSecrets(
-        std::vector<Server>{server}, this,
-        [self = QPointer<ServersDialog>(this), run](const std::vector<Server> &complete) {
-            if (self != nullptr && !complete.empty()) // it may be closed meanwhile
-                run(complete.front());
-        });
+    withEntered([this, run](const Server &server) {
+        m_book.withSecrets(
+            std::vector<Server>{server}, this,
+            [self = QPointer<ServersDialog>(this), run](const std::vector<Server> &complete) {
+                if (self != nullptr && !complete.empty()) // it may be closed meanwhile
+                    run(complete.front());
+            });
+    });
 }
 
 void ServersDialog::report(const QString &text, const char *role) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include <QDialog>
 
 #include "core/archive/server.h"
@@ -9,7 +11,6 @@
 class QCheckBox;
 class QComboBox;
 class QFormLayout;
-class QLabel;
 class QLineEdit;
 class QListWidget;
 class QPushButton;
@@ -17,6 +18,7 @@ class QSpinBox;
 
 namespace pellucid::ui {
 
+class PlainLabel;
 class ServerBook;
 class StudyReceiver;
 
@@ -32,6 +34,9 @@ private:
     void showServer(const archive::Server &server, bool isNew);
     /// What the form says. *Throws* Error{usage}.
     archive::Server entered() const;
+    /// Calls `then` with what the form says, after the user has agreed to a login that others can
+    /// read. Reports what `then` *throws*.
+    void withEntered(const std::function<void(const archive::Server &)> &then);
     void enableFields();
     void save();
     void remove();
@@ -47,7 +52,7 @@ private:
     QComboBox *m_protocol, *m_retrieve, *m_authentication;
     QSpinBox *m_port, *m_connections, *m_limit;
     QCheckBox *m_tls, *m_uncompress;
-    QLabel *m_message;
+    PlainLabel *m_message;
     QPushButton *m_test, *m_save, *m_remove;
     JobRunner m_jobs;
 };

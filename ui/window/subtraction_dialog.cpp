@@ -9,12 +9,13 @@
 #include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
 #include <QVBoxLayout>
 
 #include "ui/document/document.h"
+#include "ui/language/plain_label.h"
+#include "ui/language/shown_text.h"
 #include "ui/library/study_library.h"
 
 namespace pellucid::ui {
@@ -62,8 +63,8 @@ SubtractionDialog::SubtractionDialog(const StudySource &minuend,
     setWindowTitle(tr("Subtract a volume"));
     setAttribute(Qt::WA_DeleteOnClose);
     setMinimumWidth(460);
-    auto *what = new QLabel(tr("Subtract from %1, such as the phase before the contrast:")
-                                .arg(seriesText(minuend.volume)));
+    auto *what = new PlainLabel(tr("Subtract from %1, such as the phase before the contrast:")
+                                    .arg(seriesText(minuend.volume)));
     what->setWordWrap(true);
     m_list->setObjectName("subtrahendList");
     m_list->setAccessibleName(tr("Volumes of the patient"));
@@ -72,7 +73,7 @@ SubtractionDialog::SubtractionDialog(const StudySource &minuend,
         if (source.study.key() != minuend.study.key())
             text += ", " + studyText(source.study);
         auto *item = new QListWidgetItem(text, m_list);
-        item->setToolTip(sizeText(source.volume));
+        item->setToolTip(plainToolTip(sizeText(source.volume)));
     }
     m_align->setObjectName("alignBox");
     m_align->setToolTip(tr("By mutual information; takes several seconds"));
@@ -94,7 +95,8 @@ SubtractionDialog::SubtractionDialog(const StudySource &minuend,
     layout->addWidget(what);
     layout->addWidget(m_list);
     if (m_subtrahends.empty()) {
-        auto *none = new QLabel(tr("No other volume of this patient is open or in the library."));
+        auto *none =
+            new PlainLabel(tr("No other volume of this patient is open or in the library."));
         none->setObjectName("noSubtrahend");
         none->setWordWrap(true);
         layout->addWidget(none);
@@ -121,9 +123,9 @@ QWidget *SubtractionDialog::makeWeights() {
         box->setSingleStep(0.1);
         box->setValue(value);
         box->setAccessibleName(tr("Weight of %1").arg(meaning));
-        box->setToolTip(tr("%1, from -2 to 2").arg(box->accessibleName()));
+        box->setToolTip(plainToolTip(tr("%1, from -2 to 2").arg(box->accessibleName())));
         layout->addWidget(box);
-        layout->addWidget(new QLabel("× " + meaning));
+        layout->addWidget(new PlainLabel("× " + meaning));
     };
     add(m_weight, "minuendWeightBox", defaults.minuend, tr("the open volume"));
     layout->addSpacing(8);

@@ -15,6 +15,7 @@
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
 #include "ui/document/region_commands.h"
+#include "ui/language/shown_text.h"
 #include "ui/opening/phases.h"
 #include "ui/views/cine.h"
 #include "ui/views/mpr_view.h"
@@ -110,7 +111,7 @@ void ToolsMenu::addTools(QMenu &menu) {
     for (const auto &t : tools) {
         QAction *action = addCommand(menu, t.text, t.name, QKeySequence(t.key), this,
                                      [this, tool = t.tool] { chooseTool(tool); });
-        action->setToolTip(tr("%1: %2").arg(t.text, t.hint));
+        action->setToolTip(plainToolTip(tr("%1: %2").arg(t.text, t.hint)));
         action->setCheckable(true);
         action->setActionGroup(m_tools);
     }

@@ -13,6 +13,7 @@
 #include "ui/document/document.h"
 #include "ui/language/names.h"
 #include "ui/language/number_text.h"
+#include "ui/language/shown_text.h"
 #include "ui/settings/shortcuts.h"
 #include "ui/studies/window_presets.h"
 #include "ui/theme/dialog_place.h"
@@ -59,7 +60,7 @@ void WindowChooser::choose(volume::ValueWindow window) {
 }
 
 void WindowChooser::add(const volume::ValueWindow &window, const QKeySequence &key) {
-    QAction *action = m_menu.addAction(windowLabel(window));
+    QAction *action = m_menu.addAction(menuText(windowLabel(window)));
     action->setShortcut(key);
     connect(action, &QAction::triggered, this, [this, window] {
         // The list is for the unit of the open study.

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/task/error.h"
@@ -50,6 +51,25 @@ task::Reason refusal(const ObjectFolder &folder, const std::string &bytes,
 
 } // namespace
 
+// A helper that has been taken over still has the file open after the object was checked.
+TEST(ObjectFolder, WhatWasCheckedCannotBeWrittenAnyMore) {
+    const test::TemporaryFolder folder;
+    const ObjectFolder objects(folder.path(), ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const std::string object = objectWith(1), other = objectWith(2);
+    const auto file = objects.open(announced);
+    const int helpers = ::dup(file->descriptor());
+    ASSERT_EQ(::write(helpers, object.data(), object.size()), ssize_t(object.size()));
+    const StoredObject kept = objects.keep(*file, announced, object.size());
+    ASSERT_EQ(::pwrite(helpers, other.data(), other.size(), 0), ssize_t(other.size()));
+    ASSERT_EQ(::ftruncate(helpers, 10), 0);
+    ::close(helpers);
+    EXPECT_EQ(test::readText(kept.path), object);
+    // Nor does it decide how much is kept.
+    const auto shorter = objects.open(announced);
+    ASSERT_EQ(::write(shorter->descriptor(), "DICM", 4), 4);
+    EXPECT_THROW(objects.keep(*shorter, announced, object.size()), task::Error);
+}
+
 // A server that lists an object of one study and sends one of another is not believed.
 TEST(ObjectFolder, AnObjectOfAnotherPlaceIsRefused) {
     const test::TemporaryFolder folder;
@@ -59,9 +79,9 @@ TEST(ObjectFolder, AnObjectOfAnotherPlaceIsRefused) {
         refusal(objects, object, {{root + "9", root + "3"}}).is(because::isNotWhatWasAnnounced));
     EXPECT_TRUE(
         refusal(objects, object, {{root + "2", root + "9"}}).is(because::isNotWhatWasAnnounced));
-    EXPECT_FALSE(objects.has(root + "2", root + "3", root + "1.1"));
+    EXPECT_FALSE(objects.find(root + "2", root + "3", root + "1.1"));
     keep(objects, object, {{root + "2", root + "3"}});
-    EXPECT_TRUE(objects.has(root + "2", root + "3", root + "1.1"));
+    EXPECT_TRUE(objects.find(root + "2", root + "3", root + "1.1"));
 }
 
 TEST(ObjectFolder, WhatIsThereIsNotReplaced) {
@@ -84,11 +104,48 @@ TEST(ObjectFolder, WhatIsDamagedIsNotThereAndIsReplaced) {
         const ObjectFolder objects(folder.path(), ObjectFolder::Keeps::inMemoryOfTheSystem);
         const StoredObject kept = keep(objects, object);
         std::ofstream(kept.path, std::ios::trunc | std::ios::binary) << left;
-        EXPECT_FALSE(objects.has(root + "2", root + "3", root + "1.1")) << left.size();
+        EXPECT_FALSE(objects.find(root + "2", root + "3", root + "1.1")) << left.size();
         keep(objects, object);
-        EXPECT_TRUE(objects.has(root + "2", root + "3", root + "1.1"));
+        EXPECT_TRUE(objects.find(root + "2", root + "3", root + "1.1"));
         EXPECT_EQ(test::readText(kept.path), object);
     }
+}
+
+// Patients' data are the user's alone, whatever new files are otherwise.
+TEST(ObjectFolder, OnlyTheUserMayRead) {
+    const test::TemporaryFolder folder;
+    const mode_t before = ::umask(0);
+    const ObjectFolder objects(folder / "new/folder", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    objects.create();
+    const StoredObject kept = keep(objects, objectWith(1));
+    ::umask(before);
+    using std::filesystem::perms;
+    const auto of = [](const std::filesystem::path &path) {
+        return std::filesystem::status(path).permissions();
+    };
+    EXPECT_EQ(of(kept.path), perms::owner_read | perms::owner_write);
+    for (auto above = kept.path.parent_path(); above != folder.path(); above = above.parent_path())
+        EXPECT_EQ(of(above), perms::owner_all) << above;
+}
+
+// What differs for good, and what archives correct.
+TEST(ObjectFolder, AnotherPatientIsNoticed) {
+    const Patient jane{"DOE^JANE", "ID-1", "19700101"};
+    EXPECT_FALSE(isOfAnother(jane, jane));
+    EXPECT_FALSE(isOfAnother(jane, {"Doe, Jane", "ID-1 ", "19700101"}));
+    EXPECT_FALSE(isOfAnother(jane, {"MILLER^JANE", "ID-1", "19700101"})); // married
+    EXPECT_FALSE(isOfAnother(jane, {"DOE^JANE", "ID-1", "19700110"}));    // mistyped
+    EXPECT_FALSE(isOfAnother(jane, {}));
+    EXPECT_FALSE(isOfAnother({}, jane));
+    EXPECT_FALSE(isOfAnother(jane, {"DOE^JANE", "", ""}));
+    EXPECT_FALSE(isOfAnother(jane, {"MILLER^JANE", "", "19700101"}));
+    EXPECT_FALSE(isOfAnother(jane, {"MILLER^JANE", "ID-1", ""}));
+    EXPECT_TRUE(isOfAnother(jane, {"OTHER^PATIENT", "", ""}));
+    EXPECT_TRUE(isOfAnother(jane, {"", "", "19800202"}));
+    EXPECT_TRUE(isOfAnother(jane, {"OTHER^PATIENT", "ID-999", "19800202"}));
+    EXPECT_TRUE(isOfAnother(jane, {"DOE^JANE", "ID-2", "19700101"}));
+    EXPECT_TRUE(isOfAnother(jane, {"OTHER^PATIENT", "ID-1", "19800202"}));
+    EXPECT_TRUE(isOfAnother({"DOE^JANE", "", "19700101"}, {"OTHER^PATIENT", "ID-9", "19800202"}));
 }
 
 } // namespace pellucid::archive

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/archive/search.h"
+#include "core/exchange/link.h"
 #include "core/task/error.h"
 #include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"
@@ -73,6 +74,60 @@ TEST(Server, TheListIsKeptWithoutSecrets) {
     list.remove("Web");
     EXPECT_EQ(ServerList(folder / "servers.json").servers().size(), 1U);
     EXPECT_THROW(list.remove("Web"), task::Error);
+}
+
+// Neither on saving nor on connecting, unless the user allows it for the server.
+TEST(Server, ALoginThatOthersCanReadIsRefused) {
+    const test::TemporaryFolder folder;
+    const auto refusal = [](auto &&work) -> std::string {
+        try {
+            work();
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.code(), task::ErrorCode::usage);
+            return error.reason().is(task::because::loginCanBeRead) ? "can be read" : error.what();
+        }
+        return "allowed";
+    };
+    const auto put = [&](const Server &server) {
+        return refusal([&] { ServerList(folder / "servers.json").put(server); });
+    };
+    using exchange::Authentication;
+    for (const auto authentication : {Authentication::basic, Authentication::bearer}) {
+        for (const char *const url :
+             {"http://192.0.2.1/dicom-web", "http://pacs.example.org:8042", "http://126.0.0.1",
+              "http://127.0.0.1.example.org", "http://localhost.example.org"}) {
+            Server server{"s", webPeer(url)};
+            server.peer.authentication = authentication;
+            EXPECT_EQ(put(server), "can be read") << url;
+            EXPECT_EQ(
+                refusal([&] {
+                    exchange::Link(exchange::Connection{server.peer, exchange::Purpose::echo});
+                }),
+                "can be read")
+                << url;
+        }
+        for (const char *const url : {"https://192.0.2.1/dicom-web", "http://127.0.0.1:8042",
+                                      "http://127.8.9.10", "http://localhost:8042"}) {
+            Server server{"s", webPeer(url)};
+            server.peer.authentication = authentication;
+            EXPECT_EQ(put(server), "allowed") << url;
+        }
+    }
+    Server server{"s", dicomPeer("A@pacs.example.org")};
+    EXPECT_EQ(put(server), "allowed"); // no login
+    server.peer.authentication = Authentication::basic;
+    EXPECT_EQ(put(server), "can be read");
+    server.peer.usesTls = true;
+    EXPECT_EQ(put(server), "allowed");
+    server.peer.usesTls = false;
+    server.peer.allowsInsecureLogin = true;
+    EXPECT_EQ(put(server), "allowed");
+    EXPECT_EQ(ServerList(folder / "servers.json").get("s"), server);
+    // Never for a login in the browser.
+    server.peer = webPeer("http://192.0.2.1/dicom-web");
+    server.peer.authentication = Authentication::oauth;
+    server.peer.allowsInsecureLogin = true;
+    EXPECT_NE(put(server), "allowed");
 }
 
 TEST(Server, ADamagedListNamesThePlace) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -116,7 +117,7 @@ TEST(Decoder, pipesAndDevicesAreRefusedAtOnce) {
 
 TEST_F(TakenOver, itReachesNothing) {
     for (const char *const word : {"open-file", "new-file", "unlink", "write-arena-size", "code",
-                                   "uncounted", "kill-parent"})
+                                   "uncounted", "descriptor", "kill-parent"})
         EXPECT_EQ(answerTo(word), "Operation not permitted") << word;
     // A system call that no decoder needs ends the process.
     for (const char *const word : {"socket", "process", "program"})
@@ -135,11 +136,42 @@ TEST_F(TakenOver, aCrashCostsOneFile) {
 TEST_F(TakenOver, itsAnswersAreValidated) {
     for (const char *const word :
          {"large-body", "large-data", "other-kind", "short-message", "empty-header", "no-reason",
-          "plain-reason", "cut-reason", "other-reason", "long-reason", "deep-reason", "flood",
-          "descriptors"})
+          "plain-reason", "cut-reason", "other-reason", "long-reason", "deep-reason", "flood"})
         EXPECT_EQ(answerTo(word), "was decoded to implausible data") << word;
     EXPECT_EQ(answerTo("ask-for-all"), "refused");
     EXPECT_EQ(answerTo("well"), "decoded by hand");
+}
+
+// The sum of what several ask for must not wrap, whatever each asks for and whenever.
+TEST_F(TakenOver, severalTogetherGetNoMoreMemory) {
+    constexpr int threads = 8, rounds = 200;
+    std::array<std::atomic<int>, 3> answers{}; // refused, granted, others
+    const std::array<fs::path, 2> files{file("ask-beyond-the-end"), file("ask-to-the-end")};
+    {
+        std::vector<std::jthread> all;
+        for (int n = 0; n < threads; ++n)
+            all.emplace_back([&, path = files[std::size_t(n) % 2]] {
+                for (int round = 0; round < rounds; ++round)
+                    try {
+                        m_decoder.header(path);
+                        ++answers[2];
+                    } catch (const task::Error &error) {
+                        const std::string answer = error.reason().english();
+                        ++answers[answer == "refused" ? 0 : answer == "granted" ? 1 : 2];
+                    }
+            });
+    }
+    EXPECT_EQ(answers[0], threads * rounds);
+    EXPECT_EQ(answers[1], 0);
+    EXPECT_EQ(answers[2], 0);
+    // What was refused is not counted: an honest decoder gets memory.
+    const test::TemporaryFolder folder;
+    const auto lattice = volume::Lattice::centred({1024, 1024, 1}, {1, 1, 1});
+    dicom::writeCtSeries(folder.path(),
+                         volume::Volume(lattice, std::vector<std::int16_t>(lattice.size().count()),
+                                        volume::ValueUnit::hounsfield),
+                         {}, dicom::TransferSyntax::explicitLittle);
+    EXPECT_NO_THROW(Decoder::shared().image(folder / "IM0001.dcm"));
 }
 
 TEST_F(TakenOver, aRefusalIsOfTwoKinds) {

@@ -14,10 +14,11 @@ namespace {
 
 Connection fullConnection() {
     Connection connection;
-    connection.peer = {
-        Protocol::web, "host",   8443,         "SERVER",  "US",   "/dicom-web",
-        true,          "ca.pem", "our.pem",    "our.key", "pass", Authentication::bearer,
-        "user",        "token",  "ISO_IR 100", 1.0,       2.0,    3.0};
+    connection.peer = {Protocol::web, "host",       8443,   "SERVER",
+                       "US",          "/dicom-web", true,   "ca.pem",
+                       "our.pem",     "our.key",    "pass", Authentication::bearer,
+                       "user",        "token",      true,   "ISO_IR 100",
+                       1.0,           2.0,          3.0};
     connection.purpose = Purpose::store;
     connection.sopClasses = {"1.2.3", "1.2.4"};
     connection.encodings = {{"1.2.3", "1.2.840.10008.1.2"}};
@@ -32,6 +33,10 @@ TEST(ExchangeMessage, ValuesSurviveTheJourney) {
     EXPECT_EQ(back.purpose, connection.purpose);
     EXPECT_EQ(back.sopClasses, connection.sopClasses);
     EXPECT_EQ(back.encodings, connection.encodings);
+    const Acceptance acceptance{"US",      {"A"},     {"host"}, true, "ca.pem",
+                                "our.pem", "our.key", "",       3.0};
+    EXPECT_EQ(unpackAcceptance(pack(acceptance)).clientHosts, acceptance.clientHosts);
+    EXPECT_EQ(pack(unpackAcceptance(pack(acceptance))), pack(acceptance));
     const Attributes attributes{{tag::patientName, "M\xC3\xBCller^Eva"}, {tag::studyUid, "1.2.3"}};
     EXPECT_EQ(unpackAttributes(pack(attributes)), attributes);
     const RetrievalEnd end{3, 2, 1, {"1.2.3", "1.2.4"}};

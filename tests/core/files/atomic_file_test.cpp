@@ -7,6 +7,7 @@
 #include <sstream>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "core/files/atomic_file.h"
 #include "core/files/image_files.h"
@@ -104,6 +105,56 @@ TEST(AtomicFile, FollowsLinksAndLeavesWhatIsNoFile) {
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
     EXPECT_THROW(files::AtomicFile(folder / "pipe"), task::Error);
     EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+}
+
+// In /tmp, another user could otherwise choose which file of this user is replaced.
+TEST(AtomicFile, ALinkOfAnotherUserIsNotFollowedWhereAnybodyMayMakeOne) {
+    namespace fs = std::filesystem;
+    if (::geteuid() != 0)
+        GTEST_SKIP() << "needs root to make links of another user";
+    constexpr uid_t other = 65534;
+    const test::TemporaryFolder folder;
+    fs::create_directory(folder / "shared");
+    const fs::path planted = folder / "shared/picture.png";
+    const auto write = [](const fs::path &path) {
+        files::AtomicFile file(path);
+        file.write("new");
+        file.commit();
+    };
+    fs::create_symlink(folder / "mine", planted);
+    fs::create_symlink(planted, folder / "to the planted one");
+    const auto isRefused = [&](const fs::path &path) {
+        std::ofstream(folder / "mine") << "old";
+        try {
+            write(path);
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.code(), task::ErrorCode::output);
+            EXPECT_TRUE(error.reason().is(task::because::isALinkOfAnotherUser));
+            EXPECT_EQ(error.path(), planted);
+        }
+        EXPECT_TRUE(fs::is_symlink(planted));
+        return contents(folder / "mine") == "old";
+    };
+    ASSERT_EQ(::chmod((folder / "shared").c_str(), 01777), 0);
+    EXPECT_FALSE(isRefused(planted)); // it is this user's
+    ASSERT_EQ(::lchown(planted.c_str(), other, other), 0);
+    EXPECT_TRUE(isRefused(planted));
+    EXPECT_TRUE(isRefused(folder / "to the planted one"));
+    // Who owns the folder may do what they like with it, and nobody else makes links in a private
+    // one.
+    ASSERT_EQ(::chown((folder / "shared").c_str(), other, other), 0);
+    EXPECT_FALSE(isRefused(planted));
+    ASSERT_EQ(::chown((folder / "shared").c_str(), 0, 0), 0);
+    ASSERT_EQ(::chmod((folder / "shared").c_str(), 0755), 0);
+    EXPECT_FALSE(isRefused(planted));
+}
+
+TEST(AtomicFile, LinksInACircleAreNotReplaced) {
+    const test::TemporaryFolder folder;
+    std::filesystem::create_symlink(folder / "b", folder / "a");
+    std::filesystem::create_symlink("a", folder / "b");
+    EXPECT_THROW(files::AtomicFile(folder / "a"), task::Error);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "a"));
 }
 
 TEST(Npy, HasAnAlignedHeaderAndTheSamples) {

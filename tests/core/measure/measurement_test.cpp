@@ -220,5 +220,17 @@ TEST(Measurement, ATableHasARowForEach) {
         << table;
 }
 
+// A file may name a measurement like a formula. Numbers keep their signs.
+TEST(Measurement, ATableContainsNoFormula) {
+    const auto volume = test::volumeOf(
+        volume::Lattice::centred({8, 8, 8}, {2, 2, 2}), [](auto) { return -12.5; },
+        volume::ValueUnit::hounsfield);
+    const std::string table = measure::toCsv(
+        {{Kind::rectangle, "=HYPERLINK(\"http://x\")", {{-3, -3, 1}, {3, 3, 1}}, axial}}, volume);
+    EXPECT_NE(table.find("\r\n\"'=HYPERLINK(\"\"http://x\"\")\",rectangle,,,36,-12.5,0,-12.5,"),
+              std::string::npos)
+        << table;
+}
+
 } // namespace
 } // namespace pellucid

@@ -127,8 +127,11 @@ private slots:
     void copiesWithoutARowAreRemovedByTheNextProgram() {
         const LibraryPlace at = place("journal");
         importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
-        const fs::path abandoned = at.copiesFolder() / "incoming" / "abcdef";
-        fs::create_directories(abandoned);
+        const fs::path abandoned = [&] {
+            files::SessionFolder folder(at.incomingFolder());
+            folder.setAbandoned(true);
+            return folder.path();
+        }();
         std::ofstream names(abandoned / "names");
         for (const auto &entry : fs::recursive_directory_iterator(at.copiesFolder()))
             if (entry.path().extension() == ".dcm")
@@ -141,7 +144,6 @@ private slots:
             names << path.string() << "\n";
         }
         names.close();
-        std::ofstream(abandoned.string() + ".lock") << "";
         Library library(at);
         removeAbandonedImports(library, LeftCopies::removed);
         QVERIFY(!fs::exists(abandoned));

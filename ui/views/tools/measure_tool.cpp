@@ -248,7 +248,7 @@ void MeasureTool::finish() {
         for (const Measurement &m : all)
             if (const QString name = QString::fromStdString(m.name); name.startsWith(kind + " "))
                 number = std::max(number, name.mid(kind.size() + 1).toInt());
-        m_current.name = QString("%1 %2").arg(kind).arg(number + 1).toStdString();
+        m_current.name = (kind + " " + QString::number(number + 1)).toStdString();
     }
     all.push_back(m_current);
     m_document.undoStack()->push(new EditMeasurements(m_document, all, kind));
