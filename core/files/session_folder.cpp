@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view prefix = ".pellucid-", pattern = ".pellucid-XXXXXX";
-constexpr const char *lockName = "lock";
+constexpr const char *lockName = ".lock"; // hidden from scans
 
 std::optional<fs::path> sessionsFolder() {
     const auto cache = userCacheFolder();

@@ -191,7 +191,7 @@ private slots:
         const QStringList lines = QGuiApplication::clipboard()->text().split('\n');
         for (const int line : {0, 1, 2})
             QCOMPARE(lines[line].count('\t'), 5);
-        QVERIFY2(lines[1].startsWith("'=HYPERLINK(\"x\") y\t"), qPrintable(lines[1]));
+        QVERIFY2(lines[1].startsWith("\"'=HYPERLINK(\"\"x\"\") y\"\t"), qPrintable(lines[1]));
         QVERIFY2(lines[2].startsWith("' @SUM(1)\t"), qPrintable(lines[2]));
         QVERIFY2(!lines[1].contains("\t'"), qPrintable(lines[1])); // the numbers
     }

@@ -53,13 +53,13 @@ void makeProject(const fs::path &project) {
     fs::create_directories(project / "data");
     test::writeText(project / "data/precious", "precious");
     test::writeText(project / "data.lock", "");
-    test::writeText(project / "lock", "");
+    test::writeText(project / ".lock", "");
 }
 
 void expectProject(const fs::path &project) {
     EXPECT_EQ(test::readText(project / "data/precious"), "precious");
     EXPECT_TRUE(fs::exists(project / "data.lock"));
-    EXPECT_TRUE(fs::exists(project / "lock"));
+    EXPECT_TRUE(fs::exists(project / ".lock"));
 }
 
 } // namespace
@@ -84,7 +84,7 @@ TEST(SessionFolder, WhatAKilledProgramLeavesIsRemovedByTheNext) {
 TEST(SessionFolder, LinksThatOthersHavePlantedAreNotFollowed) {
     const test::TemporaryFolder folder;
     makeProject(folder / "project");
-    test::writeText(folder / "project/lock", mark());
+    test::writeText(folder / "project/.lock", mark());
     fs::create_directory(folder / "study");
     fs::create_directory_symlink(folder / "project", folder / "study" / planted);
     // As they were named in earlier versions.
@@ -106,11 +106,11 @@ TEST(SessionFolder, LinksInsideAreNotFollowed) {
     makeProject(folder / "project");
     fs::create_directory(folder / planted);
     test::writeText(folder / "mark", mark());
-    fs::create_symlink(folder / "mark", folder / planted / "lock");
+    fs::create_symlink(folder / "mark", folder / planted / ".lock");
     removeAbandonedSessionFolders(folder.path());
     EXPECT_TRUE(fs::exists(folder / planted));
-    fs::remove(folder / planted / "lock");
-    test::writeText(folder / planted / "lock", mark());
+    fs::remove(folder / planted / ".lock");
+    test::writeText(folder / planted / ".lock", mark());
     fs::create_directory_symlink(folder / "project", folder / planted / "linked");
     removeAbandonedSessionFolders(folder.path());
     EXPECT_FALSE(fs::exists(folder / planted));
@@ -122,7 +122,7 @@ TEST(SessionFolder, OnlyFoldersWithItsMarkAreRemoved) {
     for (const std::string &text : {std::string("anything"), mark() + "x",
                                     std::string("Pellucid session folder on another host\n")}) {
         fs::create_directory(folder / planted);
-        test::writeText(folder / planted / "lock", text);
+        test::writeText(folder / planted / ".lock", text);
         test::writeText(folder / planted / "precious", "precious");
         removeAbandonedSessionFolders(folder.path());
         EXPECT_EQ(test::readText(folder / planted / "precious"), "precious") << text;
@@ -130,14 +130,14 @@ TEST(SessionFolder, OnlyFoldersWithItsMarkAreRemoved) {
     }
     // Others could have put anything into a folder that they may write to.
     fs::create_directory(folder / planted);
-    test::writeText(folder / planted / "lock", mark());
+    test::writeText(folder / planted / ".lock", mark());
     ASSERT_EQ(::chmod((folder / planted).c_str(), 0777), 0);
     removeAbandonedSessionFolders(folder.path());
     EXPECT_TRUE(fs::exists(folder / planted));
     // A pipe as the lock does not keep the program waiting.
-    fs::remove(folder / planted / "lock");
+    fs::remove(folder / planted / ".lock");
     ASSERT_EQ(::chmod((folder / planted).c_str(), 0700), 0);
-    ASSERT_EQ(::mkfifo((folder / planted / "lock").c_str(), 0600), 0);
+    ASSERT_EQ(::mkfifo((folder / planted / ".lock").c_str(), 0600), 0);
     removeAbandonedSessionFolders(folder.path());
     EXPECT_TRUE(fs::exists(folder / planted));
 }
@@ -148,15 +148,15 @@ TEST(SessionFolder, FoldersOfOtherUsersStay) {
     constexpr uid_t other = 65534;
     const test::TemporaryFolder folder;
     fs::create_directory(folder / planted);
-    test::writeText(folder / planted / "lock", mark());
+    test::writeText(folder / planted / ".lock", mark());
     ASSERT_EQ(::chown((folder / planted).c_str(), other, other), 0);
     removeAbandonedSessionFolders(folder.path());
-    EXPECT_TRUE(fs::exists(folder / planted / "lock"));
+    EXPECT_TRUE(fs::exists(folder / planted / ".lock"));
     ASSERT_EQ(::chown((folder / planted).c_str(), 0, 0), 0);
-    ASSERT_EQ(::chown((folder / planted / "lock").c_str(), other, other), 0);
+    ASSERT_EQ(::chown((folder / planted / ".lock").c_str(), other, other), 0);
     removeAbandonedSessionFolders(folder.path());
-    EXPECT_TRUE(fs::exists(folder / planted / "lock"));
-    ASSERT_EQ(::chown((folder / planted / "lock").c_str(), 0, 0), 0);
+    EXPECT_TRUE(fs::exists(folder / planted / ".lock"));
+    ASSERT_EQ(::chown((folder / planted / ".lock").c_str(), 0, 0), 0);
     removeAbandonedSessionFolders(folder.path());
     EXPECT_FALSE(fs::exists(folder / planted));
 }
