@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view prefix = ".pellucid-", pattern = ".pellucid-XXXXXX";
-constexpr const char *lockName = ".lock"; // hidden from scans
+constexpr const char *lockName = ".lock", *contentsName = "files";
 
 std::optional<fs::path> sessionsFolder() {
     const auto cache = userCacheFolder();
@@ -103,7 +103,7 @@ void removeIfAbandoned(int parent, const std::string &name,
         std::size_t(std::max(::pread(lock.get(), text.data(), text.size(), 0), ssize_t(0))));
     if (text == mark()) {
         if (before)
-            before(pathOf(folder));
+            before(pathOf(folder) / contentsName);
         remove(parent, name, folder, std::move(lock));
     } else if (text.empty()) { // killed when it had just begun
         ::unlinkat(folder.get(), lockName, 0);
@@ -147,12 +147,15 @@ SessionFolder::SessionFolder(const fs::path &parent, Path path) : m_naming(path)
             m_name = fs::path(made).filename();
             m_folder = openFolder(m_parent.get(), m_name, O_NOFOLLOW);
             m_lock = m_folder ? makeLock(m_folder.get()) : Descriptor();
+            if (m_lock && ::mkdirat(m_folder.get(), contentsName, 0700) == 0)
+                m_contents = openFolder(m_folder.get(), contentsName, O_NOFOLLOW);
             error = errno;
         }
-        if (m_lock) {
-            m_path = m_naming == Path::byName ? parent / m_name : pathOf(m_folder);
+        if (m_contents) {
+            m_path = m_naming == Path::byName ? parent / m_name / contentsName : pathOf(m_contents);
             return;
         }
+        m_lock = Descriptor();
         if (isMade)
             removeIfAbandoned(m_parent.get(), m_name, {});
         // Another program's cleanup was faster, or has removed the empty parent.
@@ -169,7 +172,7 @@ SessionFolder::~SessionFolder() {
            std::move(m_lock)); // else the next program tries again
     std::error_code ignored;
     if (m_naming == Path::byName)
-        fs::remove(m_path.parent_path(), ignored); // if it is empty
+        fs::remove(m_path.parent_path().parent_path(), ignored); // if it is empty
 }
 
 bool isInSessionFolder(const fs::path &path) {

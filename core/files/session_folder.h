@@ -31,7 +31,7 @@ public:
 
     const std::filesystem::path &path() const { return m_path; }
     /// The open folder, for other programs, to which `path` may mean nothing.
-    int descriptor() const { return m_folder.get(); }
+    int descriptor() const { return m_contents.get(); }
     /// If set, the folder stays and is removed as an abandoned one by the next program.
     void setAbandoned(bool isAbandoned) { m_isAbandoned = isAbandoned; }
 
@@ -39,7 +39,7 @@ private:
     enum class Path { byName, byDescriptor };
     SessionFolder(const std::filesystem::path &parent, Path path);
 
-    Descriptor m_parent, m_folder, m_lock;
+    Descriptor m_parent, m_folder, m_lock, m_contents;
     std::string m_name;
     std::filesystem::path m_path;
     Path m_naming;
