@@ -183,7 +183,7 @@ public:
         const archive::RetrievalReport report =
             archive::retrieve(m_server, wantedOf(item), objects, observer, progress());
         requireComplete(report, m_server.name);
-        // Nobody looks: a result of another patient's images would be taken for this one's.
+        // A batch runs unattended: nobody would notice images of the wrong patient.
         if (report.ofAnotherPatient > 0)
             throw task::Error(task::ErrorCode::unusable,
                               task::because::objectsAreOfAnotherPatient(report.ofAnotherPatient),

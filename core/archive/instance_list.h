@@ -23,10 +23,10 @@ struct Instance {
 struct Wanted {
     std::string studyUid;
     std::vector<std::string> seriesUids;
-    Patient patient{}; ///< as the user was shown it; if unknown, the server is asked
+    Patient patient{}; ///< the one shown to the user; if unknown, the server is asked
 };
 
-/// What a server has of a study.
+/// A study as a server lists it.
 struct Listing {
     /// Series by series, that with the most objects first, each in the order of slices.
     std::vector<Instance> instances;

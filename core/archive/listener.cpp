@@ -78,7 +78,7 @@ struct Connection {
     }
 };
 
-// What a receiver keeps is counted, and what arrives extends the deadline of the connection.
+// Counts the objects that a receiver keeps, and extends the connection's deadline as bytes arrive.
 class Watched : public exchange::Receiver {
 public:
     using Extend = std::function<void(Clock::duration)>;
@@ -198,11 +198,19 @@ private:
         const auto now = Clock::now();
         for (Connection &one : m_connections)
             if (one.state != Connection::State::ending && now > one.deadline)
-                one.end(one.state == Connection::State::associated
-                            ? because::senderMakesNoProgress(std::lround(m_options.silenceSeconds))
-                            : because::senderMakesNoAssociation(
-                                  std::lround(m_options.negotiationSeconds)));
+                one.end(reasonToEnd(one.state));
         return m_connections.size();
+    }
+
+    task::Reason reasonToEnd(Connection::State state) const {
+        switch (state) {
+        case Connection::State::waiting:
+            return because::senderHasTooManyConnections;
+        case Connection::State::negotiating:
+            return because::senderMakesNoAssociation(std::lround(m_options.negotiationSeconds));
+        default:
+            return because::senderMakesNoProgress(std::lround(m_options.silenceSeconds));
+        }
     }
 
     void begin(Descriptor client, const std::string &address) {

@@ -131,7 +131,8 @@ StoredObject ObjectFolder::keep(const files::AtomicFile &file, const exchange::A
                                 std::uint64_t bytes, const std::optional<Place> &place) const {
     if (bytes == 0)
         throw Error(ErrorCode::output, because::isNotWritable, m_folder);
-    // What is checked must not change any more, and the helper still has the file open.
+    // The helper still has the file open and could change it after the checks. It cannot reach the
+    // copy.
     const std::unique_ptr<files::AtomicFile> copy = open(arrival);
     copy->write(file.descriptor(), bytes);
     // The decoder reads the file that has no name yet.

@@ -65,8 +65,8 @@ public:
     struct Place {
         std::string studyUid, seriesUid;
     };
-    /// Gives a copy of a complete file its name: a helper that has been taken over can still write
-    /// to the file itself. If the same object is there already, with the same bytes, it
+    /// Copies a complete file and gives the copy its name, because a compromised helper could still
+    /// write to the original. If the same object is there already, with the same bytes, it
     /// stays; a damaged one is replaced. *Throws* Error{unusable} if it is not the object that was
     /// announced, belongs to another place, or would replace another file; Error{output}.
     StoredObject keep(const files::AtomicFile &file, const exchange::Arrival &arrival,

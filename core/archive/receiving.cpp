@@ -15,9 +15,9 @@ namespace status = exchange::status;
 
 namespace {
 
-// Of the disk: what other programs and the user's own work need, and this one to report what
-// happened. 1 GB holds 32 MB, a large image, for each connection that is served at once; 5 % is
-// what file systems themselves keep, for small disks.
+// Disk space left to other programs, to the user's work and to this program's own reports. 1 GB
+// holds a large image (32 MB) for each connection; on small disks, the 5 % that file systems
+// reserve, too.
 constexpr std::uintmax_t largestReserve = 1'000'000'000;
 constexpr std::uintmax_t reservedShare = 20; // 1/20
 

@@ -22,7 +22,7 @@ public:
     /// Whether this one is reported. If not, it is counted.
     bool isNew(const std::string &address, const task::Reason &reason,
                Clock::time_point now = Clock::now());
-    /// What has been counted in the last minute, at its end; else nothing.
+    /// At the end of each minute, the number of connections counted in it; otherwise nothing.
     std::optional<task::Reason> summary(Clock::time_point now = Clock::now());
 
 private:

@@ -80,17 +80,18 @@ QueryEnd Link::find(const Query &query, const std::function<void(Attributes)> &m
     m_isAtWork = true;
     send({Kind::find, 0, 0, pack(query)});
     // Also if the helper does not keep to the limit.
-    std::uint32_t more = query.limit == 0 ? maxMatches : std::min(query.limit, maxMatches);
+    const std::uint32_t limit = query.limit == 0 ? maxMatches : std::min(query.limit, maxMatches);
+    std::uint32_t count = 0;
     std::size_t room = maxMatchesBytes;
     const auto counted = [&](Attributes attributes) {
         std::size_t bytes = 0;
         for (const auto &[tag, value] : attributes)
             bytes += sizeof tag + value.size();
-        if (more == 0 || bytes > room) {
+        if (count == limit || bytes > room) {
             m_isUsable = false;
-            throw Error(ErrorCode::unusable, because::serverListsTooMuch(maxMatches));
+            throw Error(ErrorCode::unusable, because::serverListsTooMuch(count));
         }
-        --more;
+        ++count;
         room -= bytes;
         match(std::move(attributes));
     };

@@ -50,6 +50,15 @@ int openNameless(const std::filesystem::path &folder, mode_t mode) {
     return -1;
 }
 
+// The path by name of a file in a session folder, which is reached by its descriptor.
+std::filesystem::path named(const std::filesystem::path &path) {
+    std::error_code unknown;
+    const auto folder = path.string().starts_with("/proc/self/fd/")
+                            ? std::filesystem::canonical(path.parent_path(), unknown)
+                            : path.parent_path();
+    return unknown ? path : folder / path.filename();
+}
+
 // Copies the first bytes of an open file to the end of another one. Returns how many.
 off_t copyBytes(int from, int to, off_t bytes) {
     off_t at = 0;
@@ -203,7 +212,7 @@ void AtomicFile::commit(Bytes bytes) {
 
 void AtomicFile::fail(int error) const {
     throw task::Error(task::ErrorCode::output,
-                      task::because::cannotBeWritten(task::systemReason(error)), m_path);
+                      task::because::cannotBeWritten(task::systemReason(error)), named(m_path));
 }
 
 void rename(const std::filesystem::path &from, const std::filesystem::path &to) {

@@ -29,8 +29,10 @@ constexpr std::array hidden{
     Range{0xFEFF, 0xFEFF},   // byte order mark
     Range{0xFFA0, 0xFFA0},   // halfwidth Hangul filler
     Range{0xFFF0, 0xFFFB},   // reserved, annotations
+    Range{0x1BCA0, 0x1BCA3}, // controls of shorthand
     Range{0x1D173, 0x1D17A}, // controls of musical notation
     Range{0xE0000, 0xE00FF}, // tags
+    Range{0xE01F0, 0xE0FFF}, // reserved
 };
 
 } // namespace

@@ -6,13 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <csignal>
 #include <string>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
 
+#include "core/files/atomic_file.h"
 #include "core/files/file_set.h"
+#include "core/task/error.h"
 #include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"
 
@@ -159,6 +163,37 @@ TEST(SessionFolder, FoldersOfOtherUsersStay) {
     ASSERT_EQ(::chown((folder / planted / ".lock").c_str(), 0, 0), 0);
     removeAbandonedSessionFolders(folder.path());
     EXPECT_FALSE(fs::exists(folder / planted));
+}
+
+// The path of a session folder is that of an open file, which tells the user nothing.
+TEST(SessionFolder, ErrorsNameTheFolderOfTheOutput) {
+    const test::TemporaryFolder folder;
+    const SessionFolder session = SessionFolder::in(folder.path());
+    const auto failure = [&](const fs::path &path) {
+        try {
+            AtomicFile file(path);
+            ::rlimit before{};
+            ::getrlimit(RLIMIT_FSIZE, &before);
+            const ::rlimit none{0, before.rlim_max};
+            const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+            ::setrlimit(RLIMIT_FSIZE, &none);
+            try {
+                file.write("x");
+                file.commit();
+            } catch (const task::Error &) {
+                ::setrlimit(RLIMIT_FSIZE, &before);
+                std::signal(SIGXFSZ, handler);
+                throw;
+            }
+        } catch (const task::Error &error) {
+            return error.path();
+        }
+        return fs::path();
+    };
+    const std::string named = failure(session.path() / "0.png").string();
+    EXPECT_TRUE(named.starts_with(fs::canonical(folder.path()).string() + "/")) << named;
+    EXPECT_TRUE(named.ends_with("/0.png")) << named;
+    EXPECT_EQ(failure(folder / "1.png"), folder / "1.png");
 }
 
 // The owner of the folder around it puts a different one in its place.
