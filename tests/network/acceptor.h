@@ -27,8 +27,10 @@ inline int listenOn(int &port) {
     at.sin_port = htons(std::uint16_t(port));
     at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     if (::bind(socket, reinterpret_cast<sockaddr *>(&at), sizeof at) != 0 ||
-        ::listen(socket, 64) != 0)
+        ::listen(socket, 64) != 0) {
+        ::close(socket);
         throw std::runtime_error("no port");
+    }
     socklen_t size = sizeof at;
     ::getsockname(socket, reinterpret_cast<sockaddr *>(&at), &size);
     port = ntohs(at.sin_port);

@@ -14,6 +14,7 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <sys/socket.h>
@@ -42,10 +43,18 @@ inline int connectTo(int port) {
     return socket;
 }
 
+/// A port for a server that starts later. It lies below those that Linux gives to connections
+/// (from 32768 on): one of a test beside this one could take it meanwhile.
 inline int freePort() {
-    int port = 0;
-    ::close(listenOn(port));
-    return port;
+    std::random_device random;
+    while (true) {
+        int port = std::uniform_int_distribution(10000, 32000)(random);
+        try {
+            ::close(listenOn(port));
+            return port;
+        } catch (const std::exception &) { // it is in use
+        }
+    }
 }
 
 inline bool isInstalled(const std::string &program) {

@@ -333,8 +333,8 @@ private slots:
         };
         QMessageBox *question = retrieve();
         QVERIFY(question != nullptr);
-        QVERIFY(question->text().contains("Somebody^Else"));
-        QVERIFY(question->text().contains("Secret^Name"));
+        QVERIFY(question->text().contains("Listed: Somebody Else, another"));
+        QVERIFY(question->text().contains("Named: Secret Name"));
         // Nothing was shown while it arrived either. The list names the images' own patient.
         QVERIFY(!document().volume());
         QVERIFY(document().currentSource() < 0);

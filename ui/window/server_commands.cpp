@@ -86,10 +86,10 @@ void ServerCommands::askForAnotherPatient(const archive::Patient &listed,
                                           const archive::Patient &named,
                                           const std::function<void()> &open) {
     const auto textOf = [](const archive::Patient &patient) {
-        QStringList parts;
-        for (const std::string *const part : {&patient.name, &patient.id, &patient.birthDate})
-            if (!part->empty())
-                parts << QString::fromStdString(*part);
+        const auto shown = [](const std::string &text) { return QString::fromStdString(text); };
+        QStringList parts{shown(patient.name).replace('^', ' ').simplified(), shown(patient.id),
+                          dateText(shown(patient.birthDate))};
+        parts.removeAll({});
         return parts.join(", ");
     };
     ask(&m_window,
