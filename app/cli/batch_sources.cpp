@@ -177,8 +177,8 @@ public:
                                             archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
         archive::RetrievalObserver observer;
         std::string inputs;
-        observer.listed = [&](const std::vector<archive::Instance> &instances) {
-            inputs = digestOf(instances);
+        observer.listed = [&](const archive::Listing &listing) {
+            inputs = digestOf(listing.instances);
         };
         const archive::RetrievalReport report =
             archive::retrieve(m_server, wantedOf(item), objects, observer, progress());

@@ -104,6 +104,11 @@ void find(const Options &o, const Context &context) {
         }
         if (outcome.reachedLimit)
             warn(outcome.server + ": has more than these; --limit shows more");
+        if (outcome.mayBeIncomplete)
+            warn(outcome.server + ": " + task::Reason(task::because::listMayBeShort).english());
+        if (outcome.withoutUid > 0)
+            warn(outcome.server + ": " +
+                 task::because::entriesHaveNoUid(outcome.withoutUid).english());
         for (const std::string &warning : outcome.warnings)
             warn(outcome.server + ": " + warning);
     }
@@ -113,6 +118,8 @@ void find(const Options &o, const Context &context) {
             out.push_back(jsonOf(entry));
         std::puts(jsonText(out).c_str());
     } else {
+        if (result.entries.empty() && !failure)
+            warn("nothing matches");
         for (const archive::FoundEntry &entry : result.entries)
             std::puts(printable(lineOf(entry, o.terms.level)).c_str());
     }

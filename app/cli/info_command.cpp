@@ -26,29 +26,63 @@ using nlohmann::json;
 
 constexpr double degrees = 180.0 / 3.14159265358979323846;
 
+const char *nameOf(volume::WindowFunction function) {
+    switch (function) {
+    case volume::WindowFunction::sigmoid:
+        return "sigmoid";
+    case volume::WindowFunction::table:
+        return "table";
+    case volume::WindowFunction::linear:
+        return "linear";
+    case volume::WindowFunction::linearExact:
+        break;
+    }
+    return "linear exact";
+}
+
 json volumeJson(const dicom::VolumeEntry &v) {
     const volume::Lattice &l = v.geometry.lattice;
     json windows = json::array();
     for (const auto &w : v.notes.windows)
-        windows.push_back({{"center", w.center}, {"width", w.width}, {"name", w.name}});
+        windows.push_back({{"center", w.center},
+                           {"width", w.width},
+                           {"name", w.name},
+                           {"function", nameOf(w.function)}});
     const auto vector = [](const glm::dvec3 &x) { return json{x.x, x.y, x.z}; };
-    json out = {{"label", dicom::labelText(v.label)},
-                {"volume", v.placed},
-                {"size", {l.size().i, l.size().j, l.size().k}},
-                {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
-                {"tilt_deg", l.shearRad() * degrees},
-                {"origin_mm", vector(l.origin().mm)},
-                {"steps_mm", {vector(l.step(0)), vector(l.step(1)), vector(l.step(2))}},
-                {"frames", v.frames.size()},
-                {"gaps_filled", v.fillsHoles},
-                {"resampled", !v.geometry.frameOffsetsMm.empty()},
-                {"unit", volume::unitName(v.unit)},
-                {"lossy", v.notes.lossy},
-                {"windows", windows},
-                {"warnings", englishTexts(v.notes.warnings)}};
+    // What the files do not state is null.
+    const auto ifKnown = [](bool isKnown, const json &value) { return isKnown ? value : json(); };
+    json out = {
+        {"label", dicom::labelText(v.label)},
+        {"volume", v.placed},
+        {"size", {l.size().i, l.size().j, l.size().k}},
+        {"spacing_mm",
+         {ifKnown(v.notes.hasSpacing, l.spacingMm(0)), ifKnown(v.notes.hasSpacing, l.spacingMm(1)),
+          ifKnown(v.placed, l.sliceDistanceMm())}},
+        {"spacing_place", volume::spacingPlaceName(v.notes.spacingPlace)},
+        {"tilt_deg", ifKnown(v.placed, l.shearRad() * degrees)},
+        {"origin_mm", ifKnown(v.placed, vector(l.origin().mm))},
+        {"steps_mm", ifKnown(v.placed, {vector(l.step(0)), vector(l.step(1)), vector(l.step(2))})},
+        {"frames", v.frames.size()},
+        {"gaps_filled", v.fillsHoles},
+        {"resampled", !v.geometry.frameOffsetsMm.empty()},
+        {"unit", volume::unitName(v.unit)},
+        {"lossy", v.notes.lossy},
+        {"windows", windows},
+        {"warnings", englishTexts(v.notes.warnings)}};
     if (!v.placed)
         out["reason"] = v.notPlacedReason->english();
     return out;
+}
+
+// ", 0.500 x 0.500 x 2.000 mm"; of images the distance between slices has no meaning.
+std::string spacingText(const dicom::VolumeEntry &v) {
+    if (!v.notes.hasSpacing)
+        return ", pixels of unknown size";
+    const volume::Lattice &l = v.geometry.lattice;
+    const std::string_view place = volume::spacingPlaceName(v.notes.spacingPlace);
+    return fmt::format(", {:.3f} x {:.3f}{} mm{}{}", l.spacingMm(0), l.spacingMm(1),
+                       v.placed ? fmt::format(" x {:.3f}", l.sliceDistanceMm()) : "",
+                       place.empty() ? "" : " ", place);
 }
 
 // The names of a file's segments, or why it cannot be read.
@@ -144,10 +178,9 @@ void printCatalogue(const dicom::Catalogue &catalogue, const Context &context) {
                     const volume::Lattice &l = v.geometry.lattice;
                     const std::string number =
                         e.volumes.size() == 1 ? "" : fmt::format("{}. ", &v - e.volumes.data() + 1);
-                    fmt::print("      {}{}{} x {} x {}, {:.3f} x {:.3f} x {:.3f} mm{}{}\n", number,
+                    fmt::print("      {}{}{} x {} x {}{}{}{}\n", number,
                                v.label.empty() ? "" : printable(dicom::labelText(v.label)) + ": ",
-                               l.size().i, l.size().j, l.size().k, l.spacingMm(0), l.spacingMm(1),
-                               l.sliceDistanceMm(),
+                               l.size().i, l.size().j, l.size().k, spacingText(v),
                                v.unit == volume::ValueUnit::none
                                    ? ""
                                    : fmt::format(", {}", volume::unitName(v.unit)),
@@ -162,7 +195,7 @@ void printCatalogue(const dicom::Catalogue &catalogue, const Context &context) {
     }
     if (!catalogue.skipped.empty())
         fmt::print("Not used ({}):\n", catalogue.skipped.size());
-    for (const auto &s : catalogue.skipped)
+    for (const auto &s : dicom::problemsOf(catalogue))
         fmt::print("  {}: {}\n", printable(s.path.string()), printable(s.reason.english()));
 }
 

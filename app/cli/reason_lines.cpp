@@ -33,12 +33,16 @@ std::vector<std::string> linesByReason(const std::vector<Named> &all, const std:
         if (isNew)
             groups.push_back({&one});
         Group &group = groups[known->second];
-        if (++group.count <= mostNames)
+        if (++group.count <= mostNames && !one.name.empty())
             group.names.push_back(one.name);
     }
     std::vector<std::string> lines;
     for (const Group &group : groups) {
         std::string reason = group.first->reason.english();
+        if (group.names.empty()) {
+            lines.push_back(fmt::format("{} {}: {}", group.count, what, reason));
+            continue;
+        }
         if (group.count == 1) {
             lines.push_back(fmt::format("{}: {}: {}", group.first->name, what, reason));
             continue;

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -25,8 +27,7 @@ namespace tag = exchange::tag;
 using exchange::Attributes;
 using exchange::Level;
 
-// Each takes about 800 bytes while it is retrieved. The largest studies have a tenth of that.
-constexpr std::uint32_t maxObjects = 100000;
+constexpr auto maxObjects = std::uint32_t(maxObjectsOfStudy);
 
 std::string textOf(const Attributes &attributes, std::uint32_t tag) {
     const auto at = attributes.find(tag);
@@ -70,95 +71,182 @@ struct Listed {
     std::optional<double> height;
 };
 
-// Asked for once, where the user has not been shown a patient.
-Patient patientOf(exchange::Link &link, const std::string &studyUid,
-                  const task::Progress &progress) {
-    Patient patient;
-    link.find(
-        {.level = Level::study,
-         .keys = {{tag::studyUid, studyUid},
-                  {tag::patientName, ""},
-                  {tag::patientId, ""},
-                  {tag::birthDate, ""}},
-         .limit = maxObjects},
-        [&](const Attributes &match) {
-            if (!patient.isKnown())
-                patient = {textOf(match, tag::patientName), textOf(match, tag::patientId),
-                           textOf(match, tag::birthDate)};
-        },
-        progress);
-    return patient;
+// A series as the list of the study's series describes it.
+struct ListedSeries {
+    std::string uid;
+    int number = 0;
+    std::optional<std::size_t> objects;
+};
+
+std::optional<std::size_t> countOf(const std::string &text) {
+    std::size_t count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    return error == std::errc() && count <= maxObjects ? std::optional(count) : std::nullopt;
 }
 
-Listing listAt(const exchange::Peer &peer, const Wanted &wanted, const task::Progress &progress) {
-    exchange::Link link({.peer = peer, .purpose = exchange::Purpose::find}, progress);
-    const Patient patient =
-        wanted.patient.isKnown() ? wanted.patient : patientOf(link, wanted.studyUid, progress);
-    std::vector<std::string> seriesUids = wanted.seriesUids;
-    if (seriesUids.empty()) {
-        std::map<int, std::set<std::string>> byNumber;
-        link.find(
-            {.level = Level::series,
-             .keys = {{tag::studyUid, wanted.studyUid},
-                      {tag::seriesUid, ""},
-                      {tag::seriesNumber, ""}},
-             .limit = maxObjects},
-            [&](const Attributes &match) {
-                if (const std::string uid = textOf(match, tag::seriesUid); exchange::isUid(uid))
-                    byNumber[numberOf(textOf(match, tag::seriesNumber))].insert(uid);
-            },
-            progress);
-        for (const auto &[number, uids] : byNumber)
-            seriesUids.insert(seriesUids.end(), uids.begin(), uids.end());
+// Lists the objects of a study, and where the server lists less than it has.
+class Lister {
+public:
+    Lister(exchange::Link &link, const Wanted &wanted, const task::Progress &progress)
+        : m_link(link), m_wanted(wanted), m_progress(progress) {}
+
+    Listing list() {
+        Listing listing;
+        listing.patient = m_wanted.patient;
+        if (!listing.patient.isKnown() || m_wanted.seriesUids.empty())
+            describeStudy(listing.patient);
+        std::vector<std::vector<Instance>> bySeries;
+        for (const ListedSeries &series : seriesOfStudy())
+            bySeries.push_back(instancesOf(series));
+        // The series that is opened by default comes first.
+        std::stable_sort(bySeries.begin(), bySeries.end(),
+                         [](const auto &a, const auto &b) { return a.size() > b.size(); });
+        for (std::vector<Instance> &series : bySeries)
+            listing.instances.insert(listing.instances.end(),
+                                     std::make_move_iterator(series.begin()),
+                                     std::make_move_iterator(series.end()));
+        if (listing.instances.empty() && m_short.empty())
+            throw task::Error(task::ErrorCode::unusable, because::serverHasNoSuchStudy);
+        addRestOfStudy();
+        listing.shortSeries = std::move(m_short);
+        return listing;
     }
-    std::vector<std::vector<Instance>> bySeries;
-    std::set<std::string> known;
-    for (const std::string &series : seriesUids) {
-        std::vector<Listed> listed;
-        const exchange::QueryEnd end = link.find(
-            {.level = Level::image,
-             .keys = {{tag::studyUid, wanted.studyUid},
-                      {tag::seriesUid, series},
-                      {tag::sopInstanceUid, ""},
-                      {tag::sopClassUid, ""},
-                      {tag::instanceNumber, ""},
-                      {tag::position, ""},
-                      {tag::orientation, ""}},
-             .limit = maxObjects},
+
+private:
+    // Nothing if the server does not know series or objects: these are retrieved as a whole.
+    std::optional<exchange::QueryEnd> find(Level level, const exchange::Attributes &keys,
+                                           const std::function<void(const Attributes &)> &take) {
+        try {
+            return m_link.find({.level = level, .keys = keys, .limit = maxObjects}, take,
+                               m_progress);
+        } catch (const task::Error &error) {
+            const task::Reason &why = error.reason();
+            if (level == Level::study || error.code() != task::ErrorCode::unusable ||
+                !(why.is(because::serverStatus) || why.is(because::serverStatusWithComment) ||
+                  why.is(because::serverHasNothingThere) || why.is(because::serverAnswersHttp)))
+                throw;
+            return std::nullopt;
+        }
+    }
+
+    // The patient, unless the user has been shown one, and the numbers of series and objects.
+    void describeStudy(Patient &patient) {
+        bool isFirst = true;
+        const bool isKnown = patient.isKnown();
+        find(Level::study,
+             {{tag::studyUid, m_wanted.studyUid},
+              {tag::patientName, ""},
+              {tag::patientId, ""},
+              {tag::birthDate, ""},
+              {tag::seriesInStudy, ""},
+              {tag::instancesInStudy, ""}},
+             [&](const Attributes &match) {
+                 if (!isKnown && !patient.isKnown())
+                     patient = {textOf(match, tag::patientName), textOf(match, tag::patientId),
+                                textOf(match, tag::birthDate)};
+                 if (std::exchange(isFirst, false)) {
+                     m_seriesInStudy = countOf(textOf(match, tag::seriesInStudy));
+                     m_objectsInStudy = countOf(textOf(match, tag::instancesInStudy));
+                 }
+             });
+    }
+
+    // Those that are wanted, in the order of their numbers.
+    std::vector<ListedSeries> seriesOfStudy() {
+        std::map<std::string, ListedSeries> known;
+        const auto end = find(
+            Level::series,
+            {{tag::studyUid, m_wanted.studyUid},
+             {tag::seriesUid, m_wanted.seriesUids.size() == 1 ? m_wanted.seriesUids.front() : ""},
+             {tag::seriesNumber, ""},
+             {tag::instancesInSeries, ""}},
             [&](const Attributes &match) {
-                const std::string uid = textOf(match, tag::sopInstanceUid);
-                if (!exchange::isUid(uid) || !known.insert(uid).second)
-                    return;
-                const std::string sopClass = textOf(match, tag::sopClassUid);
-                listed.push_back({{wanted.studyUid, series, uid,
-                                   exchange::isUid(sopClass) ? sopClass : std::string(),
-                                   numberOf(textOf(match, tag::instanceNumber))},
-                                  heightOf(match)});
-            },
-            progress);
-        if (end.reachedLimit || known.size() > maxObjects)
+                const std::string uid = textOf(match, tag::seriesUid);
+                if (exchange::isUid(uid))
+                    known[uid] = {uid, numberOf(textOf(match, tag::seriesNumber)),
+                                  countOf(textOf(match, tag::instancesInSeries))};
+                else
+                    m_invalidSeries = true;
+            });
+        std::vector<ListedSeries> series;
+        if (m_wanted.seriesUids.empty()) {
+            m_isSeriesListShort = !end || end->mayBeIncomplete || m_invalidSeries ||
+                                  (m_seriesInStudy && *m_seriesInStudy > known.size());
+            for (const auto &[uid, one] : known)
+                series.push_back(one);
+            std::stable_sort(series.begin(), series.end(),
+                             [](const auto &a, const auto &b) { return a.number < b.number; });
+        } else {
+            for (const std::string &uid : m_wanted.seriesUids)
+                series.push_back(known.contains(uid) ? known[uid] : ListedSeries{uid, 0, {}});
+        }
+        return series;
+    }
+
+    std::vector<Instance> instancesOf(const ListedSeries &series) {
+        std::vector<Listed> listed;
+        std::size_t invalid = 0;
+        const auto end =
+            find(Level::image,
+                 {{tag::studyUid, m_wanted.studyUid},
+                  {tag::seriesUid, series.uid},
+                  {tag::sopInstanceUid, ""},
+                  {tag::sopClassUid, ""},
+                  {tag::instanceNumber, ""},
+                  {tag::position, ""},
+                  {tag::orientation, ""}},
+                 [&](const Attributes &match) {
+                     const std::string uid = textOf(match, tag::sopInstanceUid);
+                     if (!exchange::isUid(uid)) {
+                         ++invalid;
+                         return;
+                     }
+                     if (!m_known.insert(uid).second)
+                         return;
+                     const std::string sopClass = textOf(match, tag::sopClassUid);
+                     listed.push_back({{m_wanted.studyUid, series.uid, uid,
+                                        exchange::isUid(sopClass) ? sopClass : std::string(),
+                                        numberOf(textOf(match, tag::instanceNumber))},
+                                       heightOf(match)});
+                 });
+        if ((end && end->reachedLimit) || m_known.size() > maxObjects)
             throw task::Error(task::ErrorCode::unusable,
                               because::studyHasTooManyObjects(maxObjects));
+        const std::size_t told = std::max(series.objects.value_or(0), listed.size() + invalid);
+        const bool mayHaveMore = !end || end->mayBeIncomplete;
+        if (told > listed.size() || mayHaveMore)
+            m_short.push_back({m_wanted.studyUid, series.uid, told - listed.size(), invalid,
+                               mayHaveMore && told == listed.size()});
         const bool havePlaces = std::all_of(
             listed.begin(), listed.end(), [](const Listed &one) { return one.height.has_value(); });
         std::stable_sort(listed.begin(), listed.end(), [&](const Listed &a, const Listed &b) {
             return havePlaces ? *a.height < *b.height : a.instance.number < b.instance.number;
         });
-        bySeries.emplace_back();
+        std::vector<Instance> instances;
         for (Listed &one : listed)
-            bySeries.back().push_back(std::move(one.instance));
+            instances.push_back(std::move(one.instance));
+        return instances;
     }
-    // The series that is opened by default comes first.
-    std::stable_sort(bySeries.begin(), bySeries.end(),
-                     [](const auto &a, const auto &b) { return a.size() > b.size(); });
-    std::vector<Instance> instances;
-    for (std::vector<Instance> &series : bySeries)
-        instances.insert(instances.end(), std::make_move_iterator(series.begin()),
-                         std::make_move_iterator(series.end()));
-    if (instances.empty())
-        throw task::Error(task::ErrorCode::unusable, because::serverHasNoSuchStudy);
-    return {std::move(instances), patient};
-}
+
+    // What the server says that the study has, beyond the series that it lists.
+    void addRestOfStudy() {
+        std::size_t told = m_known.size();
+        for (const ShortSeries &series : m_short)
+            told += series.unlisted;
+        const bool hasMore = m_wanted.seriesUids.empty() && m_objectsInStudy.value_or(0) > told;
+        if (hasMore || m_isSeriesListShort)
+            m_short.push_back(
+                {m_wanted.studyUid, "", hasMore ? *m_objectsInStudy - told : 0, 0, !hasMore});
+    }
+
+    exchange::Link &m_link;
+    const Wanted &m_wanted;
+    const task::Progress &m_progress;
+    std::optional<std::size_t> m_seriesInStudy, m_objectsInStudy;
+    bool m_invalidSeries = false, m_isSeriesListShort = false;
+    std::set<std::string> m_known;
+    std::vector<ShortSeries> m_short;
+};
 
 } // namespace
 
@@ -184,8 +272,10 @@ std::vector<std::size_t> coarseToFine(std::size_t n) {
 }
 
 Listing listInstances(const Server &server, const Wanted &wanted, const task::Progress &progress) {
-    return withLogin(server, progress,
-                     [&](const exchange::Peer &peer) { return listAt(peer, wanted, progress); });
+    return withLogin(server, progress, [&](const exchange::Peer &peer) {
+        exchange::Link link({.peer = peer, .purpose = exchange::Purpose::find}, progress);
+        return Lister(link, wanted, progress).list();
+    });
 }
 
 } // namespace pellucid::archive

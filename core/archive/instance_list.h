@@ -26,11 +26,23 @@ struct Wanted {
     Patient patient{}; ///< the one shown to the user; if unknown, the server is asked
 };
 
+/// A series of which a server lists less than it has, as far as it tells.
+struct ShortSeries {
+    std::string studyUid, seriesUid; ///< no series: the study
+    std::size_t unlisted = 0;        ///< objects, as the server counts them
+    std::size_t invalid = 0;         ///< of them, listed with an invalid UID
+    bool mayHaveMore = false; ///< the server has a limit, and does not tell how many there are
+};
+
+/// Each takes about 800 bytes while it is retrieved. The largest studies have a tenth of that.
+inline constexpr std::size_t maxObjectsOfStudy = 100000;
+
 /// A study as a server lists it.
 struct Listing {
     /// Series by series, that with the most objects first, each in the order of slices.
     std::vector<Instance> instances;
     Patient patient; ///< unknown if the server does not report it
+    std::vector<ShortSeries> shortSeries;
 };
 
 /// *Throws* as exchange::Link; Error{unusable} if the server has none of it, or lists more objects

@@ -92,6 +92,9 @@ void Login::logIn(const OpenPage &open, const Texts &texts, const task::Progress
                                              {"code_challenge_method", "S256"}};
     if (!m_settings.scope.empty())
         query["scope"] = m_settings.scope;
+    // Without it, the server ignores that scope (OpenID Connect Core 1.0, 11).
+    if (m_settings.scope.find("offline_access") != std::string::npos)
+        query["prompt"] = "consent";
     const bool hasQuery = at.authorizationUrl.find('?') != std::string::npos;
     const std::string url =
         at.authorizationUrl + (hasQuery ? "&" : "?") + exchange::formEncoded(query);

@@ -128,7 +128,7 @@ std::unique_ptr<files::AtomicFile> ObjectFolder::open(const exchange::Arrival &a
 }
 
 StoredObject ObjectFolder::keep(const files::AtomicFile &file, const exchange::Arrival &arrival,
-                                std::uint64_t bytes, const std::optional<Place> &place) const {
+                                std::uint64_t bytes, const std::vector<Place> &places) const {
     if (bytes == 0)
         throw Error(ErrorCode::output, because::isNotWritable, m_folder);
     // The helper still has the file open and could change it after the checks. It cannot reach the
@@ -153,7 +153,11 @@ StoredObject ObjectFolder::keep(const files::AtomicFile &file, const exchange::A
     // The UIDs become names of folders.
     if (!exchange::isUid(object.studyUid) || !exchange::isUid(object.seriesUid))
         throw Error(ErrorCode::unusable, because::hasNoValidUids);
-    if (place && (object.studyUid != place->studyUid || object.seriesUid != place->seriesUid))
+    const auto isThere = [&](const Place &place) {
+        return object.studyUid == place.studyUid &&
+               (place.seriesUid.empty() || object.seriesUid == place.seriesUid);
+    };
+    if (!places.empty() && std::none_of(places.begin(), places.end(), isThere))
         throw Error(ErrorCode::unusable, because::isNotWhatWasAnnounced);
     object.path = pathOf(object.studyUid, object.seriesUid, object.sopInstanceUid);
     if (objectIn(object.path)) { // what is damaged is replaced

@@ -61,16 +61,16 @@ public:
     std::optional<StoredObject> find(const std::string &studyUid, const std::string &seriesUid,
                                      const std::string &sopInstanceUid) const;
 
-    /// Where an object belongs, as its server lists it.
+    /// Where an object belongs, as its server lists it. Without a series: anywhere in the study.
     struct Place {
         std::string studyUid, seriesUid;
     };
     /// Copies a complete file and gives the copy its name, because a compromised helper could still
     /// write to the original. If the same object is there already, with the same bytes, it
     /// stays; a damaged one is replaced. *Throws* Error{unusable} if it is not the object that was
-    /// announced, belongs to another place, or would replace another file; Error{output}.
+    /// announced, belongs to none of the places, or would replace another file; Error{output}.
     StoredObject keep(const files::AtomicFile &file, const exchange::Arrival &arrival,
-                      std::uint64_t bytes, const std::optional<Place> &place = {}) const;
+                      std::uint64_t bytes, const std::vector<Place> &places = {}) const;
     /// A file without a name. *Throws* Error{output}.
     std::unique_ptr<files::AtomicFile> open(const exchange::Arrival &arrival) const;
 

@@ -32,7 +32,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t firstSlices = 2; // at both ends
 // Connections that are lost one after the other, without any object between.
-constexpr int maxFailures = 3, maxRefusals = 3;
+constexpr int maxFailures = 3;
 constexpr std::chrono::milliseconds pauses[maxFailures]{std::chrono::milliseconds(300),
                                                         std::chrono::milliseconds(1500),
                                                         std::chrono::milliseconds(4000)};
@@ -44,8 +44,8 @@ public:
 
     std::variant<int, std::uint16_t> open(const exchange::Arrival &arrival) override {
         m_reported = 0;
-        m_place = m_work.placeOf(arrival.sopInstanceUid);
-        if (!m_place)
+        m_places = m_work.placesOf(arrival.sopInstanceUid);
+        if (m_places.empty())
             return exchange::status::notWanted;
         m_file = m_work.folder().open(arrival);
         return m_file->descriptor();
@@ -54,7 +54,7 @@ public:
         receive(bytes);
         const std::unique_ptr<files::AtomicFile> file = std::move(m_file);
         try {
-            m_work.stored(m_work.folder().keep(*file, arrival, bytes, m_place));
+            m_work.stored(m_work.folder().keep(*file, arrival, bytes, m_places));
             return 0;
         } catch (const Error &error) {
             if (error.code() == ErrorCode::output) {
@@ -73,7 +73,7 @@ public:
 private:
     RetrievalWork &m_work;
     std::unique_ptr<files::AtomicFile> m_file;
-    std::optional<ObjectFolder::Place> m_place;
+    std::vector<ObjectFolder::Place> m_places; ///< of which the object has to be of one
     std::uint64_t m_reported = 0;
 };
 
@@ -181,7 +181,10 @@ private:
     void take(const Batch &batch) {
         try {
             connect();
-            const exchange::RetrievalEnd end = m_link->retrieve({.level = Level::image,
+            const Level level = !batch.uids.empty()       ? Level::image
+                                : batch.seriesUid.empty() ? Level::study
+                                                          : Level::series;
+            const exchange::RetrievalEnd end = m_link->retrieve({.level = level,
                                                                  .studyUid = batch.studyUid,
                                                                  .seriesUid = batch.seriesUid,
                                                                  .instanceUids = batch.uids,
@@ -204,8 +207,8 @@ private:
                 return;
             }
             m_link.reset();
-            // After several refusals in a row, the server would refuse the rest, too.
-            if (m_work.refusedAgain() >= maxRefusals)
+            // A login that is refused will be refused again; anything else concerns these objects.
+            if (isTokenRefused(m_server, error) || error.reason().is(because::serverDoesNotAllowIt))
                 m_work.refuseAll(batch, error.reason());
             else
                 m_work.failed(batch, error.reason());
@@ -246,7 +249,8 @@ void runWorkers(const Server &server, Purpose purpose, const std::vector<std::st
                 const std::vector<std::string> &syntaxes, const std::string &destinationAe,
                 EarlyLinks *early, RetrievalWork &work, const task::Progress &progress) {
     // A connection costs round trips, which a few objects do not repay.
-    const std::size_t useful = (work.missing() + firstBatchSize - 1) / firstBatchSize;
+    const std::size_t useful =
+        std::max((work.missing() + firstBatchSize - 1) / firstBatchSize, work.wholeBatches());
     const std::size_t count = std::min<std::size_t>(useful, std::size_t(server.connections));
     std::vector<std::unique_ptr<Worker>> workers;
     for (std::size_t n = 0; n < count; ++n)
@@ -296,7 +300,7 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     const Listing listing = listInstances(server, wanted, progress);
     const std::vector<Instance> &instances = listing.instances;
     if (observer.listed)
-        observer.listed(instances);
+        observer.listed(listing);
     folder.create();
     RetrievalWork work(listing, folder, observer, server.connections);
     // Every connection proposes the kinds that lack; a server that does not tell them gets the
@@ -311,16 +315,17 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
                    early ? &*early : nullptr, work, progress);
     early.reset();
     const bool hasMoved = server.retrieve == RetrieveMethod::move || work.needsMove();
+    const std::string destinationAe =
+        destination.ae.empty() ? server.peer.callingAe : destination.ae;
+    std::optional<Listener> listener;
     if (hasMoved) {
         if (destination.isTakenByOtherTls)
             throw Error(ErrorCode::unusable, because::receiverDiffersInTls(destination.port));
         work.useMove();
-        const std::string ae = destination.ae.empty() ? server.peer.callingAe : destination.ae;
-        std::optional<Listener> listener;
         if (!destination.hasListener)
-            listener.emplace(listenerFor(server, ae, destination.port),
+            listener.emplace(listenerFor(server, destinationAe, destination.port),
                              [&] { return std::make_unique<Objects>(work); });
-        runWorkers(server, Purpose::move, {}, {}, ae, nullptr, work, progress);
+        runWorkers(server, Purpose::move, {}, {}, destinationAe, nullptr, work, progress);
     }
     // Some servers take the first presentation context of a kind, whatever they have stored, and
     // then cannot send it: one encoding at a time, until all is here.
@@ -330,9 +335,18 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
             if (work.fillQueueAgain(instances))
                 runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {syntax}, {},
                            nullptr, work, progress);
+    // Of what the server did not list, and of what it could not send one by one.
+    if (work.fillQueueWithShortSeries())
+        runWorkers(server, hasMoved ? Purpose::move : Purpose::get, {}, {}, destinationAe, nullptr,
+                   work, progress);
+    listener.reset();
     RetrievalReport report = work.report();
     if (report.state.received > 0)
         files::flush(folder.folder());
+    // Not even a list.
+    if (instances.empty() && report.state.received + report.state.present == 0 &&
+        !report.lacking.empty())
+        throw Error(ErrorCode::unusable, report.lacking.front().reason);
     report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return report;
 }

@@ -38,7 +38,7 @@ struct RetrievalReport {
 
 /// Told from one thread at a time.
 struct RetrievalObserver {
-    std::function<void(const std::vector<Instance> &)> listed;
+    std::function<void(const Listing &)> listed;
     std::function<void(const StoredObject &)> stored; ///< new ones
     /// An object, new or not, of the patient who is listed: it can be shown without a question.
     std::function<void(const StoredObject &)> matches;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "core/task/error.h"
@@ -23,9 +25,10 @@ constexpr std::size_t maxUnwanted = 1000; // objects
 RetrievalWork::RetrievalWork(const Listing &listing, const ObjectFolder &folder,
                              const RetrievalObserver &observer, int connections)
     : m_folder(folder), m_observer(observer), m_connections(std::size_t(connections)),
-      m_patient(listing.patient) {
+      m_patient(listing.patient), m_short(listing.shortSeries) {
     m_state.wanted = listing.instances.size();
     for (const Instance &instance : listing.instances) {
+        m_known.insert(instance.sopInstanceUid);
         if (const auto object =
                 folder.find(instance.studyUid, instance.seriesUid, instance.sopInstanceUid)) {
             ++m_state.present;
@@ -34,7 +37,47 @@ RetrievalWork::RetrievalWork(const Listing &listing, const ObjectFolder &folder,
             m_missing.emplace(instance.sopInstanceUid, instance);
         }
     }
+    for (ShortSeries &series : m_short) {
+        m_state.wanted += series.unlisted;
+        findUnlisted(series);
+    }
+    m_state.present += std::exchange(m_state.received, 0);
     fillQueue(listing.instances);
+}
+
+// Those that are here although the server does not list them.
+void RetrievalWork::findUnlisted(const ShortSeries &series) {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    const fs::path study = m_folder.folder() / series.studyUid;
+    const fs::path folder = series.seriesUid.empty() ? study : study / series.seriesUid;
+    for (const auto &entry : fs::recursive_directory_iterator(folder, none)) {
+        const std::string uid = entry.path().stem().string();
+        if (entry.path().extension() != ".dcm" || m_known.contains(uid))
+            continue;
+        if (const auto object = m_folder.find(
+                series.studyUid, entry.path().parent_path().filename().string(), uid)) {
+            takeUnlisted(*object);
+            compare(*object);
+        }
+    }
+}
+
+// Counts an object that the server has not listed. False if it is none.
+bool RetrievalWork::takeUnlisted(const StoredObject &object) {
+    const auto isOf = [&](const ShortSeries &series) {
+        return series.studyUid == object.studyUid &&
+               (series.seriesUid.empty() || series.seriesUid == object.seriesUid);
+    };
+    const auto series = std::find_if(m_short.begin(), m_short.end(), isOf);
+    if (series == m_short.end() || !m_known.insert(object.sopInstanceUid).second)
+        return false;
+    ++m_state.received;
+    if (series->unlisted > 0)
+        --series->unlisted;
+    else
+        ++m_state.wanted; // the server did not tell how many there are
+    return true;
 }
 
 // A server may send anybody's images under the UIDs that it was asked for.
@@ -50,6 +93,12 @@ void RetrievalWork::compare(const StoredObject &object) {
 std::size_t RetrievalWork::missing() const {
     const std::lock_guard lock(m_mutex);
     return m_missing.size();
+}
+
+std::size_t RetrievalWork::wholeBatches() const {
+    const std::lock_guard lock(m_mutex);
+    return std::size_t(std::count_if(m_queue.begin(), m_queue.end(),
+                                     [](const Batch &batch) { return batch.uids.empty(); }));
 }
 
 std::set<std::string> RetrievalWork::classes() const {
@@ -69,36 +118,45 @@ void RetrievalWork::awaitReceived(std::size_t objects) {
 
 std::optional<Batch> RetrievalWork::next() {
     const std::lock_guard lock(m_mutex);
-    if (m_queue.empty() || m_failure || m_offersNoGet)
-        return std::nullopt;
-    Batch batch = std::move(m_queue.front());
-    m_queue.pop_front();
-    return batch;
+    while (!m_queue.empty() && !m_failure && !m_offersNoGet) {
+        Batch batch = std::move(m_queue.front());
+        m_queue.pop_front();
+        // Some have come with others.
+        const bool isWhole = batch.uids.empty();
+        std::erase_if(batch.uids, [&](const std::string &uid) { return !m_missing.contains(uid); });
+        if (isWhole || !batch.uids.empty())
+            return batch;
+    }
+    return std::nullopt;
 }
 
 void RetrievalWork::putBack(Batch batch) {
     const std::lock_guard lock(m_mutex);
-    std::erase_if(batch.uids, [&](const std::string &uid) { return !m_missing.contains(uid); });
-    if (!batch.uids.empty())
-        m_queue.push_front(std::move(batch));
+    m_queue.push_front(std::move(batch));
 }
 
-std::optional<ObjectFolder::Place> RetrievalWork::placeOf(const std::string &uid) {
+std::vector<ObjectFolder::Place> RetrievalWork::placesOf(const std::string &uid) {
     const std::lock_guard lock(m_mutex);
     const auto missing = m_missing.find(uid);
     if (missing != m_missing.end())
-        return ObjectFolder::Place{missing->second.studyUid, missing->second.seriesUid};
-    if (++m_unwanted > maxUnwanted + m_state.wanted)
+        return {{missing->second.studyUid, missing->second.seriesUid}};
+    std::vector<ObjectFolder::Place> places;
+    if (!m_known.contains(uid) && m_known.size() < maxObjectsOfStudy)
+        for (const ShortSeries &series : m_short)
+            places.push_back({series.studyUid, series.seriesUid});
+    // Of a series that is asked for as a whole, those that are here come again.
+    if (places.empty() && ++m_unwanted > maxUnwanted + 2 * m_state.wanted)
         throw Error(ErrorCode::unusable, because::serverSendsTooMuch);
-    return std::nullopt;
+    return places;
 }
 
 void RetrievalWork::stored(const StoredObject &object) {
     const std::lock_guard lock(m_mutex);
-    if (m_missing.erase(object.sopInstanceUid) == 0)
+    if (m_missing.erase(object.sopInstanceUid) > 0)
+        ++m_state.received;
+    else if (!takeUnlisted(object))
         return;
     m_reasons.erase(object.sopInstanceUid);
-    ++m_state.received;
     m_received.notify_all();
     if (m_observer.stored)
         m_observer.stored(object);
@@ -113,6 +171,11 @@ void RetrievalWork::refused(const std::string &uid, const task::Reason &reason) 
 }
 
 void RetrievalWork::findHere(const Batch &batch) {
+    if (batch.uids.empty()) {
+        const std::lock_guard lock(m_mutex);
+        for (const ShortSeries &series : m_short)
+            findUnlisted(series);
+    }
     for (const std::string &uid : batch.uids) {
         const std::optional<Instance> awaited = [&]() -> std::optional<Instance> {
             const std::lock_guard lock(m_mutex);
@@ -130,6 +193,8 @@ void RetrievalWork::findHere(const Batch &batch) {
 
 void RetrievalWork::ended(const Batch &batch, const exchange::RetrievalEnd &end) {
     const std::lock_guard lock(m_mutex);
+    if (batch.uids.empty() && !end.reason.empty())
+        m_whyUnlisted = task::Reason::decoded(end.reason);
     for (const std::string &uid : batch.uids)
         if (m_missing.contains(uid) && !m_reasons.contains(uid))
             m_reasons.emplace(
@@ -143,6 +208,8 @@ void RetrievalWork::ended(const Batch &batch, const exchange::RetrievalEnd &end)
 
 void RetrievalWork::failed(const Batch &batch, const task::Reason &reason) {
     const std::lock_guard lock(m_mutex);
+    if (batch.uids.empty())
+        m_whyUnlisted = reason;
     for (const std::string &uid : batch.uids)
         if (m_missing.contains(uid))
             m_reasons.insert_or_assign(uid, reason);
@@ -153,14 +220,6 @@ void RetrievalWork::moved(std::int64_t bytes) {
     m_state.bytes = std::uint64_t(std::int64_t(m_state.bytes) + bytes);
     if (m_observer.changed)
         m_observer.changed(m_state);
-}
-
-int RetrievalWork::refusedAgain() {
-    const std::lock_guard lock(m_mutex);
-    if (m_state.received != m_receivedAtRefusal)
-        m_refusals = 0;
-    m_receivedAtRefusal = m_state.received;
-    return ++m_refusals;
 }
 
 void RetrievalWork::refuseAll(const Batch &batch, const task::Reason &reason) {
@@ -210,9 +269,16 @@ bool RetrievalWork::fillQueueAgain(const std::vector<Instance> &instances) {
     });
     if (!isRefused || m_missing.empty())
         return false;
-    m_refusals = 0;
     fillQueue(instances);
     return true;
+}
+
+bool RetrievalWork::fillQueueWithShortSeries() {
+    const std::lock_guard lock(m_mutex);
+    for (const ShortSeries &series : m_short)
+        if (series.unlisted > 0 || series.mayHaveMore)
+            m_queue.push_back({series.studyUid, series.seriesUid, {}});
+    return !m_queue.empty();
 }
 
 RetrievalReport RetrievalWork::report() {
@@ -222,6 +288,15 @@ RetrievalReport RetrievalWork::report() {
         const auto reason = m_reasons.find(uid);
         report.lacking.push_back(
             {uid, reason == m_reasons.end() ? because::serverLeftItOut : reason->second});
+    }
+    for (const ShortSeries &series : m_short) {
+        // Nothing tells how many there are, and the series did not come as a whole.
+        const bool isUncertain = series.mayHaveMore && m_whyUnlisted;
+        const std::size_t count = series.unlisted > 0 ? series.unlisted : isUncertain ? 1 : 0;
+        for (std::size_t n = 0; n < count; ++n)
+            report.lacking.push_back({"", n < series.invalid
+                                              ? task::Reason(because::hasNoValidUids)
+                                              : m_whyUnlisted.value_or(because::wasNotListed)});
     }
     return report;
 }

@@ -17,7 +17,8 @@
 
 namespace pellucid::archive {
 
-/// Instances of one series that are asked for together.
+/// Instances of one series that are asked for together; without any, the whole series, or without a
+/// series, the whole study.
 struct Batch {
     std::string studyUid, seriesUid;
     std::vector<std::string> uids;
@@ -40,15 +41,17 @@ public:
 
     /// Waits until so many objects have come, nothing else can come, or a moment is over.
     void awaitReceived(std::size_t objects);
+    /// Batches in the queue that ask for a whole series or study.
+    std::size_t wholeBatches() const;
     /// The next batch; nothing when all are taken.
     std::optional<Batch> next();
 
     /// After a lost connection: what has not come is asked for again.
     void putBack(Batch batch);
 
-    /// Where an awaited object belongs; nothing if it is not awaited. *Throws* if the server goes
-    /// on and on with others.
-    std::optional<ObjectFolder::Place> placeOf(const std::string &uid);
+    /// Where an object may belong, also one that the server did not list; nothing if it is not
+    /// awaited. *Throws* if the server goes on and on with others.
+    std::vector<ObjectFolder::Place> placesOf(const std::string &uid);
     void stored(const StoredObject &object);
     void refused(const std::string &uid, const task::Reason &reason);
     /// Takes what another listener has stored in the folder meanwhile.
@@ -57,8 +60,6 @@ public:
     void ended(const Batch &batch, const exchange::RetrievalEnd &end);
     void failed(const Batch &batch, const task::Reason &reason);
     void moved(std::int64_t bytes);
-    /// The number of batches that were refused without any object between.
-    int refusedAgain();
     /// The rest is not asked for.
     void refuseAll(const Batch &batch, const task::Reason &reason);
     void offersNoGet();
@@ -73,6 +74,8 @@ public:
 
     /// Asks once more for what the server refused. False if it refused nothing.
     bool fillQueueAgain(const std::vector<Instance> &instances);
+    /// Asks for the series of which the server lists too little as a whole. False if there is none.
+    bool fillQueueWithShortSeries();
 
     RetrievalReport report();
     const ObjectFolder &folder() const { return m_folder; }
@@ -80,6 +83,8 @@ public:
 private:
     void fillQueue(const std::vector<Instance> &instances);
     void compare(const StoredObject &object);
+    void findUnlisted(const ShortSeries &series);
+    bool takeUnlisted(const StoredObject &object);
 
     const ObjectFolder &m_folder;
     const RetrievalObserver &m_observer;
@@ -89,12 +94,13 @@ private:
     mutable std::mutex m_mutex;
     std::condition_variable m_received;
     std::map<std::string, Instance> m_missing;
+    std::vector<ShortSeries> m_short; ///< and what is still missing of it
+    std::set<std::string> m_known;    ///< listed, or here without having been listed
+    std::optional<task::Reason> m_whyUnlisted;
     std::map<std::string, task::Reason> m_reasons;
     std::deque<Batch> m_queue;
     RetrievalState m_state;
     std::size_t m_unwanted = 0, m_ofAnotherPatient = 0;
-    int m_refusals = 0;
-    std::size_t m_receivedAtRefusal = 0;
     std::map<std::string, std::size_t> m_receivedBefore; ///< by access token
     bool m_offersNoGet = false;
     std::exception_ptr m_failure;

@@ -110,7 +110,12 @@ RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &ser
         if (error.reason().is(because::serverHasNoSuchStudy) && !hasBroughtFiles(*transfer))
             log.remove(id);
         else
-            log.finish(id, TransferState::incomplete, reached, seconds(), error.reason().encoded());
+            // What was complete stays so if the server cannot be asked again.
+            log.finish(id,
+                       transfer->state == TransferState::complete ? TransferState::complete
+                                                                  : TransferState::incomplete,
+                       reached, seconds(),
+                       transfer->state == TransferState::complete ? "" : error.reason().encoded());
         throw;
     }
 }

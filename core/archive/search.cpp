@@ -2,6 +2,7 @@
 #include "core/archive/search.h"
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <exception>
 #include <map>
@@ -99,8 +100,10 @@ public:
     void add(const std::string &server, exchange::Attributes attributes) {
         const std::lock_guard lock(m_mutex);
         const std::string uid = attributes[uidOf(m_level)];
-        if (!exchange::isUid(uid))
+        if (!exchange::isUid(uid)) {
+            ++m_withoutUid[server];
             return;
+        }
         const auto [known, isNew] = m_indices.emplace(uid, m_result.entries.size());
         if (isNew)
             m_result.entries.push_back({std::move(attributes), {}});
@@ -112,6 +115,7 @@ public:
     }
     void end(ServerOutcome outcome) {
         const std::lock_guard lock(m_mutex);
+        outcome.withoutUid = m_withoutUid[outcome.server];
         m_result.outcomes.push_back(std::move(outcome));
         if (m_observer.ended)
             m_observer.ended(m_result.outcomes.back());
@@ -122,9 +126,20 @@ private:
     const SearchObserver &m_observer;
     Level m_level;
     std::mutex m_mutex;
-    std::map<std::string, std::size_t> m_indices;
+    std::map<std::string, std::size_t> m_indices, m_withoutUid; // by UID; by server
     SearchResult m_result;
 };
+
+// "ct, mr": CT and MR. At least one, which may be empty.
+std::vector<std::string> modalitiesIn(const std::string &text) {
+    std::vector<std::string> modalities(1);
+    for (const char c : text)
+        if (c == ',')
+            modalities.emplace_back();
+        else if (c != ' ')
+            modalities.back() += char(std::toupper((unsigned char)(c)));
+    return modalities;
+}
 
 void searchAt(const Server &server, const SearchTerms &terms, Fold &fold,
               const task::Progress &progress) {
@@ -134,14 +149,22 @@ void searchAt(const Server &server, const SearchTerms &terms, Fold &fold,
     try {
         const auto find = [&](const exchange::Peer &peer) {
             exchange::Link link(exchange::Connection{peer, exchange::Purpose::find}, progress);
-            return link.find(
-                queryOf(terms, server.limit),
-                [&](exchange::Attributes match) { fold.add(server.name, std::move(match)); },
-                progress);
+            // Servers match one modality at a time.
+            for (const std::string &modality : modalitiesIn(terms.modality)) {
+                SearchTerms one = terms;
+                one.modality = modality;
+                const exchange::QueryEnd end = link.find(
+                    queryOf(one, server.limit),
+                    [&](exchange::Attributes match) { fold.add(server.name, std::move(match)); },
+                    progress);
+                outcome.reachedLimit = outcome.reachedLimit || end.reachedLimit;
+                outcome.mayBeIncomplete = outcome.mayBeIncomplete || end.mayBeIncomplete;
+                outcome.warnings.insert(outcome.warnings.end(), end.warnings.begin(),
+                                        end.warnings.end());
+            }
+            return true;
         };
-        const exchange::QueryEnd end = withLogin(server, progress, find);
-        outcome.reachedLimit = end.reachedLimit;
-        outcome.warnings = end.warnings;
+        withLogin(server, progress, find);
     } catch (const Error &error) {
         outcome.failure = error.reason();
         outcome.code = error.code();

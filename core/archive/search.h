@@ -17,7 +17,9 @@ namespace pellucid::archive {
 /// What is searched for; empty texts restrict nothing. `*` and `?` are wildcards. Patient,
 /// accession number and date apply to studies, the modality to studies and series.
 struct SearchTerms {
-    std::string patientName, patientId, accession, modality, studyUid;
+    std::string patientName, patientId, accession;
+    std::string modality; ///< one or, with commas between, several
+    std::string studyUid;
     /// YYYYMMDD, or a range FROM-TO with one end missing perhaps.
     std::string date;
     exchange::Level level = exchange::Level::study;
@@ -36,6 +38,8 @@ struct FoundEntry {
 struct ServerOutcome {
     std::string server;
     bool reachedLimit = false;
+    bool mayBeIncomplete = false; ///< the server has a limit of its own
+    std::size_t withoutUid = 0;   ///< entries that cannot be opened, and are not in the result
     std::vector<std::string> warnings;
     std::optional<task::Reason> failure;
     task::ErrorCode code = task::ErrorCode::unreachable; ///< of the failure

@@ -2,8 +2,10 @@
 #include "core/decoder/instance.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
+#include "core/decoder/dimensions.h"
 #include "core/decoder/segmentation_file.h"
 
 namespace pellucid::decoder {
@@ -20,6 +22,11 @@ constexpr const char *segmentationClass = "1.2.840.10008.5.1.4.1.1.66.4",
                      *structureSetClass = "1.2.840.10008.5.1.4.1.1.481.3";
 
 } // namespace
+
+std::string FrameHeader::imageType() const {
+    const auto at = dimensions.find(imageTypeTag);
+    return at == dimensions.end() ? std::string() : at->second;
+}
 
 bool isSegmentation(const InstanceHeader &h) {
     return h.sopClassUid == segmentationClass || h.sopClassUid == labelMapClass;
@@ -65,7 +72,8 @@ std::optional<task::Reason> whyUndecodable(const InstanceHeader &h) {
         return because::hasSeveralSamples(h.samplesPerPixel);
     if (!h.unsupportedSyntax.empty())
         return because::unsupportedSyntax(h.unsupportedSyntax);
-    if (h.bitsAllocated != 8 && h.bitsAllocated != 16)
+    constexpr std::array bits{1, 8, 16, 32};
+    if (std::find(bits.begin(), bits.end(), h.bitsAllocated) == bits.end())
         return because::hasUnsupportedBits(h.bitsAllocated);
     if (h.bitsStored < 1 || h.bitsStored > h.bitsAllocated || h.highBit >= h.bitsAllocated ||
         h.highBit + 1 < h.bitsStored)

@@ -29,6 +29,7 @@ struct Rescale {
     bool isSlopeZero = false; ///< in the header; some converters write 0 and mean 1
     /// False if the header's value is not a number or is nonsense.
     bool isSlopeReadable = true, isInterceptReadable = true;
+    bool isStated = false; ///< false: the header has neither
     bool operator==(const Rescale &) const = default;
 };
 
@@ -59,11 +60,12 @@ struct FrameHeader {
     std::optional<glm::dvec2> spacingMm; ///< distance between columns, distance between rows
     double sliceThicknessMm = 0.0;       ///< 0 if unknown
     Rescale rescale;
-    std::string imageType; ///< values joined with backslashes
-    int segment = 0;       ///< ReferencedSegmentNumber of a segmentation's frame; 0: none
-    /// Attributes that can distinguish volumes at the same positions, by name: temporal position,
-    /// acquisition, echo, ... Missing attributes are not listed.
-    std::map<std::string, std::string> dimensions;
+    int segment = 0; ///< ReferencedSegmentNumber of a segmentation's frame; 0: none
+    /// What can tell volumes at the same positions apart: those of `decoder::dimensions` that the
+    /// frame has, by tag. Several values are joined with backslashes.
+    std::map<std::uint32_t, std::string> dimensions;
+
+    std::string imageType() const; ///< ImageType or FrameType; empty if it is missing
 };
 
 /// Violations of the standard that are tolerated. Bits.
@@ -73,7 +75,12 @@ enum Oddity : std::uint32_t {
     missingDelimiter = 4,    ///< at the end of compressed pixels
     otherPrecision = 8,      ///< compressed values need more bits than the header says
     unreadMosaic = 16,       ///< a Siemens mosaic without a valid number of slices
-    allOddities = 31
+    guessedMosaic = 32,      ///< the same, whose tiles were found by the acquisition matrix
+    placedBySpacing = 64,    ///< one position for all frames, which were placed by their spacing
+    placedByThickness = 128, ///< the same, without a spacing
+    decimalCommas = 256,
+    numbersOfWrongType = 512, ///< decimal numbers under another value representation
+    allOddities = 1023
 };
 
 /// The attributes of a file.
@@ -97,6 +104,8 @@ struct InstanceHeader {
     /// and columns are those of a tile.
     int mosaicSide = 0;
     std::string photometric, rescaleType;
+    bool isInverse = false; ///< Presentation LUT Shape is INVERSE
+    volume::SpacingPlace spacingPlace = volume::SpacingPlace::patient;
     std::optional<int> paddingValue, paddingLimit;
     std::optional<PetHeader> pet; ///< of a PET image
     std::vector<volume::ValueWindow> windows;

@@ -25,6 +25,13 @@ template <class A> void pass(A &archive, volume::ValueWindow &window) {
     pass(archive, window.center);
     pass(archive, window.width);
     pass(archive, window.name);
+    pass(archive, window.function);
+    std::vector<float> curve;
+    if (!A::isReading && window.curve)
+        curve = *window.curve;
+    pass(archive, curve);
+    if (A::isReading && !curve.empty())
+        window.curve = std::make_shared<const std::vector<float>>(std::move(curve));
 }
 
 template <class A> void pass(A &archive, PetHeader &pet) {
@@ -51,7 +58,7 @@ template <class A> void pass(A &archive, FrameHeader &frame) {
     pass(archive, frame.rescale.isSlopeZero);
     pass(archive, frame.rescale.isSlopeReadable);
     pass(archive, frame.rescale.isInterceptReadable);
-    pass(archive, frame.imageType);
+    pass(archive, frame.rescale.isStated);
     pass(archive, frame.segment);
     pass(archive, frame.dimensions);
 }
@@ -75,6 +82,8 @@ template <class A> void pass(A &archive, InstanceHeader &h) {
     pass(archive, h.paddingValue);
     pass(archive, h.paddingLimit);
     pass(archive, h.pet);
+    pass(archive, h.isInverse);
+    pass(archive, h.spacingPlace);
     pass(archive, h.windows);
     pass(archive, h.modalityTable);
     pass(archive, h.frames);
@@ -177,6 +186,15 @@ template <class T> T unpacked(std::span<const std::byte> body) {
     return helper::unpacked<T>(body, task::because::decodedToNonsense);
 }
 
+void requireValid(const volume::ValueWindow &window) {
+    using volume::WindowFunction;
+    const bool isTable = window.function == WindowFunction::table;
+    if (!(window.width > 0.0) || window.function < WindowFunction::linearExact ||
+        window.function > WindowFunction::table || isTable != bool(window.curve) ||
+        (isTable && (window.curve->size() < 2 || window.curve->size() > 65536)))
+        fail();
+}
+
 void requireValid(const InstanceHeader &header) {
     // Ranges that all other code relies on.
     const auto isWithin = [](double value, double most) { return std::abs(value) <= most; };
@@ -190,6 +208,11 @@ void requireValid(const InstanceHeader &header) {
         !isWithin(header.paddingValue.value_or(0), 65536) ||
         !isWithin(header.paddingLimit.value_or(0), 65536))
         fail();
+    if (header.spacingPlace < volume::SpacingPlace::patient ||
+        header.spacingPlace > volume::SpacingPlace::calibrated)
+        fail();
+    for (const volume::ValueWindow &window : header.windows)
+        requireValid(window);
     for (const FrameHeader &frame : header.frames) {
         const glm::dvec3 position = frame.positionMm.value_or(glm::dvec3(0.0));
         const glm::dvec2 spacing = frame.spacingMm.value_or(glm::dvec2(1.0));

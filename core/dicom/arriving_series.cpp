@@ -131,8 +131,18 @@ std::size_t finestStride(const std::vector<bool> &isHere) {
     return stride;
 }
 
-ArrivingSeries::ArrivingSeries(std::size_t count)
-    : m_isHere(count), m_missing(count), m_paths(count) {}
+ArrivingSeries::ArrivingSeries(std::size_t count, std::size_t unlisted)
+    : m_isHere(count), m_missing(count + unlisted), m_paths(count), m_all(count + unlisted) {}
+
+void ArrivingSeries::addUnlisted(const fs::path &path) {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_pending.emplace_back(count(), path);
+        if (m_missing > 0 && --m_missing == 0)
+            m_complete.request_stop();
+    }
+    m_changed.notify_all();
+}
 
 void ArrivingSeries::add(std::size_t number, const fs::path &path) {
     {
@@ -181,14 +191,17 @@ void ArrivingSeries::decode(const std::vector<Arrival> &arrivals, const task::Pr
         }
     });
     for (const auto &[number, path] : arrivals)
-        m_paths[number] = path;
+        if (number < count())
+            m_paths[number] = path;
+        else
+            m_paths.push_back(path);
 }
 
 void ArrivingSeries::showPartial(std::size_t stride, const task::Progress &progress,
                                  const Show &show) const {
     std::map<fs::path, std::size_t> numbers;
     std::vector<fs::path> paths;
-    for (std::size_t n = 0; n < m_paths.size(); ++n)
+    for (std::size_t n = 0; n < count(); ++n)
         if (!m_paths[n].empty() && m_decoded.header(m_paths[n])) {
             numbers.emplace(m_paths[n], n);
             paths.push_back(m_paths[n]);
@@ -238,12 +251,12 @@ void ArrivingSeries::showPartial(std::size_t stride, const task::Progress &progr
         volume::Lattice::make(size, {slices.front().positionMm + along * depths.firstMm},
                               {found.step(0), found.step(1), along * stepMm});
     volume::VolumeNotes notes = entry.notes;
-    notes.warnings = {because::slicesOfSeries(slices.size(), m_paths.size())};
+    notes.warnings = {because::slicesOfSeries(slices.size(), m_all)};
     const std::size_t plane = size.offsetOf(0, 0, 1);
     const ValueScale scale{entry.unit, entry.valueFactor};
     const auto deliver = [&](auto samples) {
         show({volume::Volume(lattice, std::move(samples), entry.unit, std::move(notes)),
-              slices.size(), m_paths.size(), stride},
+              slices.size(), m_all, stride},
              progress);
     };
     if (auto whole = interpolated<std::int16_t>(slices, depths, plane, scale, m_decoded, progress))
@@ -267,8 +280,8 @@ ArrivedSeries ArrivingSeries::load(const task::Progress &progress, const Show &s
         done += arrivals.size();
         progress.report(0.9 * double(done) / double(count()));
         std::vector<bool> isHere;
-        for (const fs::path &path : m_paths)
-            isHere.push_back(!path.empty());
+        for (std::size_t n = 0; n < count(); ++n)
+            isHere.push_back(!m_paths[n].empty());
         const std::size_t stride = finestStride(isHere);
         const bool isFiner =
             stride > 0 && (shown == 0 || (stride < shown && stride <= coarsestToProject));
@@ -296,6 +309,12 @@ ArrivedSeries ArrivingSeries::load(const task::Progress &progress, const Show &s
         scan(paths, progress.part(0.9, 0.92), {.includesHuge = true, .decoded = &m_decoded}));
     arrived.loaded = loadVolume(*defaultSelection(*arrived.catalogue).volume,
                                 progress.part(0.92, 1.0), {}, &m_decoded);
+    // A part of a series is never taken for all of it.
+    if (paths.size() < m_all) {
+        volume::VolumeNotes notes = arrived.loaded.volume.notes();
+        notes.warnings.insert(notes.warnings.begin(), because::slicesOfSeries(paths.size(), m_all));
+        arrived.loaded.volume = arrived.loaded.volume.withNotes(std::move(notes));
+    }
     m_decoded.clear(); // whoever holds this object does not hold the volume twice
     return arrived;
 }

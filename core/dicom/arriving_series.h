@@ -40,19 +40,22 @@ struct ArrivedSeries {
 class ArrivingSeries {
 public:
     /// *Shape*: `count` files, which are numbered in the order of slices, as far as their sender
-    /// knows it. *Requires*: at least one.
-    explicit ArrivingSeries(std::size_t count);
+    /// knows it; and `unlisted` others. *Requires*: at least one.
+    explicit ArrivingSeries(std::size_t count, std::size_t unlisted = 0);
 
     std::size_t count() const { return m_isHere.size(); }
     /// A file is there. One that comes again is ignored. Thread-safe.
     void add(std::size_t number, const std::filesystem::path &path);
+    /// The same for one whose place is not known. *Requires*: none comes twice.
+    void addUnlisted(const std::filesystem::path &path);
     /// No other file comes. Thread-safe.
     void end();
 
     /// Receives what is there at first, and when every eighth, fourth and second slice is there.
     /// Its progress stops when the series is complete: then a partial volume is of no more use.
     using Show = std::function<void(const PartialVolume &, const task::Progress &)>;
-    /// Waits for all files, then assembles the volume of those that came. Only series of single
+    /// Waits for all files, then assembles the volume of those that came; if some did not, it says
+    /// so. Only series of single
     /// images that lie on a line in the order of their numbers are shown before. *Requires*: it is
     /// called once. *Throws* as `scan` and `loadVolume`; Error{unusable} if nothing came;
     /// Cancelled.
@@ -73,7 +76,8 @@ private:
     std::stop_source m_complete;
 
     // Of the thread that loads.
-    std::vector<std::filesystem::path> m_paths; ///< by number; empty: not there
+    std::vector<std::filesystem::path> m_paths; ///< by number; empty: not there; then the unlisted
+    std::size_t m_all;                          ///< files, unlisted ones too
     DecodedFiles m_decoded;
 };
 

@@ -80,6 +80,20 @@ std::vector<Selection> selections(const Catalogue &catalogue) {
     return all;
 }
 
+std::vector<Skipped> problemsOf(const Catalogue &catalogue) {
+    std::vector<Skipped> problems = catalogue.skipped;
+    if (catalogue.empty())
+        return problems;
+    const auto isOther = [](const Skipped &file) { return file.reason.is(because::isNotDicom); };
+    const auto first = std::find_if(problems.begin(), problems.end(), isOther);
+    if (first == problems.end())
+        return problems;
+    const std::filesystem::path folder = first->path.parent_path();
+    const std::size_t others = std::erase_if(problems, isOther);
+    problems.push_back({folder, because::otherFiles(others)});
+    return problems;
+}
+
 Selection defaultSelection(const Catalogue &catalogue, Holes holes) {
     const auto all = choose(selections(catalogue), holes);
     if (all.empty())

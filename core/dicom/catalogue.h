@@ -115,6 +115,10 @@ struct Catalogue {
     bool empty() const { return patients.empty(); }
 };
 
+/// The unused files to tell the user about. Texts and programs beside images are no problem: they
+/// are one entry, which names their folder and number.
+std::vector<Skipped> problemsOf(const Catalogue &catalogue);
+
 /// A volume's position in a catalogue.
 struct Selection {
     const Patient *patient = nullptr;

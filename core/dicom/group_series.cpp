@@ -35,8 +35,9 @@ bool sameSpacing(const glm::dvec2 &a, const glm::dvec2 &b) {
 bool sameBlock(const PlacedFrame &a, const PlacedFrame &b) {
     const FrameHeader &x = a.header, &y = b.header;
     return a.rows == b.rows && a.columns == b.columns && a.modality == b.modality &&
-           isLocalizer(x) == isLocalizer(y) && sameSpacing(*x.spacingMm, *y.spacingMm) &&
-           sameAxis(*x.rowAxis, *y.rowAxis) && sameAxis(*x.columnAxis, *y.columnAxis);
+           isLocalizer(x) == isLocalizer(y) && a.statesValues == b.statesValues &&
+           sameSpacing(*x.spacingMm, *y.spacingMm) && sameAxis(*x.rowAxis, *y.rowAxis) &&
+           sameAxis(*x.columnAxis, *y.columnAxis);
 }
 
 std::size_t digestOf(const PlacedFrame &frame) {
@@ -74,6 +75,7 @@ void dropCopies(Frames &frames, std::vector<Skipped> &skipped) {
 VolumeEntry entryFrom(const Part &part) {
     VolumeEntry entry;
     entry.label = part.label;
+    entry.notes.warnings = part.warnings;
     for (const PlacedFrame &frame : part.frames) {
         entry.frames.push_back(frame.reference);
         entry.frames.back().digest = digestOf(frame);
@@ -159,37 +161,43 @@ VolumeEntry volumeOf(const Part &part, Slices slices = Slices::all) {
     return entry;
 }
 
-// The volume of the frames [first, end) of a part, a run between two holes.
-VolumeEntry runOf(const Part &part, std::size_t first, std::size_t end) {
+// The volume of the frames [first, end) of a part, a run beside a break.
+VolumeEntry runOf(const Part &part, std::size_t first, std::size_t end, const Break &at) {
     const bool isOne = end - first == 1;
     Part run{
         part.label,
-        {part.frames.begin() + std::ptrdiff_t(first), part.frames.begin() + std::ptrdiff_t(end)}};
+        {part.frames.begin() + std::ptrdiff_t(first), part.frames.begin() + std::ptrdiff_t(end)},
+        part.warnings};
     run.label.push_back(isOne ? because::slice(end) : because::slicesTo(first + 1, end));
     VolumeEntry entry = volumeOf(run);
-    const std::size_t next = end < part.frames.size() ? end : first;
+    const std::string a = part.frames[at.at - 1].reference.path.filename().string(),
+                      b = part.frames[at.at].reference.path.filename().string();
+    const std::string gap = fmt::format("{:.1f}", at.gapMm);
     const std::size_t all = part.frames.size();
-    const PlacedFrame &before = part.frames[next - 1], &behind = part.frames[next];
-    const std::string gap = fmt::format("{:.1f}", behind.depthMm - before.depthMm);
-    const std::string a = before.reference.path.filename().string(),
-                      b = behind.reference.path.filename().string();
-    entry.notes.warnings.push_back(isOne
-                                       ? because::gapAroundSlice(end, all, gap, a, b)
-                                       : because::gapAroundSlices(first + 1, end, all, gap, a, b));
+    entry.notes.warnings.push_back(
+        at.shiftMm > 0.0 ? because::shiftBesideSlices(first + 1, end, all,
+                                                      fmt::format("{:.1f}", at.shiftMm), a, b)
+        : isOne          ? because::gapAroundSlice(end, all, gap, a, b)
+                         : because::gapAroundSlices(first + 1, end, all, gap, a, b));
     return entry;
 }
 
-// The volumes of a part: its stack; or, if slices are missing, the runs between the holes, and the
-// whole stack with its holes filled.
+// The volumes of a part: its stack; or, if slices are missing or the field of view shifts, the runs
+// between; and in the first case the whole stack with its holes filled.
 std::vector<VolumeEntry> volumesOf(const Part &part, Slices slices) {
     if (slices == Slices::arriving)
         return {volumeOf(part, slices)};
-    const auto runs = runsOf(part.frames);
-    if (runs.size() == 1)
+    const std::vector<Break> breaks = breaksOf(part.frames);
+    if (breaks.empty())
         return {volumeOf(part)};
     std::vector<VolumeEntry> volumes;
-    for (const auto &[first, end] : runs)
-        volumes.push_back(runOf(part, first, end));
+    std::size_t first = 0;
+    for (std::size_t n = 0; n <= breaks.size(); ++n) {
+        const bool isLast = n == breaks.size();
+        const std::size_t end = isLast ? part.frames.size() : breaks[n].at;
+        volumes.push_back(runOf(part, first, end, breaks[isLast ? n - 1 : n]));
+        first = end;
+    }
     // Not if more slices would be interpolated than were scanned.
     VolumeEntry whole = volumeOf(part);
     if (!whole.placed || whole.geometry.lattice.size().k > 2 * int(part.frames.size()))
@@ -262,21 +270,50 @@ Frames framesOf(const std::vector<SeriesFile> &files) {
             frame.sopInstanceUid = file.header.sopInstanceUid;
             frame.frameOfReferenceUid = file.header.frameOfReferenceUid;
             frame.modality = file.header.modality;
+            frame.statesValues = statesValues(file.header, n);
             frames.push_back(std::move(frame));
         }
     return frames;
 }
 
+// Adds a set of images.
+void addImages(Frames frames, const task::Reason &reason, Stacks &stacks) {
+    std::stable_sort(frames.begin(), frames.end(), [](const PlacedFrame &a, const PlacedFrame &b) {
+        return std::tuple(a.instanceNumber, a.reference.frame) <
+               std::tuple(b.instanceNumber, b.reference.frame);
+    });
+    VolumeEntry entry = entryFrom({{}, frames, {}});
+    makeImages(entry, frames, reason);
+    stacks.emplace_back().push_back(std::move(entry));
+}
+
+// The parts of a block that are a volume each. Empty if repeated images cannot be told apart.
+std::vector<Part> partsOf(const Frames &block, Slices slices, const ReadAttributes &read,
+                          const task::Progress &progress) {
+    if (hasRepeatedPositions(block))
+        return splitRepeats(block, read, progress);
+    if (slices == Slices::all) {
+        const StackResult whole = stackGeometry(block);
+        const auto isUneven = [](const task::Reason &warning) {
+            return warning.is(because::unevenSlices) || warning.is(because::missingSlices);
+        };
+        if (whole.refusal || std::any_of(whole.warnings.begin(), whole.warnings.end(), isUneven))
+            if (std::vector<Part> parts = splitOverlapping(block, read, progress); !parts.empty())
+                return parts;
+    }
+    return {{{}, block, {}}};
+}
+
 // Adds the stacks of frames whose geometry is known.
-void addVolumes(const Frames &frames, Slices slices, const task::Progress &progress,
-                Stacks &stacks) {
+void addVolumes(const Frames &frames, Slices slices, const ReadAttributes &read,
+                const task::Progress &progress, Stacks &stacks) {
     for (const Frames &images : blocksOf(frames, sameBlock, progress)) {
         std::vector<task::Reason> warnings;
         for (Frames &block : spacesOf(images, warnings)) {
             sortByDepth(block);
-            const std::vector<Part> parts = hasRepeatedPositions(block)
-                                                ? splitRepeats(block, progress)
-                                                : std::vector<Part>{{{}, block}};
+            const std::vector<Part> parts = partsOf(block, slices, read, progress);
+            if (parts.empty())
+                addImages(block, because::imagesCannotBeToldApart, stacks);
             // The phases of a run of slices share one stack.
             std::map<std::pair<std::size_t, bool>, std::size_t> runs;
             for (const Part &part : parts) {
@@ -298,27 +335,23 @@ void addVolumes(const Frames &frames, Slices slices, const task::Progress &progr
 }
 
 // Adds the frames without geometry as sets of images.
-void addImages(const Frames &frames, const task::Progress &progress, Stacks &stacks) {
+void addUnplaced(const Frames &frames, const task::Progress &progress, Stacks &stacks) {
     const auto sameSize = [](const PlacedFrame &a, const PlacedFrame &b) {
         return a.rows == b.rows && a.columns == b.columns &&
                missingGeometry(a.header) == missingGeometry(b.header);
     };
-    for (Frames &block : blocksOf(frames, sameSize, progress)) {
-        std::stable_sort(block.begin(), block.end(),
-                         [](const PlacedFrame &a, const PlacedFrame &b) {
-                             return std::tuple(a.instanceNumber, a.reference.frame) <
-                                    std::tuple(b.instanceNumber, b.reference.frame);
-                         });
-        VolumeEntry entry = entryFrom({{}, block});
-        makeImages(entry, block, *missingGeometry(block.front().header));
-        stacks.emplace_back().push_back(std::move(entry));
-    }
+    for (const Frames &block : blocksOf(frames, sameSize, progress))
+        addImages(block, *missingGeometry(block.front().header), stacks);
 }
 
 } // namespace
 
 bool isLocalizer(const FrameHeader &frame) {
-    return frame.imageType.find("LOCALIZER") != std::string::npos;
+    return frame.imageType().find("LOCALIZER") != std::string::npos;
+}
+
+bool statesValues(const InstanceHeader &header, int frame) {
+    return header.frames.at(std::size_t(frame)).rescale.isStated || !header.modalityTable.empty();
 }
 
 std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frameOfReferenceUid,
@@ -338,15 +371,15 @@ std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frame
 
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                                      std::vector<Skipped> &skipped, const task::Progress &progress,
-                                     Slices slices) {
+                                     Slices slices, const ReadAttributes &read) {
     Frames placed, unplaced;
     for (PlacedFrame &frame : framesOf(files))
         (missingGeometry(frame.header) ? unplaced : placed).push_back(std::move(frame));
     dropCopies(placed, skipped);
     dropCopies(unplaced, skipped);
     Stacks stacks;
-    addVolumes(placed, slices, progress, stacks);
-    addImages(unplaced, progress, stacks);
+    addVolumes(placed, slices, read, progress, stacks);
+    addUnplaced(unplaced, progress, stacks);
     nameStacks(stacks);
     std::vector<VolumeEntry> entries;
     for (auto &stack : stacks)

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/dicom/attribute_columns.h"
 #include "core/dicom/catalogue.h"
 #include "core/dicom/stack_geometry.h"
 #include "core/task/progress.h"
@@ -16,17 +17,21 @@ struct SeriesFile {
 };
 
 /// Splits a series into volumes: first by size, orientation, pixel spacing, localizer, frame of
-/// reference and modality. If positions still repeat, it splits by the first attribute that
-/// distinguishes them (temporal position, acquisition, echo, b-value, ...), or else by the order of
-/// the files. Copies of an instance are dropped and added to `skipped`. Frames without position or
-/// orientation become sets of images that contain the reason. *Throws* Cancelled.
+/// reference, modality, and whether they state a rescale. If positions still repeat, or the stack
+/// is uneven, it splits by the attributes that distinguish the parts, see `splitRepeats` and
+/// `splitOverlapping`, which `read` lists. Copies of an instance are dropped and added to
+/// `skipped`. Frames without position or orientation, and those that nothing distinguishes, become
+/// sets of images that contain the reason. *Throws* Cancelled.
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                                      std::vector<Skipped> &skipped,
                                      const task::Progress &progress = {},
-                                     Slices slices = Slices::all);
+                                     Slices slices = Slices::all, const ReadAttributes &read = {});
 
 /// Whether a frame is a picture for planning a scan (scout, topogram), by its ImageType.
 bool isLocalizer(const FrameHeader &frame);
+
+/// Whether a file says what the samples of a frame mean, by a rescale or a table.
+bool statesValues(const InstanceHeader &header, int frame);
 
 /// A digest of the frame's instance, place and modality, kept in memory only: frames with different
 /// digests are different images, whatever the names of their files. It prevents mix-ups, not

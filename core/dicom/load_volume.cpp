@@ -130,6 +130,7 @@ public:
         if (m_otherPrecision > 0) {
             InstanceHeader header;
             header.oddities = decoder::otherPrecision;
+            header.frames.resize(1);
             const std::vector<const InstanceHeader *> all(m_otherPrecision, &header);
             for (const task::Reason &warning : warningsOfValues(all))
                 warnings.push_back(warning);

@@ -36,6 +36,7 @@ public:
 
     VolumeEntry regrouped() const {
         std::vector<Skipped> ignored;
+        // The frames were told apart when they were scanned.
         const std::vector<VolumeEntry> volumes = groupSeries(m_files, ignored);
         const VolumeEntry &found = largest(volumes);
         if (volumes.size() != 1 && (!found.placed || found.geometry.lattice.size().k < 2))

@@ -41,9 +41,9 @@ std::size_t bytesToGroup(const InstanceHeader &header) {
     constexpr std::size_t copies = 5, pathBytes = 256;
     std::size_t bytes = 0;
     for (const decoder::FrameHeader &frame : header.frames) {
-        bytes += sizeof(PlacedFrame) + pathBytes + frame.imageType.capacity();
-        for (const auto &[name, value] : frame.dimensions)
-            bytes += 64 + name.capacity() + value.capacity();
+        bytes += sizeof(PlacedFrame) + pathBytes;
+        for (const auto &[tag, value] : frame.dimensions)
+            bytes += 96 + value.capacity();
     }
     return copies * bytes;
 }
@@ -87,19 +87,24 @@ std::vector<volume::ValueWindow> windowsOf(const VolumeEntry &entry, const Heade
     for (volume::ValueWindow &window : windows) {
         window.center *= entry.valueFactor;
         window.width *= entry.valueFactor;
+        // That function is for whole numbers.
+        if (entry.valueFactor != 1.0 && window.function == volume::WindowFunction::linear)
+            window.function = volume::WindowFunction::linearExact;
     }
     return windows;
 }
 
-// Sets the type of the values and the notes, from the first file of an entry. `pet`: the PET images
-// of its series.
-void describe(VolumeEntry &entry, const HeadersByPath &headers,
+// Sets the type of the values and the notes, from the first file of an entry. `othersStateValues`:
+// some image of its series states what its samples mean. `pet`: the PET images of its series.
+void describe(VolumeEntry &entry, const HeadersByPath &headers, bool othersStateValues,
               const std::vector<const InstanceHeader *> &pet) {
     const InstanceHeader &h = *headers.at(entry.frames.front().path);
     entry.notes.title = h.seriesDescription.empty() ? h.modality : h.seriesDescription;
     entry.notes.modality = h.modality;
     entry.notes.bodyPart = h.bodyPart;
-    entry.notes.darkIsHigh = h.photometric == "MONOCHROME1" || (h.pet && entry.placed);
+    entry.notes.darkIsHigh =
+        h.photometric == "MONOCHROME1" || h.isInverse || (h.pet && entry.placed);
+    entry.notes.spacingPlace = h.spacingPlace;
     entry.notes.placed = entry.placed;
     const FrameReference &front = entry.frames.front();
     entry.notes.isLocalizer = isLocalizer(h.frames.at(std::size_t(front.frame)));
@@ -122,9 +127,15 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers,
     entry.notes.lossy =
         std::any_of(entry.frames.begin(), entry.frames.end(),
                     [&](const FrameReference &frame) { return headers.at(frame.path)->lossy; });
+    const bool statesValues = dicom::statesValues(h, front.frame);
     const bool hounsfield =
-        h.rescaleType == "HU" ||
-        (h.modality == "CT" && (h.rescaleType.empty() || h.rescaleType == "US"));
+        (h.rescaleType == "HU" ||
+         (h.modality == "CT" && (h.rescaleType.empty() || h.rescaleType == "US"))) &&
+        (statesValues || !othersStateValues);
+    if (entry.placed && !entry.notes.isLocalizer && !statesValues &&
+        (othersStateValues || h.modality == "CT"))
+        entry.notes.warnings.push_back(othersStateValues ? because::valuesAsStored
+                                                         : because::rescaleIsAssumed);
     if (hounsfield && entry.placed && h.modality == "CT") {
         entry.unit = volume::ValueUnit::hounsfield;
     } else if (h.pet && entry.placed) {
@@ -369,9 +380,13 @@ SeriesSorter sortFiles(const std::vector<fs::path> &paths, std::vector<FileConte
 Series seriesOf(const std::vector<SeriesFile> &files, Slices slices, std::vector<Skipped> &skipped,
                 const task::Progress &progress) {
     const InstanceHeader &h = files.front().header;
-    Series series{h.seriesUid, h.seriesDescription, h.modality,
-                  h.bodyPart,  h.seriesNumber,      groupSeries(files, skipped, progress, slices),
-                  {}};
+    const ReadAttributes read = [&](const fs::path &path) {
+        return decoder::Decoder::shared().attributes(path, progress);
+    };
+    Series series{
+        h.seriesUid, h.seriesDescription, h.modality,
+        h.bodyPart,  h.seriesNumber,      groupSeries(files, skipped, progress, slices, read),
+        {}};
     addFiles(series, files);
     HeadersByPath headers;
     std::set<std::string> studies;
@@ -384,10 +399,13 @@ Series seriesOf(const std::vector<SeriesFile> &files, Slices slices, std::vector
     for (const SeriesFile &file : files)
         if (file.header.pet)
             pet.push_back(&file.header);
+    const bool someStateValues =
+        std::any_of(files.begin(), files.end(),
+                    [](const SeriesFile &file) { return statesValues(file.header, 0); });
     for (VolumeEntry &volume : series.volumes) {
         if (studies.size() > 1)
             volume.notes.warnings.push_back(because::namesSeveralStudies(studies.size()));
-        describe(volume, headers, pet);
+        describe(volume, headers, someStateValues, pet);
     }
     return series;
 }

@@ -51,6 +51,11 @@ Plane meanPlane(const std::vector<PlacedFrame> &frames) {
     return plane;
 }
 
+// How far a frame may be from the line through the stack.
+double lineToleranceMm(const Plane &plane) {
+    return std::max(0.15, 0.1 * std::min(plane.spacingMm.x, plane.spacingMm.y));
+}
+
 std::vector<task::Reason> jitterWarnings(const std::vector<PlacedFrame> &frames,
                                          const Plane &plane) {
     double axes = 0.0;
@@ -186,8 +191,7 @@ private:
         if (!std::isfinite(total) || !(total > 0.0))
             return because::slicesAtOnePosition;
         m_axis = axisThrough(m_frames, m_depths);
-        const double tolerance =
-            std::max(0.15, 0.1 * std::min(m_plane.spacingMm.x, m_plane.spacingMm.y));
+        const double tolerance = lineToleranceMm(m_plane);
         double worst = 0.0;
         const PlacedFrame *outlier = nullptr;
         for (std::size_t n = 0; n < m_frames.size(); ++n) {
@@ -265,6 +269,37 @@ private:
     Axis m_axis;
 };
 
+// Empty if the frames are in line, or the stacks between the shifts are not.
+std::vector<Break> shiftsOf(const std::vector<PlacedFrame> &frames,
+                            const std::vector<double> &gaps) {
+    const Plane plane = meanPlane(frames);
+    std::vector<glm::dvec2> steps; // within the plane
+    std::vector<double> perMm[2];
+    for (std::size_t n = 0; n < gaps.size(); ++n) {
+        const glm::dvec3 step = *frames[n + 1].header.positionMm - *frames[n].header.positionMm;
+        steps.emplace_back(glm::dot(step, plane.row), glm::dot(step, plane.column));
+        for (int axis = 0; axis < 2; ++axis)
+            perMm[axis].push_back(gaps[n] > 0.0 ? steps.back()[axis] / gaps[n] : 0.0);
+    }
+    const glm::dvec2 tilt(median(perMm[0]), median(perMm[1]));
+    std::vector<Break> shifts;
+    for (std::size_t n = 0; n < gaps.size(); ++n)
+        // Both frames may be off the line by its tolerance.
+        if (const double shift = glm::length(steps[n] - tilt * gaps[n]);
+            shift > 2.0 * lineToleranceMm(plane))
+            shifts.push_back({n + 1, gaps[n], shift});
+    std::size_t first = 0;
+    for (std::size_t n = 0; n <= shifts.size(); ++n) {
+        const std::size_t end = n < shifts.size() ? shifts[n].at : frames.size();
+        const std::vector<PlacedFrame> run(frames.begin() + std::ptrdiff_t(first),
+                                           frames.begin() + std::ptrdiff_t(end));
+        if (shifts.empty() || run.size() < 2 || stackGeometry(run).refusal)
+            return {};
+        first = end;
+    }
+    return shifts;
+}
+
 } // namespace
 
 void sortByDepth(std::vector<PlacedFrame> &frames) {
@@ -276,21 +311,19 @@ void sortByDepth(std::vector<PlacedFrame> &frames) {
     });
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> runsOf(const std::vector<PlacedFrame> &frames) {
-    std::vector<std::pair<std::size_t, std::size_t>> runs{{0, frames.size()}};
+std::vector<Break> breaksOf(const std::vector<PlacedFrame> &frames) {
     if (frames.size() < 3)
-        return runs;
+        return {};
     std::vector<double> depths;
     for (const PlacedFrame &frame : frames)
         depths.push_back(frame.depthMm);
     const std::vector<double> gaps = gapsOf(depths);
     const double widest = largestGapRatio * median(gaps);
+    std::vector<Break> breaks;
     for (std::size_t n = 0; n < gaps.size(); ++n)
-        if (gaps[n] > widest) {
-            runs.back().second = n + 1;
-            runs.emplace_back(n + 1, frames.size());
-        }
-    return runs;
+        if (gaps[n] > widest)
+            breaks.push_back({n + 1, gaps[n], 0.0});
+    return breaks.empty() ? shiftsOf(frames, gaps) : breaks;
 }
 
 bool isStackWarning(const task::Reason &warning) {

@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/decoder/instance.h"
@@ -23,7 +22,8 @@ struct PlacedFrame {
     int instanceNumber = 0;
     int framesOfFile = 1;
     std::string sopInstanceUid;
-    bool sharesUid = false; ///< another image has the same instance UID
+    bool sharesUid = false;    ///< another image has the same instance UID
+    bool statesValues = false; ///< what its samples mean: it has a rescale or a table
     /// The same for all frames of a volume: one patient space, one kind of values.
     std::string frameOfReferenceUid, modality;
 
@@ -49,9 +49,15 @@ inline constexpr double largestJitter = 3e-3, jitterToReport = 1e-3;
 /// and an orientation.
 void sortByDepth(std::vector<PlacedFrame> &frames);
 
-/// Ranges [first, last) of sorted frames between holes, which are gaps of more than 2.5 times the
-/// median; a single range if there are no holes.
-std::vector<std::pair<std::size_t, std::size_t>> runsOf(const std::vector<PlacedFrame> &frames);
+/// Where a stack ends and another begins, between frames `at - 1` and `at`.
+struct Break {
+    std::size_t at;
+    double gapMm;
+    double shiftMm; ///< of the field of view; 0: slices are missing
+};
+/// The breaks of sorted frames: gaps of more than 2.5 times the median; or, if there are none,
+/// shifts of the field of view between stacks that are each in line.
+std::vector<Break> breaksOf(const std::vector<PlacedFrame> &frames);
 
 /// The lattice of frames that are sorted by depth and have the same size, and the same orientation
 /// and pixel spacing within `largestJitter`. Spacing and tilt come from the positions alone, by

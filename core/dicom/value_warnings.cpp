@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <set>
+#include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace pellucid::dicom {
 
@@ -13,13 +18,57 @@ namespace because = task::because;
 using decoder::FrameHeader;
 using decoder::InstanceHeader;
 
-constexpr std::array<std::pair<decoder::Oddity, task::Because<1>>, 5> oddities{{
+constexpr std::array<std::pair<decoder::Oddity, task::Because<1>>, 10> oddities{{
     {decoder::mislabelledEncoding, because::implicitLabelledExplicit},
     {decoder::definedLengthPixels, because::pixelsOfDefinedLength},
     {decoder::missingDelimiter, because::pixelsWithoutEnd},
     {decoder::otherPrecision, because::moreBitsThanDeclared},
     {decoder::unreadMosaic, because::mosaicsShownFlat},
+    {decoder::guessedMosaic, because::mosaicTilesGuessed},
+    {decoder::placedBySpacing, because::placedBySpacing},
+    {decoder::placedByThickness, because::placedByThickness},
+    {decoder::decimalCommas, because::decimalCommas},
+    {decoder::numbersOfWrongType, because::numbersOfWrongType},
 }};
+
+// What images of one volume should agree on, by the attribute's name. Empty: not stated.
+struct Agreement {
+    const char *name;
+    std::string (*value)(const InstanceHeader &);
+};
+
+template <std::uint32_t tag> std::string dimensionOf(const InstanceHeader &header) {
+    const auto &dimensions = header.frames.front().dimensions;
+    const auto at = dimensions.find(tag);
+    return at == dimensions.end() ? std::string() : at->second;
+}
+
+constexpr std::array agreements{
+    Agreement{"SOP Class", [](const InstanceHeader &h) { return h.sopClassName; }},
+    Agreement{"Rescale Type", [](const InstanceHeader &h) { return h.rescaleType; }},
+    Agreement{"Photometric Interpretation", [](const InstanceHeader &h) { return h.photometric; }},
+    Agreement{
+        "Presentation LUT Shape",
+        [](const InstanceHeader &h) { return std::string(h.isInverse ? "INVERSE" : "IDENTITY"); }},
+    Agreement{"Patient's Birth Date", [](const InstanceHeader &h) { return h.birthDate; }},
+    Agreement{"Patient's Sex", [](const InstanceHeader &h) { return h.sex; }},
+    Agreement{"Convolution Kernel", dimensionOf<0x00181210>},
+    Agreement{"KVP", dimensionOf<0x00180060>},
+};
+
+std::vector<task::Reason> disagreementsOf(const std::vector<const InstanceHeader *> &files) {
+    std::vector<task::Reason> disagreements;
+    for (const Agreement &agreement : agreements) {
+        std::set<std::string> values;
+        for (const InstanceHeader *file : files)
+            values.insert(agreement.value(*file));
+        values.erase(""); // not stated
+        if (values.size() > 1)
+            disagreements.push_back(because::disagreementIn(
+                agreement.name, fmt::format("{}", fmt::join(values, ", "))));
+    }
+    return disagreements;
+}
 
 } // namespace
 
@@ -39,11 +88,14 @@ std::vector<task::Reason> warningsOfValues(const std::vector<const InstanceHeade
     });
     for (const auto &[oddity, what] : oddities)
         count(what, [bit = oddity](const InstanceHeader &h) { return (h.oddities & bit) != 0; });
+    if (std::vector<task::Reason> disagreements = disagreementsOf(files); !disagreements.empty())
+        warnings.push_back(because::imagesDisagree(std::move(disagreements)));
     return warnings;
 }
 
 bool isValueWarning(const task::Reason &warning) {
     return warning.is(because::surplusPixels) || warning.is(because::zeroSlopes) ||
+           warning.is(because::imagesDisagree) ||
            std::any_of(oddities.begin(), oddities.end(),
                        [&](const auto &odd) { return warning.is(odd.second); });
 }

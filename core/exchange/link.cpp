@@ -6,6 +6,7 @@
 #include <csignal>
 #include <exception>
 #include <system_error>
+#include <utility>
 
 #include "core/helper/packing.h"
 #include "core/helper/protection.h"
@@ -40,18 +41,40 @@ Link::Link(double patienceSeconds) : m_patienceSeconds(patienceSeconds) {}
 
 Link::Link(const Connection &connection, const task::Progress &progress,
            const StepObserver &observe)
-    : m_patienceSeconds(connection.peer.silenceSeconds + slackSeconds) {
+    : m_connection(connection), m_patienceSeconds(connection.peer.silenceSeconds + slackSeconds) {
     requireSecureLogin(connection.peer);
+    connect(progress, observe);
+}
+
+void Link::connect(const task::Progress &progress, const StepObserver &observe) {
     start();
-    send({Kind::connect, 0, 0, pack(connection)});
+    send({Kind::connect, 0, 0, pack(*m_connection)});
+    const Peer &peer = m_connection->peer;
     const double patience = m_patienceSeconds;
     m_patienceSeconds =
-        std::max(startSeconds, connection.peer.connectSeconds + connection.peer.associationSeconds +
-                                   slackSeconds);
+        std::max(startSeconds, peer.connectSeconds + peer.associationSeconds + slackSeconds);
     m_confinement = converse(progress, nullptr, {}, observe, Kind::ready).code;
     m_patienceSeconds = patience;
     note(m_confinement);
+    m_answers = 0;
+    m_isArriving = false;
     m_isUsable = true;
+}
+
+template <class F> void Link::request(const task::Progress &progress, F &&make) {
+    for (;;) {
+        try {
+            make();
+            ++m_answers;
+            return;
+        } catch (const Error &error) {
+            // Without an answer, another connection would be closed, too.
+            if (!m_connection || m_connection->peer.protocol != Protocol::web ||
+                !error.reason().is(because::serverHungUp) || m_answers == 0)
+                throw;
+        }
+        connect(progress, {});
+    }
 }
 
 Link::~Link() {
@@ -71,14 +94,15 @@ void Link::start() {
 }
 
 void Link::echo(const task::Progress &progress, const StepObserver &observe) {
-    send({Kind::echo, 0, 0, {}});
-    converse(progress, nullptr, {}, observe, Kind::done);
+    request(progress, [&] {
+        send({Kind::echo, 0, 0, {}});
+        converse(progress, nullptr, {}, observe, Kind::done);
+    });
 }
 
 QueryEnd Link::find(const Query &query, const std::function<void(Attributes)> &match,
                     const task::Progress &progress) {
     m_isAtWork = true;
-    send({Kind::find, 0, 0, pack(query)});
     // Also if the helper does not keep to the limit.
     const std::uint32_t limit = query.limit == 0 ? maxMatches : std::min(query.limit, maxMatches);
     std::uint32_t count = 0;
@@ -92,30 +116,46 @@ QueryEnd Link::find(const Query &query, const std::function<void(Attributes)> &m
             throw Error(ErrorCode::unusable, because::serverListsTooMuch(count));
         }
         ++count;
+        ++m_answers;
         room -= bytes;
         match(std::move(attributes));
     };
-    return unpackQueryEnd(converse(progress, nullptr, counted, {}, Kind::done).body);
+    QueryEnd end;
+    request(progress, [&] {
+        Query rest = query;
+        rest.skip = count;
+        send({Kind::find, 0, 0, pack(rest)});
+        end = unpackQueryEnd(converse(progress, nullptr, counted, {}, Kind::done).body);
+    });
+    return end;
 }
 
 RetrievalEnd Link::retrieve(const Retrieval &retrieval, Receiver &receiver,
                             const task::Progress &progress) {
-    Retrieval request = retrieval;
-    request.instanceUids.clear();
-    for (std::size_t n = 0; n < retrieval.instanceUids.size(); n += uidsAtOnce) {
-        const auto from = retrieval.instanceUids.begin() + std::ptrdiff_t(n);
-        const auto count = std::min(uidsAtOnce, retrieval.instanceUids.size() - n);
-        send({Kind::uids, 0, 0, pack(std::vector(from, from + std::ptrdiff_t(count)))});
-    }
+    Retrieval wanted = retrieval;
+    std::vector<std::string> uids = std::exchange(wanted.instanceUids, {});
+    RetrievalEnd end;
     m_isAtWork = true;
-    send({Kind::retrieve, 0, 0, pack(request)});
-    return unpackRetrievalEnd(converse(progress, &receiver, {}, {}, Kind::done).body);
+    m_kept.clear();
+    request(progress, [&] {
+        std::erase_if(uids, [&](const std::string &uid) { return m_kept.contains(uid); });
+        for (std::size_t n = 0; n < uids.size(); n += uidsAtOnce) {
+            const auto from = uids.begin() + std::ptrdiff_t(n);
+            const auto count = std::min(uidsAtOnce, uids.size() - n);
+            send({Kind::uids, 0, 0, pack(std::vector(from, from + std::ptrdiff_t(count)))});
+        }
+        send({Kind::retrieve, 0, 0, pack(wanted)});
+        end = unpackRetrievalEnd(converse(progress, &receiver, {}, {}, Kind::done).body);
+    });
+    return end;
 }
 
 void Link::store(int file, std::uint64_t bytes, const task::Progress &progress) {
     m_isAtWork = true;
-    send({Kind::store, 0, bytes, {}}, file);
-    converse(progress, nullptr, {}, {}, Kind::done);
+    request(progress, [&] {
+        send({Kind::store, 0, bytes, {}}, file);
+        converse(progress, nullptr, {}, {}, Kind::done);
+    });
 }
 
 Endpoints Link::discover(const task::Progress &progress) {
@@ -202,6 +242,10 @@ void Link::take(const Packet &packet, Receiver &receiver) {
     } else {
         m_isArriving = false;
         const std::uint16_t status = receiver.keep(m_arrival, message.number);
+        if (status == 0) {
+            ++m_answers;
+            m_kept.insert(m_arrival.sopInstanceUid);
+        }
         send({status == 0 ? Kind::kept : Kind::refused, status, 0, {}});
     }
 }

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <set>
 #include <string>
 #include <variant>
 
@@ -30,10 +32,11 @@ public:
 using StepObserver = std::function<void(Step, const std::string &)>;
 
 /// A connection to a server by a `pellucid-net` of its own, which can reach nothing but that server
-/// and the files that it is given. Used by one thread at a time. All requests *throw*
-/// Error{unreachable} if the connection fails; Error{unusable} if the server refuses, after which
-/// it can be asked again; Error{usage}; Error{internal} if the helper cannot be started; Cancelled,
-/// after which the connection is closed.
+/// and the files that it is given. Where a web server closes the connection between two answers, as
+/// servers and proxies do after some of them, a new one goes on. Used by one thread at a time. All
+/// requests *throw* Error{unreachable} if the connection fails; Error{unusable} if the server
+/// refuses, after which it can be asked again; Error{usage}; Error{internal} if the helper cannot
+/// be started; Cancelled, after which the connection is closed.
 class Link {
 public:
     /// Connects. `observe` is told of each step that succeeds.
@@ -70,6 +73,9 @@ private:
                               const task::Progress &);
     explicit Link(double patienceSeconds);
     void start();
+    void connect(const task::Progress &progress, const StepObserver &observe);
+    /// Makes a request, again while the server closes the connection after some answer.
+    template <class F> void request(const task::Progress &progress, F &&make);
     void send(const Message &message, int descriptor = -1);
     /// Passes on messages until the end of the request.
     Message converse(const task::Progress &progress, Receiver *receiver,
@@ -79,13 +85,16 @@ private:
     [[noreturn]] void fail(const Message &message);
     void requestCancel();
 
+    std::optional<Connection> m_connection;
     helper::Process m_process;
     double m_patienceSeconds;
     int m_confinement = 0;
     bool m_isUsable = false;
-    bool m_isAtWork = false;   ///< a server that is asked for more than an answer may be busy
-    Arrival m_arrival;         ///< the current object
-    bool m_isArriving = false; ///< it has a file
+    bool m_isAtWork = false;      ///< a server that is asked for more than an answer may be busy
+    std::size_t m_answers = 0;    ///< on this connection: requests, matches and objects
+    std::set<std::string> m_kept; ///< the objects of this request
+    Arrival m_arrival;            ///< the current object
+    bool m_isArriving = false;    ///< it has a file
 };
 
 /// Serves a client that has connected, in a `pellucid-net` of its own, until the client ends the

@@ -53,10 +53,12 @@ template <class A> void pass(A &archive, Query &query) {
     pass(archive, query.level);
     pass(archive, query.keys);
     pass(archive, query.limit);
+    pass(archive, query.skip);
 }
 
 template <class A> void pass(A &archive, QueryEnd &end) {
     pass(archive, end.reachedLimit);
+    pass(archive, end.mayBeIncomplete);
     pass(archive, end.warnings);
 }
 

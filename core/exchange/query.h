@@ -42,11 +42,13 @@ struct Query {
     Attributes keys;
     std::uint32_t limit =
         200; ///< the search is cancelled at the server when it is reached; 0: maxMatches
+    std::uint32_t skip = 0; ///< matches of a DICOMweb server that are here already
 };
 
 /// How a search ended.
 struct QueryEnd {
-    bool reachedLimit = false;
+    bool reachedLimit = false;         ///< that of the query
+    bool mayBeIncomplete = false;      ///< the server has a limit, too, or says that there is more
     std::vector<std::string> warnings; ///< what the server remarks
 };
 

@@ -69,9 +69,10 @@ off_t copyBytes(int from, int to, off_t bytes) {
     return at;
 }
 
-// Where anybody may make links, another user's link would choose which file of this user is
-// replaced. The kernel's rule against it (fs.protected_symlinks) holds for who opens a link, not
-// for who reads it.
+} // namespace
+
+// The kernel's rule against links (fs.protected_symlinks) holds for who opens a link, not for who
+// reads it.
 void requireTrusted(const std::filesystem::path &link) {
     constexpr mode_t shared = S_ISVTX | S_IWOTH;
     struct stat own {};
@@ -83,8 +84,6 @@ void requireTrusted(const std::filesystem::path &link) {
         own.st_uid != folder.st_uid)
         throw task::Error(task::ErrorCode::output, task::because::isALinkOfAnotherUser, link);
 }
-
-} // namespace
 
 std::filesystem::path targetOf(const std::filesystem::path &path) {
     constexpr int maxLinks = 40; // as the kernel

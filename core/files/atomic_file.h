@@ -11,6 +11,10 @@
 
 namespace pellucid::files {
 
+/// *Throws* Error{output} for a file, folder or link of another user where anybody may make them:
+/// it would choose where files of this user go.
+void requireTrusted(const std::filesystem::path &path);
+
 /// The file that writing to a path affects: the target if it is a link. *Throws* Error{output} if a
 /// file would replace a device or a pipe, or if another user made the link where anybody may.
 std::filesystem::path targetOf(const std::filesystem::path &path);

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <system_error>
 
+#include "core/files/atomic_file.h"
 #include "core/task/error.h"
 
 namespace pellucid::files {
@@ -56,11 +57,15 @@ std::optional<std::filesystem::path> userDataFolder() {
 
 void createPrivateFolders(const std::filesystem::path &folder) {
     std::error_code unknown;
-    if (folder.empty() || std::filesystem::is_directory(folder, unknown))
+    if (folder.empty() || folder == folder.root_path())
         return;
-    const std::filesystem::path above =
-        folder.has_filename() ? folder.parent_path() : folder.parent_path().parent_path();
-    createPrivateFolders(above);
+    createPrivateFolders(folder.parent_path());
+    if (!folder.has_filename()) // a slash at the end
+        return;
+    if (std::filesystem::is_directory(folder, unknown)) {
+        requireTrusted(folder);
+        return;
+    }
     const int error = ::mkdir(folder.c_str(), 0700) == 0 ? 0 : errno;
     if (error != 0 && !std::filesystem::is_directory(folder, unknown))
         throw task::Error(task::ErrorCode::output,

@@ -226,10 +226,12 @@ std::optional<RegionValues> valuesOf(const volume::Volume &volume,
 
 std::string toCsv(const std::vector<Measurement> &measurements, const volume::Volume &volume) {
     const bool hasSpacing = volume.notes().hasSpacing;
-    std::string out = fmt::format("name,kind,length {},angle deg,area {},mean,standard deviation,"
-                                  "minimum,maximum,unit,values,points {}\r\n",
+    const std::string_view place = volume::spacingPlaceName(volume.notes().spacingPlace);
+    const std::string where = place.empty() ? "" : fmt::format(" {}", place);
+    std::string out = fmt::format("name,kind,length {0}{3},angle deg,area {1}{3},mean,"
+                                  "standard deviation,minimum,maximum,unit,values,points {2}\r\n",
                                   hasSpacing ? "mm" : "pixels", hasSpacing ? "mm2" : "pixels2",
-                                  hasSpacing ? "LPS mm" : "pixels");
+                                  hasSpacing ? "LPS mm" : "pixels", where);
     for (const Measurement &m : measurements) {
         const Result r = measure(m, volume);
         const auto value = [&](double RegionValues::*what) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/network/confine.h"
 
+#include <algorithm>
 #include <fcntl.h>
 #include <limits>
 #include <sys/socket.h>
@@ -14,7 +15,8 @@ namespace pellucid::network {
 
 namespace {
 
-constexpr std::uint64_t accepterBytes = 256 << 20;
+// The answers of a server are read whole: the longest list of objects takes half of this.
+constexpr std::uint64_t mostBytes = std::uint64_t(1) << 30, accepterBytes = 256 << 20;
 
 } // namespace
 
@@ -22,7 +24,7 @@ constexpr std::uint64_t accepterBytes = 256 << 20;
 // newfstatat, which tells what any path leads to.
 int confine() {
     return helper::confine(
-        {.memoryBytes = system::freeMemoryBytes(),
+        {.memoryBytes = std::min<std::uint64_t>(system::freeMemoryBytes(), mostBytes),
          .fileBytes = std::numeric_limits<std::uint64_t>::max(),
          .calls = {SCMP_SYS(poll), SCMP_SYS(ppoll), SCMP_SYS(select), SCMP_SYS(pselect6),
                    SCMP_SYS(recvfrom), SCMP_SYS(readv), SCMP_SYS(writev), SCMP_SYS(pwrite64),

@@ -35,11 +35,15 @@ std::string textOf(const Json &value) {
         return value.get<std::string>();
     if (value.is_number() || value.is_boolean())
         return value.dump();
-    if (value.is_object()) // a person's name
-        for (const char *const group : {"Alphabetic", "Ideographic", "Phonetic"})
+    std::string name; // of a person: three groups, as in other encodings (PS3.5, 6.2.1)
+    if (value.is_object())
+        for (const char *const group : {"Alphabetic", "Ideographic", "Phonetic"}) {
+            name += *group == 'A' ? "" : "=";
             if (value.contains(group) && value[group].is_string())
-                return value[group].get<std::string>();
-    return {};
+                name += value[group].get<std::string>();
+        }
+    name.erase(name.find_last_not_of('=') + 1);
+    return name;
 }
 
 std::string valueOf(const Json &attribute) {

@@ -293,7 +293,11 @@ exchange::QueryEnd find(Association &association, const exchange::Query &query, 
             throw CancelledByProgram();
         if (!command->comment.empty())
             end.warnings.push_back(shortened(command->comment, longestComment));
-        if (status != 0 && !end.reachedLimit && !isWarning(status))
+        // The server ends it before all is listed: by a cancel that nobody asked for, by a warning
+        // of its own, or for lack of resources.
+        end.mayBeIncomplete = !end.reachedLimit && (isCancel(status) || isLimitOfServer(status) ||
+                                                    (isOutOfResources(status) && matches > 0));
+        if (status != 0 && !end.reachedLimit && !end.mayBeIncomplete && !isWarning(status))
             throw Error(ErrorCode::unusable, statusReason(status, command->comment));
         return end;
     }

@@ -12,15 +12,22 @@ namespace pellucid::network {
 namespace {
 
 constexpr std::size_t preamble = 132, longestMetaHeader = 64 << 10;
+constexpr const char *implicitSyntax = "1.2.840.10008.1.2",
+                     *bigEndianSyntax = "1.2.840.10008.1.2.2",
+                     *deflatedSyntax = "1.2.840.10008.1.2.1.99";
 
 [[noreturn]] void fail() {
     throw task::Error(task::ErrorCode::unusable, task::because::isNotDicom);
 }
 
-template <class T> T little(std::span<const std::byte> bytes, std::size_t at) {
-    T value{};
-    std::memcpy(&value, bytes.data() + at, sizeof value);
-    return value;
+template <class T>
+T numberAt(std::span<const std::byte> bytes, std::size_t at, bool isBigEndian = false) {
+    std::uint32_t value = 0;
+    for (std::size_t n = 0; n < sizeof(T); ++n) {
+        const std::size_t from = at + (isBigEndian ? n : sizeof(T) - 1 - n);
+        value = value << 8 | std::to_integer<std::uint32_t>(bytes[from]);
+    }
+    return T(value);
 }
 
 std::string textAt(std::span<const std::byte> bytes, std::size_t at, std::size_t length) {
@@ -30,42 +37,97 @@ std::string textAt(std::span<const std::byte> bytes, std::size_t at, std::size_t
     return text;
 }
 
+// An element's place. *Shape*: of its value.
+struct Element {
+    std::uint16_t group = 0, number = 0;
+    std::size_t begin = 0, end = 0;
+};
+
+// The element at a place; nothing if more bytes are needed.
+std::optional<Element> elementAt(std::span<const std::byte> bytes, std::size_t at,
+                                 bool isExplicit = true, bool isBigEndian = false) {
+    constexpr std::size_t longestHead = 12;
+    if (bytes.size() < at + longestHead)
+        return std::nullopt;
+    Element element{numberAt<std::uint16_t>(bytes, at, isBigEndian),
+                    numberAt<std::uint16_t>(bytes, at + 2, isBigEndian)};
+    const std::string vr = textAt(bytes, at + 4, 2);
+    const bool isLong = vr == "OB" || vr == "OW" || vr == "UN" || vr == "UT" || vr == "SQ";
+    element.begin = at + (isExplicit && isLong ? 12 : 8);
+    element.end = element.begin + (!isExplicit ? numberAt<std::uint32_t>(bytes, at + 4, isBigEndian)
+                                   : isLong    ? numberAt<std::uint32_t>(bytes, at + 8, isBigEndian)
+                                            : numberAt<std::uint16_t>(bytes, at + 6, isBigEndian));
+    return element;
+}
+
+// Some de-identification changes the UIDs of the data set alone: they count. False if more bytes
+// are needed.
+bool takeDatasetUids(std::span<const std::byte> bytes, std::size_t at, exchange::Arrival &arrival) {
+    constexpr std::uint16_t group = 0x0008, classNumber = 0x0016, instanceNumber = 0x0018;
+    const std::string &syntax = arrival.transferSyntax;
+    if (syntax == deflatedSyntax)
+        return true;
+    for (;;) {
+        const auto element =
+            elementAt(bytes, at, syntax != implicitSyntax, syntax == bigEndianSyntax);
+        if (!element)
+            return false;
+        // An undefined length, or nonsense: those of the meta header have to do.
+        if (element->group > group || element->number > instanceNumber ||
+            element->end > longestMetaHeader)
+            return true;
+        if (bytes.size() < element->end)
+            return false;
+        std::string *const uid = element->group != group             ? nullptr
+                                 : element->number == classNumber    ? &arrival.sopClassUid
+                                 : element->number == instanceNumber ? &arrival.sopInstanceUid
+                                                                     : nullptr;
+        if (uid != nullptr)
+            if (const std::string found =
+                    textAt(bytes, element->begin, element->end - element->begin);
+                exchange::isUid(found))
+                *uid = found;
+        at = element->end;
+    }
+}
+
 } // namespace
 
-std::optional<exchange::Arrival> arrivalOf(std::span<const std::byte> start) {
-    if (start.size() < preamble)
+std::optional<exchange::Arrival> arrivalOf(std::span<const std::byte> start, bool isWhole) {
+    const auto more = [&]() -> std::optional<exchange::Arrival> {
+        if (isWhole)
+            fail();
         return std::nullopt;
+    };
+    if (start.size() < preamble)
+        return more();
     if (std::memcmp(start.data() + preamble - 4, "DICM", 4) != 0)
         fail();
     exchange::Arrival arrival;
-    for (std::size_t at = preamble;;) {
-        // Explicit VR little endian: tag, VR, and a length of two or, for some VRs, four bytes.
-        if (start.size() < at + 12) {
-            if (at > longestMetaHeader)
-                fail();
-            return std::nullopt;
-        }
-        const auto group = little<std::uint16_t>(start, at),
-                   element = little<std::uint16_t>(start, at + 2);
-        if (group != 0x0002)
+    std::size_t at = preamble;
+    for (;;) {
+        const auto element = elementAt(start, at);
+        if (at > longestMetaHeader)
+            fail();
+        if (!element)
+            return more();
+        if (element->group != 0x0002)
             break;
-        const std::string vr = textAt(start, at + 4, 2);
-        const bool isLong = vr == "OB" || vr == "OW" || vr == "UN" || vr == "UT" || vr == "SQ";
-        const std::size_t length =
-            isLong ? little<std::uint32_t>(start, at + 8) : little<std::uint16_t>(start, at + 6);
-        const std::size_t value = at + (isLong ? 12 : 8);
+        const std::size_t length = element->end - element->begin;
         if (length > longestMetaHeader)
             fail();
-        if (start.size() < value + length)
-            return std::nullopt;
-        if (element == 0x0002)
-            arrival.sopClassUid = textAt(start, value, length);
-        else if (element == 0x0003)
-            arrival.sopInstanceUid = textAt(start, value, length);
-        else if (element == 0x0010)
-            arrival.transferSyntax = textAt(start, value, length);
-        at = value + length;
+        if (start.size() < element->end)
+            return more();
+        if (element->number == 0x0002)
+            arrival.sopClassUid = textAt(start, element->begin, length);
+        else if (element->number == 0x0003)
+            arrival.sopInstanceUid = textAt(start, element->begin, length);
+        else if (element->number == 0x0010)
+            arrival.transferSyntax = textAt(start, element->begin, length);
+        at = element->end;
     }
+    if (!takeDatasetUids(start, at, arrival) && !isWhole)
+        return std::nullopt;
     if (!exchange::isUid(arrival.sopClassUid) || !exchange::isUid(arrival.sopInstanceUid) ||
         !exchange::isUid(arrival.transferSyntax))
         fail();

@@ -9,8 +9,10 @@
 
 namespace pellucid::network {
 
-/// What the meta header of a DICOM file says, from the first bytes of the file (PS3.10, 7.1).
-/// *Shape*: nothing while more bytes are needed. *Throws* Error{unusable} if it is not such a file.
-std::optional<exchange::Arrival> arrivalOf(std::span<const std::byte> start);
+/// What the meta header of a DICOM file says (PS3.10, 7.1), from the first bytes of the file; but
+/// class and instance as the data set says, which may differ after de-identification. *Shape*:
+/// nothing while more bytes are needed; `isWhole`: no more bytes come. *Throws* Error{unusable} if
+/// it is not such a file.
+std::optional<exchange::Arrival> arrivalOf(std::span<const std::byte> start, bool isWhole = false);
 
 } // namespace pellucid::network

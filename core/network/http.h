@@ -38,12 +38,13 @@ public:
     };
     struct Answer {
         long status = 0;
-        std::string contentType, warning, location;
+        std::string contentType, warning, location, retryAfter;
         std::string text; ///< unless it is taken as it comes
     };
     /// Receives the bytes of a successful answer as they come.
     using Take = std::function<void(const Answer &, std::span<const std::byte>)>;
-    /// Follows one redirection on the same server. *Throws* Lost if the connection fails, also when
+    /// Follows one redirection on the same server, and waits as long as a busy server asks for.
+    /// *Throws* Lost if the connection fails, also when
     /// the server closes it between requests; Error{unusable} if the server points elsewhere or its
     /// answer is too long; what `take` throws; Disconnected; CancelledByProgram.
     Answer perform(const Request &request, const Take &take = {});

@@ -5,6 +5,8 @@
 #include <arpa/inet.h>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -156,6 +158,10 @@ public:
 
     Answer perform(const Request &request, const Take &take) {
         Answer answer = performOnce(request, take);
+        for (int tries = 1; isBusy(answer.status) && tries < maxTries; ++tries) {
+            await(answer, tries);
+            answer = performOnce(request, take);
+        }
         // Elsewhere on the same server only: a token must not go to another.
         if (answer.status >= 300 && answer.status < 400 && !answer.location.empty()) {
             Request moved = request;
@@ -174,6 +180,27 @@ private:
         std::size_t piece = 0, at = 0;
         std::exception_ptr failure;
     };
+
+    // RFC 6585, 4; RFC 9110, 15.6.4
+    static constexpr int maxTries = 5;
+    static bool isBusy(long status) { return status == 429 || status == 503; }
+
+    // The time that the server names, or else a second, then two, four ... A date is not read.
+    void await(const Answer &answer, int tries) {
+        constexpr double longestSeconds = 60.0;
+        double seconds = 0.0;
+        const std::string &named = answer.retryAfter;
+        if (std::from_chars(named.data(), named.data() + named.size(), seconds).ec != std::errc())
+            seconds = std::exp2(tries - 1);
+        const auto end = std::chrono::steady_clock::now() +
+                         std::chrono::duration<double>(std::clamp(seconds, 0.1, longestSeconds));
+        while (std::chrono::steady_clock::now() < end) {
+            if (m_control.isCancelled())
+                throw CancelledByProgram();
+            m_control.heartbeat();
+            ::poll(nullptr, 0, 50);
+        }
+    }
 
     std::string pathAt(const std::string &location) const {
         if (location.starts_with("/"))
@@ -324,6 +351,8 @@ private:
         value = first == std::string::npos ? "" : value.substr(first, last - first + 1);
         if (name == "content-type")
             transfer.answer.contentType = value;
+        else if (name == "retry-after")
+            transfer.answer.retryAfter = value;
         else if (name == "warning")
             transfer.answer.warning = value;
         else if (name == "location")

@@ -23,4 +23,12 @@ constexpr bool isWarning(std::uint16_t status) {
     return (status & 0xf000) == 0xb000 || status == 0x0001 || status == 0x0107 || status == 0x0116;
 }
 
+/// B001 of a search: matches are left out, although the standard does not know it.
+constexpr bool isLimitOfServer(std::uint16_t status) {
+    return status == 0xb001;
+}
+constexpr bool isOutOfResources(std::uint16_t status) {
+    return (status & 0xff00) == 0xa700;
+}
+
 } // namespace pellucid::network

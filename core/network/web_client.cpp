@@ -51,13 +51,18 @@ task::Reason httpReason(long status) {
         return because::serverIsBusy;
     case 413:
         return because::serverIsOutOfResources;
+    case 502:
+    case 504:
+        return because::proxyHasNoServer(status);
     default:
         return because::serverAnswersHttp(status);
     }
 }
 
+} // namespace
+
 // The objects of an answer, which become files of the program.
-class Objects {
+class WebClient::Objects {
 public:
     explicit Objects(Control &control) : m_control(control) {}
 
@@ -74,9 +79,27 @@ public:
             return;
         }
         m_start.insert(m_start.end(), bytes.begin(), bytes.end());
+        open(false);
+    }
+    void end() {
+        if (!m_storage && !m_isRefused && !m_start.empty())
+            open(true);
+        if (!m_storage)
+            return;
+        if (m_storage->finish() == exchange::status::success)
+            ++m_end.completed;
+        else
+            ++m_end.failed;
+        m_storage.reset();
+    }
+    exchange::RetrievalEnd &result() { return m_end; }
+
+private:
+    // When its UIDs are known. `isWhole`: no more bytes come.
+    void open(bool isWhole) {
         std::optional<exchange::Arrival> arrival;
         try {
-            arrival = arrivalOf(m_start);
+            arrival = arrivalOf(m_start, isWhole);
         } catch (const Error &) {
             m_isRefused = true; // an answer that is no object
             ++m_end.failed;
@@ -92,26 +115,13 @@ public:
             m_isRefused = true;
         }
     }
-    void end() {
-        if (!m_storage)
-            return;
-        if (m_storage->finish() == exchange::status::success)
-            ++m_end.completed;
-        else
-            ++m_end.failed;
-        m_storage.reset();
-    }
-    exchange::RetrievalEnd &result() { return m_end; }
 
-private:
     Control &m_control;
     std::vector<std::byte> m_start;
     std::optional<Storage> m_storage;
     bool m_isRefused = false;
     exchange::RetrievalEnd m_end;
 };
-
-} // namespace
 
 WebClient::WebClient(const exchange::Connection &connection, Control &control)
     : m_path(connection.peer.path), m_http(connection.peer, control) {}
@@ -144,6 +154,8 @@ exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &contro
     for (const auto &[tag, value] : query.keys) {
         if (inPath.contains(tag))
             continue;
+        if (value.empty() && m_asksPlainly)
+            continue;
         if (value.empty()) {
             terms += "&includefield=" + tagText(tag);
             continue;
@@ -155,21 +167,30 @@ exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &contro
                                                                 : exchange::tag::sopInstanceUid;
     exchange::QueryEnd end;
     std::set<std::string> known;
-    for (std::uint32_t offset = 0;;) {
-        const auto answer =
+    bool saysMore = false; // the server, of what follows a page
+    for (std::uint32_t offset = query.skip;;) {
+        auto answer =
             m_http.perform({fmt::format("{}?limit={}&offset={}{}", path, pageSize, offset, terms),
                             "application/dicom+json",
                             {},
                             {}},
                            {});
-        if (answer.status == 204)
+        // Some servers refuse attributes that they do not know, and list those that they have.
+        if (answer.status == 400 && !m_asksPlainly && terms.find("includefield") != terms.npos) {
+            m_asksPlainly = true;
+            return find(query, control);
+        }
+        if (answer.status == 204) {
+            end.mayBeIncomplete = saysMore;
             return end;
+        }
         if (answer.status >= 300)
             throw Error(ErrorCode::unusable, httpReason(answer.status));
         if (!answer.warning.empty() && end.warnings.empty())
             end.warnings.push_back(shortened(answer.warning, longestComment));
         bool hasNew = false;
-        for (exchange::Attributes &match : readDicomJson(answer.text)) {
+        std::vector<exchange::Attributes> matches = readDicomJson(answer.text);
+        for (exchange::Attributes &match : matches) {
             ++offset;
             // Servers without offsets send the same page again and again.
             if (!known.insert(match[uidTag]).second)
@@ -184,8 +205,12 @@ exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &contro
                     match[tag] = value;
             control.match(query, std::move(match));
         }
-        if (!hasNew)
+        if (!hasNew) {
+            // A full page again: the server knows no offsets, and what follows is not to be had.
+            end.mayBeIncomplete = saysMore || matches.size() == pageSize;
             return end;
+        }
+        saysMore = !answer.warning.empty();
         if (control.isCancelled())
             throw CancelledByProgram();
     }
@@ -203,38 +228,56 @@ exchange::RetrievalEnd WebClient::retrieve(const exchange::Retrieval &retrieval,
     else
         paths.push_back(series);
     for (std::size_t n = 0; n < paths.size(); ++n) {
-        std::optional<MultipartReader> reader;
-        const auto answer = m_http.perform(
-            {paths[n], "multipart/related; type=\"application/dicom\"; transfer-syntax=*", {}, {}},
-            [&](const HttpClient::Answer &so_far, std::span<const std::byte> bytes) {
-                if (!reader)
-                    reader.emplace(so_far.contentType,
-                                   MultipartReader::Sink{
-                                       [&] { objects.begin(); },
-                                       [&](std::span<const std::byte> part) { objects.take(part); },
-                                       [&] { objects.end(); }});
-                reader->add(bytes);
-            });
-        const bool isFailed = answer.status >= 300 || !reader || !reader->finish();
-        if (answer.status == 401 || answer.status == 403)
-            throw Error(ErrorCode::unusable, httpReason(answer.status));
-        if (isFailed && retrieval.level == Level::image &&
+        const Fetched fetched = fetch(paths[n], objects);
+        // Some servers send whole series only. What is not awaited of it, the program refuses.
+        if (retrieval.level == Level::image && !m_sendsInstances &&
+            (fetched.status == 404 || fetched.status == 405))
+            if (const Fetched whole = fetch(series, objects); whole.isWhole)
+                return objects.result();
+        if (fetched.isWhole) {
+            m_sendsInstances = true;
+            continue;
+        }
+        if (retrieval.level == Level::image && fetched.status != 401 && fetched.status != 403 &&
             exchange::isUid(retrieval.instanceUids[n])) {
             ++objects.result().failed;
             objects.result().failedInstances.push_back(retrieval.instanceUids[n]);
-        } else if (isFailed) {
-            throw Error(ErrorCode::unusable, httpReason(answer.status));
+        } else {
+            throw Error(ErrorCode::unusable, httpReason(fetched.status));
         }
     }
     return objects.result();
 }
 
+WebClient::Fetched WebClient::fetch(const std::string &path, Objects &objects) {
+    std::optional<MultipartReader> reader;
+    const auto answer = m_http.perform(
+        {path,
+         std::string("multipart/related; type=\"application/dicom\"") +
+             (m_namesAnySyntax ? "; transfer-syntax=*" : ""),
+         {},
+         {}},
+        [&](const HttpClient::Answer &so_far, std::span<const std::byte> bytes) {
+            if (!reader)
+                reader.emplace(so_far.contentType,
+                               MultipartReader::Sink{
+                                   [&] { objects.begin(); },
+                                   [&](std::span<const std::byte> part) { objects.take(part); },
+                                   [&] { objects.end(); }});
+            reader->add(bytes);
+        });
+    // Some servers do not know the asterisk.
+    if ((answer.status == 406 || answer.status == 400) && m_namesAnySyntax) {
+        m_namesAnySyntax = false;
+        return fetch(path, objects);
+    }
+    return {answer.status, answer.status < 300 && reader && reader->finish()};
+}
+
 void WebClient::store(int file, std::uint64_t bytes, Control &) {
     const decoder::Mapping mapping(file, bytes, decoder::Mapping::Access::read);
-    const auto arrival =
-        arrivalOf(mapping.bytes().first(std::min<std::size_t>(mapping.bytes().size(), 128 << 10)));
-    if (!arrival)
-        throw Error(ErrorCode::unusable, because::isNotDicom);
+    const auto arrival = arrivalOf(
+        mapping.bytes().first(std::min<std::size_t>(mapping.bytes().size(), 128 << 10)), true);
     // No data set contains it: 128 random bits.
     std::array<unsigned char, 16> random{};
     (void)!::getentropy(random.data(), random.size());
@@ -256,7 +299,15 @@ void WebClient::store(int file, std::uint64_t bytes, Control &) {
         throw Error(ErrorCode::unusable, answer.status >= 300 ? httpReason(answer.status)
                                                               : because::serverDoesNotConfirm);
     // A status of success alone means nothing: only the list of what is stored does.
-    const StoreAnswer stored = readStoreAnswer(answer.text);
+    const StoreAnswer stored = [&] {
+        try {
+            return readStoreAnswer(answer.text);
+        } catch (const Error &) { // a page, in which a brace says nothing
+            if (answer.status < 300)
+                throw;
+            throw Error(ErrorCode::unusable, httpReason(answer.status));
+        }
+    }();
     for (const StoreAnswer::Failed &failed : stored.failed)
         if (failed.uid == arrival->sopInstanceUid)
             throw Error(ErrorCode::unusable, statusReason(std::uint16_t(failed.reason), {}));

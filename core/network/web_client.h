@@ -26,8 +26,20 @@ public:
     void store(int file, std::uint64_t bytes, Control &control);
 
 private:
+    class Objects;
+    struct Fetched {
+        long status;
+        bool isWhole;
+    };
+    /// Passes on the objects at a path.
+    Fetched fetch(const std::string &path, Objects &objects);
+
     std::string m_path; ///< of the service
     HttpClient m_http;
+    // What this server has been found not to know, or to know.
+    bool m_asksPlainly = false;   ///< no attributes by name
+    bool m_namesAnySyntax = true; ///< the asterisk
+    bool m_sendsInstances = false;
 };
 
 } // namespace pellucid::network

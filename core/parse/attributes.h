@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/parse/character_sets.h"
@@ -25,6 +26,9 @@ std::optional<double> readNumber(DcmItem *item, const DcmTagKey &tag);
 int readInteger(DcmItem *item, const DcmTagKey &tag, int fallback = 0);
 /// The first item of a sequence.
 DcmItem *sequenceItem(DcmItem *item, const DcmTagKey &tag);
+
+/// The number that all of a text is, but for padding.
+std::optional<double> numberIn(std::string_view text);
 
 /// A text of at most 1024 bytes, with control characters replaced by spaces and the last ones
 /// removed.

@@ -17,7 +17,8 @@ namespace {
 // Long values are not shown anywhere.
 constexpr std::size_t longestText = 1024; // in bytes; DICOM's longest texts have 10240 characters
 
-// Empty unless all of the text is a number: a part, as of "2,5", is a different number.
+} // namespace
+
 std::optional<double> numberIn(std::string_view text) {
     const auto isPadding = [](char c) { return c == ' ' || c == '\0'; };
     while (!text.empty() && isPadding(text.front()))
@@ -32,8 +33,6 @@ std::optional<double> numberIn(std::string_view text) {
         error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
     return isNumber ? std::optional(value) : std::nullopt;
 }
-
-} // namespace
 
 std::string oneLine(std::string text) {
     if (text.size() > longestText) {

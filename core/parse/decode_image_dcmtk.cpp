@@ -172,39 +172,96 @@ void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::
     }
 }
 
+template <class T> std::span<const T> plainPixels(DcmDataset &dataset, std::size_t needed);
+template <> std::span<const Uint16> plainPixels(DcmDataset &dataset, std::size_t needed) {
+    const Uint16 *data = nullptr;
+    unsigned long count = 0;
+    dataset.findAndGetUint16Array(DCM_PixelData, data, &count);
+    if (data == nullptr || count < needed)
+        fail(because::pixelsTruncatedTo(data == nullptr ? 0 : count, needed));
+    return {data, count};
+}
+template <> std::span<const Uint8> plainPixels(DcmDataset &dataset, std::size_t needed) {
+    const Uint8 *data = nullptr;
+    unsigned long count = 0;
+    dataset.findAndGetUint8Array(DCM_PixelData, data, &count);
+    if (data != nullptr && count >= needed)
+        return {data, count};
+    // Bytes stored as words (OW): the first in the low byte.
+    const auto words = plainPixels<Uint16>(dataset, (needed + 1) / 2);
+    return {reinterpret_cast<const Uint8 *>(words.data()), 2 * words.size()};
+}
+
+// Masks, eight samples to a byte, the first in the lowest bit. Frames follow without a gap.
+void decodeBits(DcmDataset &dataset, DecodedImage &image) {
+    const auto bytes = plainPixels<Uint8>(dataset, (image.samples.size() + 7) / 8);
+    for (std::size_t n = 0; n < image.samples.size(); ++n)
+        image.samples[n] = bytes[n / 8] >> (n % 8) & 1U;
+    image.header.bitsAllocated = 8;
+}
+
+// Of 32 bits, the 16 that the values need, with a rescale that makes up for it.
+void decodeLongSamples(DcmDataset &dataset, DecodedImage &image) {
+    InstanceHeader &h = image.header;
+    if (!h.modalityTable.empty())
+        fail(because::hasUnsupportedBits(h.bitsAllocated));
+    const auto words = plainPixels<Uint16>(dataset, 2 * image.samples.size());
+    const int below = h.highBit + 1 - h.bitsStored, above = 64 - h.bitsStored;
+    const auto stored = [&](std::size_t n) {
+        const std::uint64_t code = words[2 * n] | std::uint64_t(words[2 * n + 1]) << 16;
+        const std::uint64_t top = code >> below << above;
+        return h.isSigned() ? std::int64_t(top) >> above : std::int64_t(top >> above);
+    };
+    std::int64_t least = stored(0), most = least;
+    for (std::size_t n = 1; n < image.samples.size(); ++n) {
+        least = std::min(least, stored(n));
+        most = std::max(most, stored(n));
+    }
+    int lost = 0;
+    while ((most - least) >> lost > 65535)
+        ++lost;
+    for (std::size_t n = 0; n < image.samples.size(); ++n)
+        image.samples[n] = std::uint16_t((stored(n) - least) >> lost);
+    h.bitsAllocated = h.bitsStored = 16;
+    h.highBit = 15;
+    h.pixelRepresentation = 0;
+    const auto moved = [&](std::optional<int> &value) {
+        if (value && *value >= least && *value <= most)
+            *value = int((*value - least) >> lost);
+        else
+            value.reset();
+    };
+    moved(h.paddingValue);
+    moved(h.paddingLimit);
+    for (decoder::FrameHeader &frame : h.frames) {
+        frame.rescale.intercept += frame.rescale.slope * double(least);
+        frame.rescale.slope *= std::exp2(lost);
+        if (std::max(std::abs(frame.rescale.intercept), std::abs(frame.rescale.slope)) >
+            decoder::largestRescale)
+            fail(because::rescaleGivesNoValues);
+    }
+}
+
 void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
     InstanceHeader &h = image.header;
-    const std::size_t needed = image.samples.size();
-    unsigned long count = 0;
+    if (h.bitsAllocated == 1) {
+        decodeBits(dataset, image);
+        return;
+    }
+    if (h.bitsAllocated == 32) {
+        decodeLongSamples(dataset, image);
+        return;
+    }
     const int shift = h.highBit + 1 - h.bitsStored;
-    const auto take = [&](const auto *data) {
-        if (data == nullptr || count < needed)
-            fail(because::pixelsTruncatedTo(data == nullptr ? 0 : count, needed));
-        for (std::size_t n = 0; n < needed; ++n)
+    const auto take = [&](const auto &data) {
+        for (std::size_t n = 0; n < image.samples.size(); ++n)
             image.samples[n] =
                 extended(std::uint32_t(data[n]) >> shift, h.bitsStored, h.isSigned());
     };
-    if (h.bitsAllocated == 8) {
-        const Uint8 *data = nullptr;
-        dataset.findAndGetUint8Array(DCM_PixelData, data, &count);
-        if (data != nullptr) {
-            take(data);
-            return;
-        }
-        // 8 bits stored as words (OW): two samples per word, the first in the low byte.
-        const Uint16 *words = nullptr;
-        dataset.findAndGetUint16Array(DCM_PixelData, words, &count);
-        count *= 2;
-        if (words == nullptr || count < needed)
-            fail(because::pixelsTruncated);
-        for (std::size_t n = 0; n < needed; ++n)
-            image.samples[n] = extended(std::uint32_t(words[n / 2] >> (n % 2 * 8)) >> shift,
-                                        h.bitsStored, h.isSigned());
-        return;
-    }
-    const Uint16 *data = nullptr;
-    dataset.findAndGetUint16Array(DCM_PixelData, data, &count);
-    take(data);
+    if (h.bitsAllocated == 8)
+        take(plainPixels<Uint8>(dataset, image.samples.size()));
+    else
+        take(plainPixels<Uint16>(dataset, image.samples.size()));
 }
 
 // Compressed pixels with a defined length start like a compressed frame; otherwise they are plain.
@@ -233,6 +290,8 @@ void decodeFrames(const LoadedFile &file, std::size_t fileBytes, DecodedImage &i
     const InstanceHeader &h = image.header;
     DcmDataset &dataset = file.dataset();
     if (!isPlain(file, h)) {
+        if (h.bitsAllocated != 8 && h.bitsAllocated != 16)
+            fail(because::hasUnsupportedBits(h.bitsAllocated));
         const CompressedFrames frames(dataset, h.frames.size(), beginsCodestream);
         if (isJpeg2000(file.syntaxUid)) {
             decodeJpeg2000Frames(frames, image);
@@ -254,8 +313,12 @@ DecodedImage decoded(std::span<const std::byte> bytes) {
     const InstanceHeader header = headerOf(file, bytes.size());
     if (const auto reason = whyUnusable(header))
         fail(*reason);
-    const auto mosaic = mosaicOf(file.dataset(), header);
+    auto mosaic = mosaicOf(file.dataset(), header);
     DecodedImage image = decodePixels(file, bytes.size(), header);
+    if (!mosaic) {
+        mosaic = guessedMosaic(file.dataset(), header, image.samples);
+        image.header.oddities |= mosaic ? decoder::guessedMosaic : 0U;
+    }
     if (mosaic) {
         splitTiles(image.header, *mosaic);
         image.samples = tilesOf(image.samples, *mosaic, image.header.rows, image.header.columns);
@@ -280,7 +343,8 @@ DecodedImage decodePixels(const LoadedFile &file, std::size_t fileBytes, Instanc
         std::size_t(h.rows) * h.columns * h.frames.size(); // at most 2^32 * 10^5
     requireRoom(samples,
                 isNative(file.syntaxUid) &&
-                    file.syntaxUid != UID_DeflatedExplicitVRLittleEndianTransferSyntax,
+                    file.syntaxUid != UID_DeflatedExplicitVRLittleEndianTransferSyntax &&
+                    h.bitsAllocated != 1,
                 fileBytes);
     image.samples.resize(samples);
     decodeFrames(file, fileBytes, image);

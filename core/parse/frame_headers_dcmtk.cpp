@@ -2,8 +2,9 @@
 #include "core/parse/frame_headers.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,8 +13,10 @@
 
 #include <dcmtk/dcmdata/dctk.h>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/decoder/dimensions.h"
 #include "core/parse/attributes.h"
 
 namespace pellucid::parse {
@@ -49,12 +52,44 @@ void readPosition(DcmItem *item, FrameHeader &frame) {
         frame.positionMm = position;
 }
 
+std::optional<glm::dvec2> spacingIn(DcmItem *item, const DcmTagKey &tag) {
+    const auto spacing = readNumbers(item, tag, 2);
+    if (spacing.size() != 2 || !(std::min(spacing[0], spacing[1]) >= decoder::smallestSpacingMm) ||
+        !(std::max(spacing[0], spacing[1]) <= decoder::largestSpacingMm))
+        return std::nullopt;
+    return glm::dvec2(spacing[1], spacing[0]); // the attribute gives the distance of rows first
+}
+
+// The spacing of a projection, and where it holds (PS3.3, 10.7.1.3).
+void readProjectedSpacing(DcmItem &dataset, FrameHeader &frame, InstanceHeader &header) {
+    using volume::SpacingPlace;
+    const auto detector = spacingIn(&dataset, DCM_ImagerPixelSpacing);
+    const std::string calibration = readText(&dataset, DCM_PixelSpacingCalibrationType);
+    if (frame.spacingMm) {
+        const bool isDetector = detector && *detector == *frame.spacingMm;
+        header.spacingPlace = calibration == "FIDUCIAL"   ? SpacingPlace::calibrated
+                              : calibration == "GEOMETRY" ? SpacingPlace::geometry
+                              : isDetector                ? SpacingPlace::detector
+                                                          : SpacingPlace::patient;
+    } else if (detector) {
+        frame.spacingMm = detector;
+        header.spacingPlace = SpacingPlace::detector;
+        const auto factor = readNumber(&dataset, DCM_EstimatedRadiographicMagnificationFactor);
+        constexpr double largest = 100.0;
+        if (factor && *factor >= 1.0 && *factor <= largest) {
+            *frame.spacingMm /= *factor;
+            header.spacingPlace = SpacingPlace::magnified;
+        }
+    } else {
+        frame.spacingMm = spacingIn(&dataset, DCM_NominalScannedPixelSpacing); // of a scanned film
+        if (frame.spacingMm)
+            header.spacingPlace = SpacingPlace::detector;
+    }
+}
+
 void readMeasures(DcmItem *item, FrameHeader &frame) {
-    const auto spacing = readNumbers(item, DCM_PixelSpacing, 2);
-    // The attribute gives the distance between rows first.
-    if (spacing.size() == 2 && std::min(spacing[0], spacing[1]) >= decoder::smallestSpacingMm &&
-        std::max(spacing[0], spacing[1]) <= decoder::largestSpacingMm)
-        frame.spacingMm = glm::dvec2(spacing[1], spacing[0]);
+    if (const auto spacing = spacingIn(item, DCM_PixelSpacing))
+        frame.spacingMm = spacing;
     for (const DcmTagKey &tag : {DCM_SliceThickness, DCM_SpacingBetweenSlices})
         if (const auto mm = readNumber(item, tag); mm && *mm > 0.0)
             frame.sliceThicknessMm = *mm;
@@ -74,6 +109,7 @@ void readRescale(DcmItem *item, FrameHeader &frame) {
     const auto take = [&](const DcmTagKey &tag, double &into, bool &isReadable) {
         if (readText(item, tag).empty()) // empty or missing
             return;
+        rescale.isStated = true;
         const auto value = readNumber(item, tag);
         isReadable = value && std::abs(*value) <= decoder::largestRescale &&
                      (*value == 0.0 || std::abs(*value) >= smallestRescale) &&
@@ -82,30 +118,29 @@ void readRescale(DcmItem *item, FrameHeader &frame) {
             into = *value;
     };
     double slope = rescale.isSlopeZero ? 0.0 : rescale.slope;
+    take(DCM_DoseGridScaling, slope, rescale.isSlopeReadable); // of a dose, in its units
     take(DCM_RescaleSlope, slope, rescale.isSlopeReadable);
     rescale.isSlopeZero = slope == 0.0;
     rescale.slope = rescale.isSlopeZero ? 1.0 : slope;
     take(DCM_RescaleIntercept, rescale.intercept, rescale.isInterceptReadable);
 }
 
-void readDimensions(DcmItem *item, FrameHeader &frame) {
-    static const std::array<std::pair<const char *, DcmTagKey>, 12> tags{{
-        {"temporal position", DCM_TemporalPositionIdentifier},
-        {"temporal position", DCM_TemporalPositionIndex},
-        {"acquisition", DCM_AcquisitionNumber},
-        {"echo", DCM_EchoNumbers},
-        {"echo", DCM_EchoTime},
-        {"b-value", DCM_DiffusionBValue},
-        {"b-value", DcmTagKey(0x0043, 0x1039)}, // GE's private attribute
-        {"trigger time", DCM_TriggerTime},
-        {"stack", DCM_StackID},
-        {"acquisition time", DCM_AcquisitionTime},
-        {"acquisition time", DCM_AcquisitionDateTime},
-        {"content time", DCM_ContentTime},
-    }};
-    for (const auto &[name, tag] : tags)
-        if (std::string value = readText(item, tag); !value.empty())
-            frame.dimensions[name] = value;
+// Also those within sequences of one item, as in functional groups.
+void readDimensions(DcmItem *item, int levels, FrameHeader &frame) {
+    if (item == nullptr)
+        return;
+    for (DcmObject *object = item->nextInContainer(nullptr); object != nullptr;
+         object = item->nextInContainer(object)) {
+        const DcmTagKey tag = object->getTag();
+        const std::uint32_t number = std::uint32_t(tag.getGroup()) << 16 | tag.getElement();
+        auto *const sequence = dynamic_cast<DcmSequenceOfItems *>(object);
+        if (levels > 0 && sequence != nullptr && object->ident() == EVR_SQ && sequence->card() == 1)
+            readDimensions(sequence->getItem(0), levels - 1, frame);
+        else if (std::any_of(decoder::dimensions.begin(), decoder::dimensions.end(),
+                             [&](const auto &dimension) { return dimension.tag == number; }))
+            if (std::string value = readText(item, tag); !value.empty())
+                frame.dimensions[number] = std::move(value);
+    }
 }
 
 void readFunctionalGroups(DcmItem *groups, FrameHeader &frame) {
@@ -113,29 +148,29 @@ void readFunctionalGroups(DcmItem *groups, FrameHeader &frame) {
     readPosition(sequenceItem(groups, DCM_PlanePositionSequence), frame);
     readMeasures(sequenceItem(groups, DCM_PixelMeasuresSequence), frame);
     readRescale(sequenceItem(groups, DCM_PixelValueTransformationSequence), frame);
-    readDimensions(sequenceItem(groups, DCM_FrameContentSequence), frame);
-    readDimensions(sequenceItem(groups, DCM_MRDiffusionSequence), frame);
-    readDimensions(sequenceItem(groups, DCM_TemporalPositionSequence), frame);
+    readDimensions(groups, 2, frame);
     for (const DcmTagKey &tag : {DCM_MRImageFrameTypeSequence, DCM_CTImageFrameTypeSequence})
         if (DcmItem *type = sequenceItem(groups, tag))
             if (std::string value = readText(type, DCM_FrameType); !value.empty())
-                frame.imageType = value;
+                frame.dimensions[decoder::imageTypeTag] = value;
     if (DcmItem *segment = sequenceItem(groups, DCM_SegmentIdentificationSequence))
         frame.segment = std::clamp(readInteger(segment, DCM_ReferencedSegmentNumber), 0, 65535);
-    if (DcmItem *echo = sequenceItem(groups, DCM_MREchoSequence))
-        if (std::string value = readText(echo, DCM_EffectiveEchoTime); !value.empty())
-            frame.dimensions["echo"] = value;
 }
 
 // The top-level attributes, which apply to all frames.
-FrameHeader frameAtTop(DcmDataset &dataset) {
+FrameHeader frameAtTop(DcmDataset &dataset, InstanceHeader &header) {
     FrameHeader frame;
-    frame.imageType = readText(&dataset, DCM_ImageType);
+    // Nuclear medicine states the geometry of each detector.
+    if (DcmItem *const detector = sequenceItem(&dataset, DCM_DetectorInformationSequence)) {
+        readOrientation(detector, frame);
+        readPosition(detector, frame);
+    }
     readOrientation(&dataset, frame);
     readPosition(&dataset, frame);
     readMeasures(&dataset, frame);
+    readProjectedSpacing(dataset, frame, header);
     readRescale(&dataset, frame);
-    readDimensions(&dataset, frame);
+    readDimensions(&dataset, 0, frame);
     return frame;
 }
 
@@ -170,6 +205,114 @@ void readPerFrame(DcmDataset &dataset, const CharacterSets &sets, const FrameHea
     }
 }
 
+// The vectors of nuclear medicine have a value for each frame.
+std::vector<double> vectorOf(DcmItem &dataset, const DcmTagKey &tag, std::size_t frames) {
+    std::vector<double> values = readNumbers(&dataset, tag, frames + 1);
+    if (values.size() != frames)
+        values.clear();
+    return values;
+}
+
+void readVectors(DcmItem &dataset, InstanceHeader &header) {
+    for (const DcmTagKey &tag : {DCM_EnergyWindowVector, DCM_DetectorVector, DCM_PhaseVector,
+                                 DCM_RRIntervalVector, DCM_TimeSlotVector, DCM_TimeSliceVector}) {
+        const std::uint32_t number = std::uint32_t(tag.getGroup()) << 16 | tag.getElement();
+        const auto values = vectorOf(dataset, tag, header.frames.size());
+        for (std::size_t n = 0; n < header.frames.size(); ++n) {
+            header.frames[n].dimensions.erase(number); // the whole vector
+            if (!values.empty())
+                header.frames[n].dimensions[number] = fmt::format("{:g}", values[n]);
+        }
+    }
+}
+
+// Where the frames of a file lie along the normal of the first, relative to it, mm; empty if they
+// are no slices, or nothing tells.
+std::vector<double> depthsOf(DcmItem &dataset, const FrameHeader &first, InstanceHeader &header) {
+    const std::size_t count = header.frames.size();
+    // Of a dose: relative to the first, or where the axis is that of the patient, absolute.
+    std::vector<double> depths = vectorOf(dataset, DCM_GridFrameOffsetVector, count);
+    if (!depths.empty()) {
+        for (const double origin = depths.front(); double &depth : depths)
+            depth -= origin;
+        return depths;
+    }
+    const bool isNuclear = header.modality == "NM";
+    const bool isInTime =
+        dataset.tagExists(DCM_FrameTime) || dataset.tagExists(DCM_FrameTimeVector);
+    if (isNuclear ? first.imageType().find("RECON") == std::string::npos : isInTime)
+        return {};
+    const auto spacing = readNumber(&dataset, DCM_SpacingBetweenSlices),
+               thickness = readNumber(&dataset, DCM_SliceThickness);
+    const bool hasSpacing = spacing && *spacing != 0.0;
+    // A negative spacing runs against the normal of the slices.
+    const double stepMm = hasSpacing ? *spacing : std::max(thickness.value_or(0.0), 0.0);
+    if (!(std::abs(stepMm) >= decoder::smallestSpacingMm &&
+          std::abs(stepMm) <= decoder::largestSpacingMm))
+        return {};
+    if (!hasSpacing)
+        header.oddities |= decoder::placedByThickness;
+    else if (!isNuclear)
+        header.oddities |= decoder::placedBySpacing;
+    const auto slices = vectorOf(dataset, DCM_SliceVector, count);
+    for (std::size_t n = 0; n < count; ++n)
+        depths.push_back((slices.empty() ? double(n) : slices[n] - 1.0) * stepMm);
+    return depths;
+}
+
+// Places the frames of a file that states one position for all of them: doses and reconstructed
+// nuclear medicine, whose standards define it; and others, such as those of cone-beam scanners,
+// whose frames are assumed to be slices.
+void placeFrames(DcmItem &dataset, const FrameHeader &first, InstanceHeader &header) {
+    if (!first.positionMm || !first.rowAxis || !first.columnAxis)
+        return;
+    const std::vector<double> depths = depthsOf(dataset, first, header);
+    for (std::size_t n = 0; n < depths.size(); ++n) {
+        const glm::dvec3 place =
+            *first.positionMm + depths[n] * glm::cross(*first.rowAxis, *first.columnAxis);
+        if (glm::length(place) <= decoder::farthestMm)
+            header.frames[n].positionMm = place;
+    }
+}
+
+volume::WindowFunction functionIn(DcmItem &item) {
+    const std::string name = readText(&item, DCM_VOILUTFunction);
+    return name == "SIGMOID"        ? volume::WindowFunction::sigmoid
+           : name == "LINEAR_EXACT" ? volume::WindowFunction::linearExact
+                                    : volume::WindowFunction::linear;
+}
+
+// The tables of an item as windows over the values that each maps.
+std::vector<volume::ValueWindow> tablesIn(DcmItem &item, const CharacterSets &sets) {
+    std::vector<volume::ValueWindow> windows;
+    DcmSequenceOfItems *sequence = nullptr;
+    if (item.findAndGetSequence(DCM_VOILUTSequence, sequence).bad())
+        return windows;
+    for (unsigned long n = 0; n < std::min(sequence->card(), 10UL); ++n) {
+        DcmItem &table = *sequence->getItem(n);
+        const auto descriptor = readNumbers(&table, DCM_LUTDescriptor, 3);
+        const Uint16 *data = nullptr;
+        unsigned long count = 0;
+        if (descriptor.size() != 3 || !(descriptor[0] >= 0.0 && descriptor[0] <= 65535.0) ||
+            !(std::abs(descriptor[1]) <= 65536.0) ||
+            !(descriptor[2] >= 8.0 && descriptor[2] <= 16.0) ||
+            table.findAndGetUint16Array(DCM_LUTData, data, &count).bad() || data == nullptr)
+            continue;
+        const auto entries =
+            std::min<std::size_t>(descriptor[0] == 0.0 ? 65536 : std::size_t(descriptor[0]), count);
+        if (entries < 2)
+            continue;
+        const double white = std::exp2(descriptor[2]) - 1.0, span = double(entries - 1);
+        auto curve = std::make_shared<std::vector<float>>();
+        for (std::size_t at = 0; at < entries; ++at)
+            curve->push_back(float(std::min(1.0, data[at] / white)));
+        windows.push_back({descriptor[1] + 0.5 * span, span,
+                           readText(&table, DCM_LUTExplanation, &sets), false,
+                           volume::WindowFunction::table, std::move(curve)});
+    }
+    return windows;
+}
+
 } // namespace
 
 std::vector<volume::ValueWindow> readWindows(DcmItem &item, const CharacterSets &sets) {
@@ -180,7 +323,8 @@ std::vector<volume::ValueWindow> readWindows(DcmItem &item, const CharacterSets 
         OFString name;
         item.findAndGetOFString(DCM_WindowCenterWidthExplanation, name, n);
         const volume::ValueWindow window{centers[n], widths[n],
-                                         oneLine(sets.utf8(name.c_str(), false))};
+                                         oneLine(sets.utf8(name.c_str(), false)), false,
+                                         functionIn(item)};
         const bool known = std::any_of(windows.begin(), windows.end(), [&](const auto &w) {
             return w.center == window.center && w.width == window.width;
         });
@@ -188,12 +332,15 @@ std::vector<volume::ValueWindow> readWindows(DcmItem &item, const CharacterSets 
             !known)
             windows.push_back(window);
     }
+    // With both, either may be shown (PS3.3, C.11.2.1.1): the table is the more deliberate.
+    std::vector<volume::ValueWindow> tables = tablesIn(item, sets);
+    windows.insert(windows.begin(), tables.begin(), tables.end());
     return windows;
 }
 
 void readFrames(DcmDataset &dataset, const CharacterSets &sets, std::size_t fileBytes,
                 InstanceHeader &header) {
-    FrameHeader shared = frameAtTop(dataset);
+    FrameHeader shared = frameAtTop(dataset, header);
     DcmItem *const sharedGroups = sequenceItem(&dataset, DCM_SharedFunctionalGroupsSequence);
     if (sharedGroups != nullptr) {
         readFunctionalGroups(sharedGroups, shared);
@@ -204,6 +351,9 @@ void readFrames(DcmDataset &dataset, const CharacterSets &sets, std::size_t file
     const double most = std::min(double(decoder::maxFrames), double(fileBytes));
     header.declaredFrames = hasCount ? int(std::min(*count, 2147483647.0)) : 1;
     readPerFrame(dataset, sets, shared, hasCount ? int(std::min(*count, most)) : 1, header);
+    readVectors(dataset, header);
+    if (header.frames.size() > 1 && !dataset.tagExists(DCM_PerFrameFunctionalGroupsSequence))
+        placeFrames(dataset, shared, header);
     if (DcmItem *transform = sequenceItem(sharedGroups, DCM_PixelValueTransformationSequence);
         transform != nullptr && header.rescaleType.empty())
         header.rescaleType = readText(transform, DCM_RescaleType);

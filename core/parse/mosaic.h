@@ -27,6 +27,12 @@ bool isMosaic(const decoder::InstanceHeader &header);
 /// `header`: that of the whole image, as read.
 std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoder::InstanceHeader &header);
 
+/// The same where the number of slices is lost, as some anonymisers remove it: the size of a tile
+/// is that of the acquired matrix, and tiles at the end without a sample other than 0 are no
+/// slices. `image`: the samples of the whole image; none: as if all tiles were slices.
+std::optional<Mosaic> guessedMosaic(DcmItem &dataset, const decoder::InstanceHeader &header,
+                                    std::span<const std::uint16_t> image);
+
 /// Makes the tiles the frames of a header, each at its position. In the file, positions refer to
 /// the corner of the whole image as if it were centred on the tile.
 void splitTiles(decoder::InstanceHeader &header, const Mosaic &mosaic);

@@ -7,12 +7,16 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <glm/geometric.hpp>
+
+#include "core/parse/attributes.h"
 
 namespace pellucid::parse {
 
@@ -83,11 +87,47 @@ CsaHeader csaHeaderOf(DcmItem &dataset) {
     return CsaHeader({data, count});
 }
 
+constexpr int largestSide = 100;
+
+bool fits(const Mosaic &mosaic, const decoder::InstanceHeader &header) {
+    return mosaic.slices >= 1 && mosaic.side >= 1 && mosaic.side <= largestSide &&
+           header.rows >= mosaic.side && header.columns >= mosaic.side &&
+           header.rows % mosaic.side == 0 && header.columns % mosaic.side == 0;
+}
+
+glm::dvec3 normalOf(const CsaHeader &csa, const decoder::FrameHeader &frame) {
+    glm::dvec3 normal(0.0);
+    if (const auto n = csa.numbers("SliceNormalVector"); n.size() == 3)
+        normal = {n[0], n[1], n[2]};
+    else if (frame.rowAxis && frame.columnAxis)
+        normal = glm::cross(*frame.rowAxis, *frame.columnAxis);
+    const double length = glm::length(normal);
+    return std::abs(length - 1.0) < 0.05 ? normal / length : glm::dvec3(0.0);
+}
+
+// Rows and columns of the acquired matrix, which is that of a tile: the two of Acquisition Matrix
+// that are not 0, or Siemens' text, such as "80*80" or "64p*64".
+std::optional<std::pair<int, int>> acquiredMatrix(DcmItem &dataset) {
+    std::vector<double> sizes = readNumbers(&dataset, DCM_AcquisitionMatrix, 4);
+    std::erase(sizes, 0.0);
+    if (sizes.size() != 2) {
+        sizes.clear();
+        const std::string text = readText(&dataset, DcmTagKey(0x0051, 0x100B));
+        const std::size_t star = text.find('*');
+        if (star == std::string::npos)
+            return std::nullopt;
+        sizes = {std::strtod(text.c_str(), nullptr), std::strtod(text.c_str() + star + 1, nullptr)};
+    }
+    if (!(std::min(sizes[0], sizes[1]) >= 1.0 && std::max(sizes[0], sizes[1]) <= 65535.0))
+        return std::nullopt;
+    return std::pair(int(sizes[0]), int(sizes[1]));
+}
+
 } // namespace
 
 bool isMosaic(const decoder::InstanceHeader &header) {
     return header.frames.size() == 1 &&
-           header.frames[0].imageType.find("MOSAIC") != std::string::npos;
+           header.frames[0].imageType().find("MOSAIC") != std::string::npos;
 }
 
 std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoder::InstanceHeader &header) {
@@ -101,20 +141,40 @@ std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoder::InstanceHeader &
     else if (const auto numbers = csa.numbers("NumberOfImagesInMosaic"); !numbers.empty())
         mosaic.slices = int(std::clamp(numbers[0], 0.0, 65535.0));
     mosaic.side = int(std::ceil(std::sqrt(double(mosaic.slices))));
-    constexpr int largestSide = 100;
-    if (mosaic.slices < 1 || mosaic.side > largestSide || header.rows < mosaic.side ||
-        header.columns < mosaic.side || header.rows % mosaic.side != 0 ||
-        header.columns % mosaic.side != 0)
+    if (!fits(mosaic, header))
         return std::nullopt;
-    const decoder::FrameHeader &frame = header.frames[0];
-    if (const auto n = csa.numbers("SliceNormalVector"); n.size() == 3)
-        mosaic.normal = {n[0], n[1], n[2]};
-    else if (frame.rowAxis && frame.columnAxis)
-        mosaic.normal = glm::cross(*frame.rowAxis, *frame.columnAxis);
-    if (const double length = glm::length(mosaic.normal); std::abs(length - 1.0) < 0.05)
-        mosaic.normal /= length;
-    else
-        mosaic.normal = glm::dvec3(0.0);
+    mosaic.normal = normalOf(csa, header.frames[0]);
+    return mosaic;
+}
+
+std::optional<Mosaic> guessedMosaic(DcmItem &dataset, const decoder::InstanceHeader &header,
+                                    std::span<const std::uint16_t> image) {
+    const auto matrix = acquiredMatrix(dataset);
+    if (!isMosaic(header) || !matrix)
+        return std::nullopt;
+    // A partial Fourier scan acquires fewer rows than a tile has: the larger size is that of both.
+    const int size = std::max(matrix->first, matrix->second);
+    Mosaic mosaic;
+    mosaic.side = header.columns / size;
+    mosaic.slices = mosaic.side * mosaic.side;
+    if (mosaic.side < 2 || header.columns % size != 0 || !fits(mosaic, header))
+        return std::nullopt;
+    mosaic.normal = normalOf(csaHeaderOf(dataset), header.frames[0]);
+    const int rows = header.rows / mosaic.side, columns = header.columns / mosaic.side;
+    const auto isEmpty = [&](int tile) {
+        for (int row = 0; row < rows; ++row) {
+            const auto begin =
+                image.begin() +
+                std::ptrdiff_t(std::size_t(tile / mosaic.side * rows + row) *
+                                   std::size_t(header.columns) +
+                               std::size_t(tile % mosaic.side) * std::size_t(columns));
+            if (std::any_of(begin, begin + columns, [](std::uint16_t v) { return v != 0; }))
+                return false;
+        }
+        return true;
+    };
+    while (!image.empty() && mosaic.slices > 1 && isEmpty(mosaic.slices - 1))
+        --mosaic.slices;
     return mosaic;
 }
 

@@ -12,6 +12,7 @@
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
 #include "core/parse/frame_headers.h"
+#include "core/parse/mend_numbers.h"
 #include "core/parse/mosaic.h"
 #include "core/parse/parse.h"
 #include "core/task/error.h"
@@ -93,6 +94,7 @@ void readPixelDescription(DcmDataset &dataset, InstanceHeader &h) {
     h.lossy = readText(&dataset, DCM_LossyImageCompression) == "01";
     h.photometric = readText(&dataset, DCM_PhotometricInterpretation);
     h.rescaleType = readText(&dataset, DCM_RescaleType);
+    h.isInverse = readText(&dataset, DCM_PresentationLUTShape) == "INVERSE";
     if (const auto value = readNumber(&dataset, DCM_PixelPaddingValue))
         h.paddingValue = int(std::clamp(*value, -65536.0, 65536.0));
     if (const auto value = readNumber(&dataset, DCM_PixelPaddingRangeLimit))
@@ -171,8 +173,9 @@ void dropUnreadable(DcmItem &dataset) {
 
 InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     dropUnreadable(dataset);
-    const CharacterSets sets(dataset);
     InstanceHeader header;
+    header.oddities = mendNumbers(dataset);
+    const CharacterSets sets(dataset);
     readIdentity(dataset, sets, header);
     readPixelDescription(dataset, header);
     readPet(dataset, header);
@@ -185,7 +188,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
 InstanceHeader headerOf(const LoadedFile &file, std::size_t fileBytes) {
     DcmDataset &dataset = file.dataset();
     InstanceHeader header = headerOf(dataset, fileBytes);
-    header.oddities = file.oddities;
+    header.oddities |= file.oddities;
     header.transferSyntax = syntaxName(file.syntaxUid);
     if (!isDecodable(file.syntaxUid))
         header.unsupportedSyntax = header.transferSyntax;
@@ -223,6 +226,8 @@ InstanceHeader parsed(std::span<const std::byte> bytes) {
         throw Error(ErrorCode::unusable, task::because::isDamagedBy(file.failure));
     if (const auto mosaic = mosaicOf(dataset, header))
         splitTiles(header, *mosaic);
+    else if (!whyUnusable(header) && guessedMosaic(dataset, header, {}))
+        return decodeImage(bytes).header; // the pixels tell how many tiles are slices
     else if (isMosaic(header))
         header.oddities |= decoder::unreadMosaic;
     return header;

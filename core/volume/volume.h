@@ -5,29 +5,48 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "core/task/reason.h"
 #include "core/volume/lattice.h"
 #include "core/volume/value_unit.h"
+#include "core/volume/value_window.h"
 
 namespace pellucid::volume {
-
-/// A display window in units of the values.
-struct ValueWindow {
-    double center = 0.0;
-    double width = 1.0;
-    std::string name;
-    bool isInverted = false; ///< high values are dark
-    bool operator==(const ValueWindow &) const = default;
-};
 
 /// Slices from `first` to `last`, both included.
 struct SliceRange {
     int first = 0, last = 0;
     bool operator==(const SliceRange &) const = default;
 };
+
+/// Where the distance between pixels is that a file states. Projections magnify the patient.
+enum class SpacingPlace {
+    patient,
+    detector,   ///< lengths in the patient are smaller
+    magnified,  ///< the detector's, divided by an estimated magnification
+    geometry,   ///< corrected for the projection at an assumed depth
+    calibrated, ///< by an object of known size in the picture
+};
+
+/// "at the detector" and so on, in English; nothing for lengths in the patient.
+inline std::string_view spacingPlaceName(SpacingPlace place) {
+    switch (place) {
+    case SpacingPlace::detector:
+        return "at the detector";
+    case SpacingPlace::magnified:
+        return "magnification estimated";
+    case SpacingPlace::geometry:
+        return "corrected for magnification";
+    case SpacingPlace::calibrated:
+        return "calibrated";
+    case SpacingPlace::patient:
+        break;
+    }
+    return {};
+}
 
 /// The information from a volume's source that a viewer shows.
 struct VolumeNotes {
@@ -46,6 +65,7 @@ struct VolumeNotes {
     bool lossy = false;             ///< lossy compression at some point
     bool placed = true;             ///< false: images without positions, not a volume
     bool hasSpacing = true;         ///< false: nothing says how large a pixel is; a "mm" is a pixel
+    SpacingPlace spacingPlace = SpacingPlace::patient;
 };
 
 /// Samples on a lattice. An immutable value, shared and cheap to copy.

@@ -243,6 +243,22 @@
         <source>Text</source>
         <translation>文字</translation>
     </message>
+    <message>
+        <source>at the detector</source>
+        <translation>在偵測器上</translation>
+    </message>
+    <message>
+        <source>magnification estimated</source>
+        <translation>放大率為估計</translation>
+    </message>
+    <message>
+        <source>corrected for magnification</source>
+        <translation>已校正放大率</translation>
+    </message>
+    <message>
+        <source>calibrated</source>
+        <translation>已校準</translation>
+    </message>
 </context>
 <context>
     <name>Names</name>
@@ -1220,10 +1236,6 @@
     <message>
         <source>has no pixel data</source>
         <translation>沒有像素</translation>
-    </message>
-    <message>
-        <source>trigger time %1</source>
-        <translation>觸發時間 %1</translation>
     </message>
     <message>
         <source>content time %1</source>
@@ -3230,10 +3242,6 @@
         <translation>宣告的影格數多於檔案所能容納：%1</translation>
     </message>
     <message>
-        <source>has %1-bit samples; 8 and 16 bits are supported</source>
-        <translation>樣本為 %1 位元；支援 8 與 16 位元</translation>
-    </message>
-    <message>
         <source>has a wrong number of compressed frames: %1 instead of %2</source>
         <translation>壓縮影格數錯誤：%1，應為 %2</translation>
     </message>
@@ -3440,6 +3448,162 @@
     <message>
         <source>%1; %2 goes on only with --allow-unprotected</source>
         <translation>%1；%2 僅在給定 --allow-unprotected 時繼續執行</translation>
+    </message>
+    <message>
+        <source>the server has %1 objects of it, but lists only %2</source>
+        <translation>伺服器有 %1 個物件，但只列出 %2 個</translation>
+    </message>
+    <message>
+        <source>objects whose UID is invalid, and which cannot be retrieved: %1</source>
+        <translation>UID 無效而無法取回的物件：%1</translation>
+    </message>
+    <message>
+        <source>the server did not list it</source>
+        <translation>伺服器未列出</translation>
+    </message>
+    <message>
+        <source>the server has reached its limit: the list may be incomplete; narrow the search</source>
+        <translation>伺服器已達其上限：清單可能不完整；請縮小搜尋範圍</translation>
+    </message>
+    <message>
+        <source>entries without a valid UID, which cannot be opened: %1</source>
+        <translation>沒有有效 UID 而無法開啟的項目：%1</translation>
+    </message>
+    <message>
+        <source>%1: stored, but the server changed or dropped attributes</source>
+        <translation>%1：已儲存，但伺服器變更或捨棄了屬性</translation>
+    </message>
+    <message>
+        <source>the server behind the proxy does not answer (HTTP status %1)</source>
+        <translation>代理伺服器後方的伺服器沒有回應（HTTP 狀態 %1）</translation>
+    </message>
+    <message>
+        <source>the server demands a certificate of this program</source>
+        <translation>伺服器要求本程式的憑證</translation>
+    </message>
+    <message>
+        <source>other files, which are no images: %1</source>
+        <translation>其他非影像的檔案：%1</translation>
+    </message>
+    <message>
+        <source>has %1-bit samples, which are not supported</source>
+        <translation>樣本為 %1 位元，不受支援</translation>
+    </message>
+    <message>
+        <source>contours lie between the slices, up to %1 mm from the nearest: %2</source>
+        <translation>輪廓位於切片之間，距最近的切片達 %1 mm：%2</translation>
+    </message>
+    <message>
+        <source>the segments are not on the volume&apos;s samples, up to %1 mm from them; they were interpolated</source>
+        <translation>分割不在體積的樣本上，相距達 %1 mm；已內插</translation>
+    </message>
+    <message>
+        <source>several images have the same position, and nothing but their numbers tells them apart</source>
+        <translation>多張影像位置相同，除編號外無從區分</translation>
+    </message>
+    <message>
+        <source>slices %1 to %2 of %3: the field of view shifts by %4 mm between %5 and %6</source>
+        <translation>切片 %1 至 %2（共 %3 張）：視野在 %5 與 %6 之間移動 %4 mm</translation>
+    </message>
+    <message>
+        <source>guessed: images at the same position were told apart by their numbers alone</source>
+        <translation>猜測：相同位置的影像僅以編號區分</translation>
+    </message>
+    <message>
+        <source>files with one position for all frames, which were placed in their order by the spacing between slices: %1</source>
+        <translation>所有影格只有一個位置、依切片間距按順序排列的檔案：%1</translation>
+    </message>
+    <message>
+        <source>files with one position for all frames and no spacing, which were placed in their order by the slice thickness: %1</source>
+        <translation>所有影格只有一個位置且無間距、依切片厚度按順序排列的檔案：%1</translation>
+    </message>
+    <message>
+        <source>files with decimal commas, which were read as points: %1</source>
+        <translation>以逗號為小數點、已讀為句點的檔案：%1</translation>
+    </message>
+    <message>
+        <source>files whose numbers have a wrong value representation: %1</source>
+        <translation>數字的值表示法錯誤的檔案：%1</translation>
+    </message>
+    <message>
+        <source>mosaics without a number of slices, which were split by their acquisition matrix: %1</source>
+        <translation>未載切片數、依擷取矩陣分割的馬賽克影像：%1</translation>
+    </message>
+    <message>
+        <source>no Rescale Slope and Intercept, unlike other images of the series: the values are as stored</source>
+        <translation>與序列的其他影像不同，沒有 Rescale Slope 與 Intercept：數值為儲存值</translation>
+    </message>
+    <message>
+        <source>no Rescale Slope and Intercept: the values are taken as HU</source>
+        <translation>沒有 Rescale Slope 與 Intercept：數值視為 HU</translation>
+    </message>
+    <message>
+        <source>the images state different values: %1</source>
+        <translation>各影像所載的值不同：%1</translation>
+    </message>
+    <message>
+        <source>others</source>
+        <translation>其他</translation>
+    </message>
+    <message>
+        <source>%1 %2</source>
+        <translation>%1 %2</translation>
+    </message>
+    <message>
+        <source>heart interval %1</source>
+        <translation>心搏間期 %1</translation>
+    </message>
+    <message>
+        <source>time slot %1</source>
+        <translation>時間槽 %1</translation>
+    </message>
+    <message>
+        <source>phase %1</source>
+        <translation>相位 %1</translation>
+    </message>
+    <message>
+        <source>time %1</source>
+        <translation>時間 %1</translation>
+    </message>
+    <message>
+        <source>energy window %1</source>
+        <translation>能窗 %1</translation>
+    </message>
+    <message>
+        <source>detector %1</source>
+        <translation>偵測器 %1</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>echo time %1 ms</source>
+        <translation>回波時間 %1 ms</translation>
+    </message>
+    <message>
+        <source>inversion time %1 ms</source>
+        <translation>反轉時間 %1 ms</translation>
+    </message>
+    <message>
+        <source>direction %1</source>
+        <translation>方向 %1</translation>
+    </message>
+    <message>
+        <source>flip angle %1°</source>
+        <translation>翻轉角 %1°</translation>
+    </message>
+    <message>
+        <source>%1 kVp</source>
+        <translation>%1 kVp</translation>
+    </message>
+    <message>
+        <source>kernel %1</source>
+        <translation>重建核 %1</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
     </message>
 </context>
 <context>

@@ -36,6 +36,8 @@ struct HttpAnswer {
     int status = 200;
     std::string type = "application/json", body, location;
     std::shared_future<void> after{}; ///< the answer waits for it, and others do not
+    std::string header{};             ///< one more: "Name: value"
+    bool isLast = false;              ///< of its connection, without saying so
 };
 
 inline std::string urlDecoded(const std::string &text) {
@@ -135,7 +137,10 @@ private:
                                 " Answer\r\nContent-Type: " + answer.type +
                                 "\r\nContent-Length: " + std::to_string(answer.body.size()) +
                                 (answer.location.empty() ? "" : "\r\nLocation: ") +
-                                answer.location + "\r\n\r\n" + answer.body);
+                                answer.location + (answer.header.empty() ? "" : "\r\n") +
+                                answer.header + "\r\n\r\n" + answer.body);
+            if (answer.isLast)
+                return;
         }
     }
     static HttpRequest headOf(const std::string &head) {

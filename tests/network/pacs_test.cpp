@@ -433,8 +433,8 @@ TEST_F(Pacs, ASeriesIsSeenLongBeforeItIsHere) {
         EXPECT_EQ(arrived.loaded.volume.lattice().size().k, slices);
     });
     archive::RetrievalObserver observer;
-    observer.listed = [&](const std::vector<archive::Instance> &instances) {
-        for (const archive::Instance &instance : instances)
+    observer.listed = [&](const archive::Listing &study) {
+        for (const archive::Instance &instance : study.instances)
             numbers.emplace(instance.sopInstanceUid, numbers.size());
         arriving = std::make_shared<dicom::ArrivingSeries>(numbers.size());
         listing = since();

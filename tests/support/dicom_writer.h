@@ -198,6 +198,8 @@ inline DicomWriter sliceOf(const SeriesKnobs &knobs, int k) {
     w.putShort({0x0028, 0x0101}, 16);
     w.putShort({0x0028, 0x0102}, 15);
     w.putShort({0x0028, 0x0103}, 1);
+    w.putNumbers({0x0028, 0x1052}, {0.0});
+    w.putNumbers({0x0028, 0x1053}, {1.0});
     if (knobs.window) {
         const glm::dvec2 window = knobs.window(k);
         w.putNumbers({0x0028, 0x1050}, {window.x});

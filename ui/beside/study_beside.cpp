@@ -22,12 +22,27 @@ QString headingText(const StudySource &source) {
            seriesText(source.volume);
 }
 
+namespace {
+
+constexpr auto gapOfBanner = "  ·  ";
+
+// A text from outside in a banner. It passes for no other part, and pushes none out of sight.
+QString bannerPart(const QString &value) {
+    constexpr int longest = 64;
+    QString text = shownText(value).simplified();
+    for (const char *const dot : {" · ", " • "})
+        text.replace(QString::fromUtf8(dot), " - ");
+    return text.size() > longest ? text.left(longest - 1) + QString::fromUtf8("…") : text;
+}
+
+} // namespace
+
 QString bannerText(const StudySource &source) {
     const StudyFacts &study = source.study;
-    QStringList patient{patientText(study)};
+    QStringList patient{bannerPart(patientText(study))};
     if (study.hasPatient()) {
         if (!study.sex.isEmpty())
-            patient << study.sex;
+            patient << bannerPart(study.sex);
         const QDate birth = QDate::fromString(study.birthDate, "yyyyMMdd"),
                     scan = QDate::fromString(study.date, "yyyyMMdd");
         if (birth.isValid()) {
@@ -40,10 +55,11 @@ QString bannerText(const StudySource &source) {
                             : dateText(study.birthDate));
         }
         if (!study.patientId.isEmpty())
-            patient << StudyBeside::tr("ID %1").arg(study.patientId);
+            patient << StudyBeside::tr("ID %1").arg(bannerPart(study.patientId));
     }
-    const QString gap = QString::fromUtf8("  ·  ");
-    return shownText(patient.join(gap) + gap + studyText(study) + gap + seriesText(source.volume));
+    const QString gap = QString::fromUtf8(gapOfBanner);
+    return patient.join(gap) + gap + bannerPart(studyText(study)) + gap +
+           bannerPart(seriesText(source.volume));
 }
 
 StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *parent)

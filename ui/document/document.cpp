@@ -133,6 +133,7 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
         scene::Scene fresh;
         fresh.tolerance = m_scene.tolerance;
         fresh.interpolation = m_scene.interpolation;
+        fresh.tone.inverted = initialWindow.isInverted; // in the same sense as the planes
         m_scene = fresh;
         m_selectedClass = -1;
         RegionOptions options = m_marking.options();

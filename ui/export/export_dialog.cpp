@@ -160,11 +160,10 @@ void ExportDialog::offerPatient() {
     m_patient->clear();
     if (m_patientOf >= 0) {
         const dicom::CaptureLabels study = studyLabels(m_document);
-        const QString named =
-            QStringList{QString::fromStdString(study.patientName).replace('^', ' ').simplified(),
-                        QString::fromStdString(study.patientId)}
-                .join("  ")
-                .trimmed();
+        const QString named = QStringList{personText(QString::fromStdString(study.patientName)),
+                                          QString::fromStdString(study.patientId)}
+                                  .join("  ")
+                                  .trimmed();
         if (!named.isEmpty())
             m_patient->addItem(shownText(named));
     }

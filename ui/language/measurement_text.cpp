@@ -19,14 +19,37 @@ QString valueText(double value, volume::ValueUnit unit) {
                                                  : numberText(value, 5);
 }
 
-QString areaText(double mm2, bool hasSpacing) {
-    if (!hasSpacing)
+// The lengths of radiographs are not those in the patient.
+QString withPlace(const QString &size, volume::SpacingPlace place) {
+    const QString text = spacingPlaceText(place);
+    return text.isEmpty() ? size : size + " " + text;
+}
+
+QString areaText(double mm2, const volume::VolumeNotes &notes) {
+    if (!notes.hasSpacing)
         return MeasurementTextTexts::tr("%1 square pixels").arg(mm2, 0, 'f', 0);
-    return mm2 < 100.0 ? MeasurementTextTexts::tr("%1 mm²").arg(mm2, 0, 'f', 1)
-                       : MeasurementTextTexts::tr("%1 cm²").arg(mm2 / 100.0, 0, 'f', 2);
+    return withPlace(mm2 < 100.0 ? MeasurementTextTexts::tr("%1 mm²").arg(mm2, 0, 'f', 1)
+                                 : MeasurementTextTexts::tr("%1 cm²").arg(mm2 / 100.0, 0, 'f', 2),
+                     notes.spacingPlace);
 }
 
 } // namespace
+
+QString spacingPlaceText(volume::SpacingPlace place) {
+    switch (place) {
+    case volume::SpacingPlace::detector:
+        return MeasurementTextTexts::tr("at the detector");
+    case volume::SpacingPlace::magnified:
+        return MeasurementTextTexts::tr("magnification estimated");
+    case volume::SpacingPlace::geometry:
+        return MeasurementTextTexts::tr("corrected for magnification");
+    case volume::SpacingPlace::calibrated:
+        return MeasurementTextTexts::tr("calibrated");
+    case volume::SpacingPlace::patient:
+        break;
+    }
+    return {};
+}
 
 QString kindText(const measure::Measurement &m) {
     switch (m.kind) {
@@ -56,16 +79,17 @@ QString kindText(const measure::Measurement &m) {
 
 QString mainFigure(const measure::Result &result, const volume::Volume &volume) {
     const volume::ValueUnit unit = volume.unit();
-    const bool hasSpacing = volume.notes().hasSpacing;
+    const volume::VolumeNotes &notes = volume.notes();
+    if (result.lengthMm && !notes.hasSpacing)
+        return MeasurementTextTexts::tr("%1 pixels").arg(*result.lengthMm, 0, 'f', 1);
     if (result.lengthMm)
-        return (hasSpacing ? MeasurementTextTexts::tr("%1 mm")
-                           : MeasurementTextTexts::tr("%1 pixels"))
-            .arg(*result.lengthMm, 0, 'f', 1);
+        return withPlace(MeasurementTextTexts::tr("%1 mm").arg(*result.lengthMm, 0, 'f', 1),
+                         notes.spacingPlace);
     if (result.angleDegrees)
         return MeasurementTextTexts::tr("%1°").arg(*result.angleDegrees, 0, 'f', 1);
     if (result.values)
         return valueText(result.values->mean, unit) + unitSuffix(unit);
-    return result.areaMm2 ? areaText(*result.areaMm2, hasSpacing) : QString();
+    return result.areaMm2 ? areaText(*result.areaMm2, notes) : QString();
 }
 
 QStringList allFigures(const measure::Measurement &measurement, const measure::Result &result,
@@ -90,7 +114,7 @@ QStringList allFigures(const measure::Measurement &measurement, const measure::R
     } else {
         lines << MeasurementTextTexts::tr("outside the volume");
     }
-    return lines << areaText(*result.areaMm2, volume.notes().hasSpacing);
+    return lines << areaText(*result.areaMm2, volume.notes());
 }
 
 } // namespace pellucid::ui

@@ -8,6 +8,9 @@
 
 namespace pellucid::ui {
 
+/// "at the detector", in the user's language; empty for lengths in the patient.
+QString spacingPlaceText(volume::SpacingPlace place);
+
 /// "Distance", in the user's language.
 QString kindText(const measure::Measurement &measurement);
 

@@ -281,7 +281,7 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
     Library library(place);
     const dicom::Catalogue catalogue = scanFiles(library, import, progress);
     ImportResult result;
-    result.skipped = catalogue.skipped;
+    result.skipped = dicom::problemsOf(catalogue);
     // The library lists volumes only.
     for (const dicom::Patient &patient : catalogue.patients)
         for (const dicom::Study &study : patient.studies)

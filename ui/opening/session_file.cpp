@@ -25,6 +25,30 @@ namespace pellucid::ui {
 
 namespace {
 
+QJsonArray curveOf(const volume::ValueWindow &window) {
+    QJsonArray curve;
+    if (window.curve)
+        for (const float grey : *window.curve)
+            curve.append(double(grey));
+    return curve;
+}
+
+void setFunction(const QJsonObject &in, volume::ValueWindow &window) {
+    using volume::WindowFunction;
+    window.function = WindowFunction(std::clamp(in["function"].toInt(), 0, 3));
+    if (window.function != WindowFunction::table)
+        return;
+    constexpr qsizetype longest = 65536;
+    const QJsonArray greys = in["curve"].toArray();
+    std::vector<float> curve;
+    for (qsizetype n = 0; n < std::min(longest, greys.size()); ++n)
+        curve.push_back(std::clamp(float(greys[n].toDouble()), 0.0F, 1.0F));
+    if (curve.size() < 2)
+        window.function = WindowFunction::linearExact;
+    else
+        window.curve = std::make_shared<const std::vector<float>>(std::move(curve));
+}
+
 constexpr const char *schema = "pellucid-session/1";
 
 constexpr int maxPrograms = 100;
@@ -119,7 +143,9 @@ QJsonObject objectOf(const Session &s) {
             {"window", QJsonObject{{"center", s.shown.displayWindow.center},
                                    {"width", s.shown.displayWindow.width},
                                    {"name", QString::fromStdString(s.shown.displayWindow.name)},
-                                   {"inverted", s.shown.displayWindow.isInverted}}},
+                                   {"inverted", s.shown.displayWindow.isInverted},
+                                   {"function", int(s.shown.displayWindow.function)},
+                                   {"curve", curveOf(s.shown.displayWindow)}}},
             {"fitted", s.shown.isFitted},
             {"crosshair", toJson(s.shown.crosshair.mm)},
             {"planes", toJson(s.shown.cut.axes)},
@@ -152,6 +178,7 @@ Session fromJson(const QJsonObject &in) {
     s.shown.displayWindow = {window["center"].toDouble(),
                              std::max(1e-6, window["width"].toDouble(1.0)),
                              window["name"].toString().toStdString(), window["inverted"].toBool()};
+    setFunction(window, s.shown.displayWindow);
     s.shown.exposure = std::exchange(s.shown.scene.tone.exposure, std::nullopt);
     s.shown.isFitted = in["fitted"].toBool();
     s.shown.crosshair = {vectorFrom(in["crosshair"])};

@@ -153,7 +153,7 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
             auto catalogue = std::make_shared<const dicom::Catalogue>(
                 dicom::scan(files, job.progress(), options));
             job.deliver([this, catalogue, files, paths] {
-                std::vector<dicom::Skipped> problems = catalogue->skipped;
+                std::vector<dicom::Skipped> problems = dicom::problemsOf(*catalogue);
                 if (catalogue->empty() && m_document.volume()) { // they are opened for it
                     const QStringList opened = segmentationsIn(*catalogue);
                     std::erase_if(problems, [&](const dicom::Skipped &s) {
@@ -501,7 +501,7 @@ void StudyOpener::openArriving(const StudyFacts &study,
             };
             const dicom::ArrivedSeries arrived = series->load(job.progress().part(0.0, 0.6), show);
             job.deliver([this, index, catalogue = arrived.catalogue] {
-                m_document.addProblems(catalogue->skipped);
+                m_document.addProblems(dicom::problemsOf(*catalogue));
                 const auto indices = m_document.addSources(sourcesFrom(catalogue));
                 for (const int known : indices) // it may have had fewer files
                     m_kept.take(known);

@@ -124,7 +124,8 @@ void EarlierStudies::searchServers(const std::vector<archive::Server> &servers) 
                             m_failures.insert_or_assign(QString::fromStdString(outcome.server),
                                                         *outcome.failure);
                         const QString name = QString::fromStdString(outcome.server);
-                        if (outcome.reachedLimit && !m_limited.contains(name))
+                        if ((outcome.reachedLimit || outcome.mayBeIncomplete) &&
+                            !m_limited.contains(name))
                             m_limited << name;
                         merge();
                     });

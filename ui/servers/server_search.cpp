@@ -61,7 +61,7 @@ void ServerSearch::start(const archive::SearchTerms &terms,
                 job.deliver([this, outcome] {
                     m_states[QString::fromStdString(outcome.server)] = {
                         outcome.failure ? ServerState::Kind::failed : ServerState::Kind::answered,
-                        outcome.reachedLimit, outcome.failure};
+                        outcome.reachedLimit || outcome.mayBeIncomplete, outcome.failure};
                     if (outcome.failure &&
                         outcome.failure->is(task::because::serverDoesNotAcceptTheLogin))
                         m_book.forgetSecret(QString::fromStdString(outcome.server));

@@ -37,21 +37,32 @@ public:
             m_series->end();
     }
 
-    /// *Requires*: the largest series comes first.
-    std::shared_ptr<dicom::ArrivingSeries> begin(const std::vector<archive::Instance> &instances) {
-        for (const archive::Instance &instance : instances)
-            if (instance.seriesUid == instances.front().seriesUid)
+    /// Null if the server lists no objects. *Requires*: the largest series comes first.
+    std::shared_ptr<dicom::ArrivingSeries> begin(const archive::Listing &listing) {
+        if (listing.instances.empty())
+            return nullptr;
+        m_uid = listing.instances.front().seriesUid;
+        for (const archive::Instance &instance : listing.instances)
+            if (instance.seriesUid == m_uid)
                 m_numbers.emplace(instance.sopInstanceUid, m_numbers.size());
-        m_series = std::make_shared<dicom::ArrivingSeries>(m_numbers.size());
+        std::size_t unlisted = 0;
+        for (const archive::ShortSeries &series : listing.shortSeries)
+            unlisted += series.seriesUid == m_uid ? series.unlisted : 0;
+        m_series = std::make_shared<dicom::ArrivingSeries>(m_numbers.size(), unlisted);
         return m_series;
     }
-    void add(const std::string &sopInstanceUid, const std::filesystem::path &path) {
-        const auto number = m_numbers.find(sopInstanceUid);
+    void add(const archive::StoredObject &object) {
+        if (!m_series || object.seriesUid != m_uid)
+            return;
+        const auto number = m_numbers.find(object.sopInstanceUid);
         if (number != m_numbers.end())
-            m_series->add(number->second, path);
+            m_series->add(number->second, object.path);
+        else
+            m_series->addUnlisted(object.path);
     }
 
 private:
+    std::string m_uid;
     std::map<std::string, std::size_t> m_numbers;
     std::shared_ptr<dicom::ArrivingSeries> m_series;
 };
@@ -222,11 +233,11 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
             };
             SeriesToShow arrivals;
             std::shared_ptr<dicom::ArrivingSeries> series;
-            observer.listed = [&](const std::vector<archive::Instance> &instances) {
-                series = arrivals.begin(instances);
+            observer.listed = [&](const archive::Listing &listing) {
+                series = arrivals.begin(listing);
             };
             observer.matches = [&](const archive::StoredObject &object) {
-                arrivals.add(object.sopInstanceUid, object.path);
+                arrivals.add(object);
                 if (series) // from the first object on
                     job.deliver(
                         [this, uid = QString::fromStdString(transfer.wanted.studyUid),

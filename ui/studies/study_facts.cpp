@@ -139,12 +139,16 @@ VolumeFacts volumeFacts(const dicom::Selection &s) {
     return facts;
 }
 
+QString personText(const QString &name) {
+    return shownText(name).replace('^', ' ').replace('=', ' ').simplified();
+}
+
 QString patientText(const StudyFacts &study) {
     if (study.patientId == "phantoms")
         return StudyFactsTexts::tr("Phantoms");
     if (study.patientId == "files") // these contain no patient data
         return StudyFactsTexts::tr("Files");
-    const QString name = shownText(study.patientName).replace('^', ' ').simplified();
+    const QString name = personText(study.patientName);
     if (!name.isEmpty())
         return name;
     return study.patientId.isEmpty() ? StudyFactsTexts::tr("Unnamed") : shownText(study.patientId);

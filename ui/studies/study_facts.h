@@ -65,6 +65,9 @@ VolumeFacts volumeFacts(const dicom::Selection &selection);
 
 /// "Doe Jane", or the identifier if there is no name.
 QString patientText(const StudyFacts &study);
+
+/// A name as DICOM writes it, with blanks between its parts and groups.
+QString personText(const QString &name);
 /// "2007-04-04 CT Chest".
 QString studyText(const StudyFacts &study);
 /// "3 5 mm soft kernel", with the number of the series first.

@@ -21,16 +21,14 @@ QImage makeThumbnail(const volume::Volume &volume) {
     const volume::Lattice &lattice = volume.lattice();
     const int columns = lattice.size().i, rows = lattice.size().j, slices = lattice.size().k;
     const volume::ValueWindow window = initialWindow(volume);
-    const double low = window.center - 0.5 * window.width;
     QImage picture(columns, rows, QImage::Format_Grayscale8);
     volume.visit([&](const auto &samples) {
         const auto *in = samples.data() + std::size_t(columns) * rows * std::size_t(slices / 2);
         for (int y = 0; y < rows; ++y)
             for (int x = 0; x < columns; ++x, ++in) {
-                const double share = std::clamp((double(*in) - low) / window.width, 0.0, 1.0);
+                const double grey = window.greyOf(double(*in));
                 // NaN is as dark as the outside of the volume.
-                const int grey = std::isnan(share) ? 0 : int(std::lround(255.0 * share));
-                picture.scanLine(y)[x] = uchar(volume.notes().darkIsHigh ? 255 - grey : grey);
+                picture.scanLine(y)[x] = uchar(std::isnan(grey) ? 0 : std::lround(255.0 * grey));
             }
     });
     const double width = columns * lattice.spacingMm(0), height = rows * lattice.spacingMm(1);

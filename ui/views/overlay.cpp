@@ -24,6 +24,12 @@ struct OverlayTexts {
     Q_DECLARE_TR_FUNCTIONS(OverlayTexts)
 };
 
+// Separates a color from the picture.
+QColor outlineOf(const QColor &color) {
+    constexpr int light = 110;
+    return color.lightness() > light ? QColor(0, 0, 0, 190) : QColor(255, 255, 255, 210);
+}
+
 } // namespace
 
 bool isPartial(const volume::VolumeNotes &notes) {
@@ -67,10 +73,12 @@ void drawWarningMark(QPainter &painter, const QRect &area, std::size_t count,
     sign.closeSubpath();
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QPen(QColor(0, 0, 0, 190), 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    QColor outline = outlineOf(colors.warning);
+    painter.setPen(QPen(outline, 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
     painter.drawPath(sign);
     painter.setPen(QPen(colors.warning, 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-    painter.setBrush(QColor(0, 0, 0, 110));
+    outline.setAlpha(110);
+    painter.setBrush(outline);
     painter.drawPath(sign);
     painter.drawLine(top + QPointF(0.0, 4.5), top + QPointF(0.0, 8.2));
     painter.drawPoint(top + QPointF(0.0, 10.6));
@@ -84,14 +92,14 @@ void drawText(QPainter &painter, const QRect &area, int flags, const QString &te
               const QColor &color) {
     const QString shown = shownLines(text);
     // On bone, a thin outline is not enough: a faint one around it separates text and picture.
-    const bool isLight = color.lightness() > 110;
-    QColor outline = isLight ? QColor(0, 0, 0) : QColor(255, 255, 255);
+    QColor outline = outlineOf(color);
+    const int alpha = outline.alpha();
     outline.setAlpha(70);
     painter.setPen(outline);
     for (const QPoint &offset : {QPoint(-2, 0), QPoint(2, 0), QPoint(0, -2), QPoint(0, 2),
                                  QPoint(-1, -1), QPoint(1, -1), QPoint(-1, 1), QPoint(1, 1)})
         painter.drawText(area.translated(offset), flags, shown);
-    outline.setAlpha(isLight ? 190 : 210);
+    outline.setAlpha(alpha);
     painter.setPen(outline);
     for (const QPoint &offset : {QPoint(-1, 0), QPoint(1, 0), QPoint(0, -1), QPoint(0, 1)})
         painter.drawText(area.translated(offset), flags, shown);
@@ -140,7 +148,7 @@ void drawScaleBar(QPainter &painter, QPoint bottomLeft, double pixelsPerMm, int 
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing, false);
     painter.fillRect(QRect(bottomLeft.x() - 1, bottomLeft.y() - 3, length + 2, 4),
-                     QColor(0, 0, 0, 190));
+                     outlineOf(colors.text));
     painter.fillRect(QRect(bottomLeft.x(), bottomLeft.y() - 2, length, 2), colors.text);
     drawText(painter, QRect(bottomLeft.x() + length + 6, bottomLeft.y() - 10, 80, 18),
              Qt::AlignLeft | Qt::AlignVCenter, text, colors.text);

@@ -11,6 +11,7 @@
 
 #include "core/scene/camera.h"
 #include "ui/document/document.h"
+#include "ui/language/measurement_text.h"
 #include "ui/language/number_text.h"
 #include "ui/views/crosshair.h"
 #include "ui/views/overlay.h"
@@ -125,7 +126,10 @@ QString valueText(const volume::Volume &volume, volume::PatientPoint at,
 void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &mapping,
                      const Document &document, mpr::Orientation orientation, TextsFor reader,
                      Names names) {
-    const OverlayColors colors = overlayColors(colorRole(orientation));
+    // Over white, as PET and some radiographs are shown, light letters would vanish.
+    const OverlayColors colors = document.volume() && document.displayWindow().isInverted
+                                     ? filmColors(colorRole(orientation))
+                                     : overlayColors(colorRole(orientation));
     const QRect inner = area.adjusted(8, 8, -8, -8);
     const Cut &cut = document.cut();
     painter.save();
@@ -178,6 +182,9 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
     if (notes.hasSpacing)
         drawScaleBar(painter, QPoint(10, area.bottom() - 9), mapping.pixelsPerMm(),
                      std::min(110, area.width() / 2 - 74), colors);
+    if (const QString place = spacingPlaceText(notes.spacingPlace); !place.isEmpty())
+        drawText(painter, inner.adjusted(0, 0, 0, -16), Qt::AlignLeft | Qt::AlignBottom, place,
+                 colors.muted);
     const bool areWords = reader == TextsFor::picture || isPartial(notes);
     if (!areWords && !notes.warnings.empty())
         drawWarningMark(painter, notes.lossy ? area.adjusted(0, 0, 0, -line) : area,

@@ -26,7 +26,15 @@ QImage slicePicture(const mpr::SliceImage &slice, const volume::ValueWindow &win
                     const std::optional<classify::TissueClass> &tint) {
     QImage image(slice.width, slice.height,
                  tint ? QImage::Format_RGB32 : QImage::Format_Grayscale8);
-    const auto low = float(window.center - 0.5 * window.width), scale = float(255.0 / window.width);
+    const auto ramp = window.ramp();
+    const float low = ramp ? float(ramp->low) : 0.0F,
+                scale = ramp ? float(255.0 / ramp->width) : 0.0F;
+    const auto greyOf = [&](float value) {
+        if (!ramp)
+            return float(255.0 * window.greyOf(double(value)));
+        const float bright = std::clamp((value - low) * scale, 0.0F, 255.0F);
+        return window.isInverted ? 255.0F - bright : bright;
+    };
     uchar *const bits = image.bits();
     const std::ptrdiff_t stride = image.bytesPerLine();
     tbb::parallel_for(0, slice.height, [&](int r) {
@@ -35,10 +43,7 @@ QImage slicePicture(const mpr::SliceImage &slice, const volume::ValueWindow &win
         const float *in = slice.values.data() + std::size_t(r) * slice.width;
         for (int c = 0; c < slice.width; ++c) {
             const bool isOutside = std::isnan(in[c]);
-            const float bright = std::clamp((in[c] - low) * scale, 0.0F, 255.0F);
-            const auto grey = uchar(isOutside           ? 0.0F
-                                    : window.isInverted ? 255.0F - bright
-                                                        : bright);
+            const auto grey = uchar(isOutside ? 0.0F : greyOf(in[c]));
             if (tint)
                 pixels[c] = isOutside ? qRgb(0, 0, 0) : tinted(grey, *tint, double(in[c]));
             else

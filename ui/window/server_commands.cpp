@@ -87,7 +87,7 @@ void ServerCommands::askForAnotherPatient(const archive::Patient &listed,
                                           const std::function<void()> &open) {
     const auto textOf = [](const archive::Patient &patient) {
         const auto shown = [](const std::string &text) { return QString::fromStdString(text); };
-        QStringList parts{shown(patient.name).replace('^', ' ').simplified(), shown(patient.id),
+        QStringList parts{personText(shown(patient.name)), shown(patient.id),
                           dateText(shown(patient.birthDate))};
         parts.removeAll({});
         return parts.join(", ");

@@ -32,16 +32,16 @@ std::string objectWith(int value) {
 }
 
 StoredObject keep(const ObjectFolder &folder, const std::string &bytes,
-                  const std::optional<ObjectFolder::Place> &place = {}) {
+                  const std::vector<ObjectFolder::Place> &places = {}) {
     const auto file = folder.open(announced);
     EXPECT_EQ(::write(file->descriptor(), bytes.data(), bytes.size()), ssize_t(bytes.size()));
-    return folder.keep(*file, announced, bytes.size(), place);
+    return folder.keep(*file, announced, bytes.size(), places);
 }
 
 task::Reason refusal(const ObjectFolder &folder, const std::string &bytes,
-                     const std::optional<ObjectFolder::Place> &place = {}) {
+                     const std::vector<ObjectFolder::Place> &places = {}) {
     try {
-        keep(folder, bytes, place);
+        keep(folder, bytes, places);
     } catch (const task::Error &error) {
         EXPECT_EQ(error.code(), task::ErrorCode::unusable);
         return error.reason();

@@ -31,7 +31,7 @@ InstanceHeader someHeader() {
     frame.positionMm = glm::dvec3(1.5, -2.0, 1e-3);
     frame.spacingMm = glm::dvec2(0.5, 0.25);
     frame.rescale = {2.0, -1024.0};
-    frame.dimensions = {{"echo", "1"}, {"b-value", "800"}};
+    frame.dimensions = {{0x00180086, "1"}, {0x00189087, "800"}};
     h.frames = {frame, FrameHeader()};
     return h;
 }
@@ -42,14 +42,14 @@ concept IsA = std::same_as<std::remove_const_t<T>, Message>;
 // The fields of a message, in their order. A struct with more or fewer fields does not compile
 // here.
 auto fieldsOf(IsA<Rescale> auto &r) {
-    auto &[slope, intercept, isSlopeZero, isSlopeReadable, isInterceptReadable] = r;
-    return std::tie(slope, intercept, isSlopeZero, isSlopeReadable, isInterceptReadable);
+    auto &[slope, intercept, isSlopeZero, isSlopeReadable, isInterceptReadable, isStated] = r;
+    return std::tie(slope, intercept, isSlopeZero, isSlopeReadable, isInterceptReadable, isStated);
 }
 auto fieldsOf(IsA<FrameHeader> auto &f) {
-    auto &[positionMm, rowAxis, columnAxis, spacingMm, sliceThicknessMm, rescale, imageType,
-           segment, dimensions] = f;
-    return std::tie(positionMm, rowAxis, columnAxis, spacingMm, sliceThicknessMm, rescale,
-                    imageType, segment, dimensions);
+    auto &[positionMm, rowAxis, columnAxis, spacingMm, sliceThicknessMm, rescale, segment,
+           dimensions] = f;
+    return std::tie(positionMm, rowAxis, columnAxis, spacingMm, sliceThicknessMm, rescale, segment,
+                    dimensions);
 }
 auto fieldsOf(IsA<InstanceHeader> auto &h) {
     auto &[sopClassUid, sopClassName, sopInstanceUid, transferSyntax, unsupportedSyntax, patientId,
@@ -57,16 +57,16 @@ auto fieldsOf(IsA<InstanceHeader> auto &h) {
            seriesUid, seriesDescription, modality, bodyPart, seriesNumber, instanceNumber,
            hasPixels, floatPixels, rows, columns, samplesPerPixel, declaredFrames, pixelBytes,
            bitsAllocated, bitsStored, highBit, pixelRepresentation, lossy, hasDamagedPixels,
-           oddities, mosaicSide, photometric, rescaleType, paddingValue, paddingLimit, pet, windows,
-           modalityTable, modalityTableFirst, frames] = h;
+           oddities, mosaicSide, photometric, rescaleType, isInverse, spacingPlace, paddingValue,
+           paddingLimit, pet, windows, modalityTable, modalityTableFirst, frames] = h;
     return std::tie(sopClassUid, sopClassName, sopInstanceUid, transferSyntax, unsupportedSyntax,
                     patientId, patientName, birthDate, sex, studyUid, studyDate, studyDescription,
                     frameOfReferenceUid, seriesUid, seriesDescription, modality, bodyPart,
                     seriesNumber, instanceNumber, hasPixels, floatPixels, rows, columns,
                     samplesPerPixel, declaredFrames, pixelBytes, bitsAllocated, bitsStored, highBit,
                     pixelRepresentation, lossy, hasDamagedPixels, oddities, mosaicSide, photometric,
-                    rescaleType, paddingValue, paddingLimit, pet, windows, modalityTable,
-                    modalityTableFirst, frames);
+                    rescaleType, isInverse, spacingPlace, paddingValue, paddingLimit, pet, windows,
+                    modalityTable, modalityTableFirst, frames);
 }
 auto fieldsOf(IsA<PetHeader> auto &p) {
     auto &[units, uptakeType, decayCorrection, seriesDate, seriesTime, acquisitionDate,
@@ -136,14 +136,17 @@ public:
         for (T &value : values)
             (*this)(value);
     }
-    void operator()(std::map<std::string, std::string> &texts) {
-        texts = {{"echo", "1"}, {"b-value", "800"}};
+    void operator()(std::map<std::uint32_t, std::string> &texts) {
+        texts = {{0x00180086, "1"}, {0x00189087, "800"}};
     }
     void operator()(volume::ValueWindow &window) {
         (*this)(window.center);
         (*this)(window.width);
         (*this)(window.name);
+        window.function = volume::WindowFunction::table;
+        window.curve = std::make_shared<const std::vector<float>>(std::vector<float>{0.0F, 0.25F});
     }
+    void operator()(volume::SpacingPlace &place) { place = volume::SpacingPlace::calibrated; }
     // The second frame keeps its defaults.
     void operator()(std::vector<FrameHeader> &frames) {
         frames.resize(2);

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/decoder/dimensions.h"
 #include "tests/core/dicom/series_files.h"
 
 namespace pellucid {
@@ -47,7 +48,7 @@ TEST(GroupSeries, EveryVolumeOfASeriesHasALabelOfItsOwn) {
 TEST(GroupSeries, PhasesOfOneStackSayThatTheyAre) {
     auto files = stack({0, 2, 4, 0, 2, 4, 0, 2, 4});
     for (int n = 0; n < 9; ++n) {
-        files[n].header.frames[0].dimensions["temporal position"] = n < 3 ? "1" : "2";
+        files[n].header.frames[0].dimensions[0x00200100] = n < 3 ? "1" : "2";
         files[n].header.frameOfReferenceUid = n < 6 ? "1.2" : "1.3";
     }
     std::vector<std::string> labels;
@@ -200,14 +201,14 @@ TEST(GroupSeries, UnusedFramesAreNotSurplus) {
 TEST(GroupSeries, OtherSizesAndLocalizersAreSplitOff) {
     auto files = stack({0, 2, 4, 6, 8});
     files[1].header.columns = 5;
-    files[3].header.frames[0].imageType = "ORIGINAL\\PRIMARY\\LOCALIZER";
+    files[3].header.frames[0].dimensions[decoder::imageTypeTag] = "ORIGINAL\\PRIMARY\\LOCALIZER";
     EXPECT_EQ(group(files).size(), 3U);
 }
 
 TEST(GroupSeries, RepeatedPlacesAreSplitByWhatTellsThemApart) {
     auto files = stack({0, 2, 4, 0, 2, 4});
     for (int n = 0; n < 6; ++n)
-        files[n].header.frames[0].dimensions["temporal position"] = n < 3 ? "1" : "2";
+        files[n].header.frames[0].dimensions[0x00200100] = n < 3 ? "1" : "2";
     auto entries = group(files);
     ASSERT_EQ(entries.size(), 2U);
     EXPECT_EQ(dicom::labelText(entries[0].label), "temporal position 1");
@@ -225,7 +226,7 @@ TEST(GroupSeries, AnAttributeThatCountsSlicesDoesNotSplitTheStack) {
     // Acquisition numbers that count the slices must not tear a plain stack apart.
     auto files = stack({0, 2, 4, 6});
     for (int n = 0; n < 4; ++n)
-        files[n].header.frames[0].dimensions["acquisition"] = std::to_string(n);
+        files[n].header.frames[0].dimensions[0x00200012] = std::to_string(n);
     EXPECT_EQ(group(files).size(), 1U);
 }
 

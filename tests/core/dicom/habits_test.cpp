@@ -252,6 +252,72 @@ void addContradictions(HabitList &all) {
                  });
 }
 
+// Series whose images disagree: the one of this slice differs from the others.
+void addDisagreements(HabitList &all) {
+    constexpr int odd = 3;
+    const auto add = [&](const std::string &what, const std::function<void(DicomWriter &)> &change,
+                         const Turn &turn = {}) {
+        all.add("one image of another " + what, [=](SeriesKnobs &k) {
+            if (turn)
+                turn(k);
+            k.change = [change, old = k.change](DicomWriter &w, int slice) {
+                if (old)
+                    old(w, slice);
+                if (slice == odd)
+                    change(w);
+            };
+        });
+    };
+    const auto text = [](DicomWriter::Tag tag, const char *vr, const std::string &value) {
+        return [=](DicomWriter &w) { w.put(tag, vr, value); };
+    };
+    const auto numbers = [](DicomWriter::Tag tag, const std::vector<double> &values) {
+        return [=](DicomWriter &w) { w.putNumbers(tag, values); };
+    };
+    const auto each = [](const std::function<void(DicomWriter &)> &change) {
+        return [=](SeriesKnobs &k) { k.change = [=](DicomWriter &w, int) { change(w); }; };
+    };
+    add("size", [](DicomWriter &w) {
+        w.putShort({0x0028, 0x0010}, 4);
+        w.putShort({0x0028, 0x0011}, 20);
+    });
+    add("number of bits", [](DicomWriter &w) {
+        w.putShort({0x0028, 0x0101}, 12);
+        w.putShort({0x0028, 0x0102}, 11);
+    });
+    add("signedness", [](DicomWriter &w) { w.putShort({0x0028, 0x0103}, 0); });
+    add("rescale", numbers({0x0028, 0x1052}, {-1024.0}));
+    add("rescale, which is missing", [](DicomWriter &w) {
+        w.remove({0x0028, 0x1052});
+        w.remove({0x0028, 0x1053});
+    });
+    add("rescale type", text({0x0028, 0x1054}, "LO", "US"),
+        each(text({0x0028, 0x1054}, "LO", "HU")));
+    add("photometric interpretation", text({0x0028, 0x0004}, "CS", "MONOCHROME1"));
+    add("presentation", text({0x2050, 0x0020}, "CS", "INVERSE"));
+    add("window", [](DicomWriter &w) {
+        w.putNumbers({0x0028, 0x1050}, {-600.0});
+        w.putNumbers({0x0028, 0x1051}, {1500.0});
+    });
+    add("orientation", numbers({0x0020, 0x0037}, {1.0, 0.0, 0.0, 0.0, 0.0, -1.0}));
+    add("pixel spacing", numbers({0x0028, 0x0030}, {2.0, 2.0}));
+    add("slice thickness", numbers({0x0018, 0x0050}, {5.0}));
+    add("place beside the others", numbers({0x0020, 0x0032}, {15.0, 7.0, -25.7}));
+    add("place between the others", numbers({0x0020, 0x0032}, {-5.0, 7.0, -26.4}));
+    add("frame of reference", text({0x0020, 0x0052}, "UI", "1.2.3"));
+    add("modality", text({0x0008, 0x0060}, "CS", "MR"));
+    add("patient", text({0x0010, 0x0020}, "LO", "another"));
+    add("birth date", text({0x0010, 0x0030}, "DA", "19500101"),
+        each(text({0x0010, 0x0030}, "DA", "19700101")));
+    add("sex", text({0x0010, 0x0040}, "CS", "M"), each(text({0x0010, 0x0040}, "CS", "F")));
+    add("study", text({0x0020, 0x000D}, "UI", "1.2.3"));
+    add("kind of object", text({0x0008, 0x0016}, "UI", "1.2.840.10008.5.1.4.1.1.7"));
+    add("image type", text({0x0008, 0x0008}, "CS", "DERIVED\\SECONDARY"));
+    add("kernel", text({0x0018, 0x1210}, "SH", "B80f"), each(text({0x0018, 0x1210}, "SH", "B30f")));
+    add("tube voltage", numbers({0x0018, 0x0060}, {80.0}),
+        each(numbers({0x0018, 0x0060}, {120.0})));
+}
+
 std::map<std::string, Write> habits() {
     HabitList all;
     addIdentifiers(all);
@@ -260,6 +326,7 @@ std::map<std::string, Write> habits() {
     addFragments(all);
     addHeaders(all);
     addContradictions(all);
+    addDisagreements(all);
     return all.writers;
 }
 

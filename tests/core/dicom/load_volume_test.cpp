@@ -87,7 +87,7 @@ TEST(Load, AnInvalidRescaleCostsItsSlice) {
             ("dcmodify -nb -m '" + change + "' '" + (folder / file).string() + "' > /dev/null")
                 .c_str());
     };
-    const std::vector<std::string> changes{"RescaleSlope=2,5", "RescaleSlope=nan",
+    const std::vector<std::string> changes{"RescaleSlope=2,5,1", "RescaleSlope=nan",
                                            "RescaleIntercept=abc", "RescaleSlope=1e300"};
     for (std::size_t n = 0; n < changes.size(); ++n)
         ASSERT_EQ(modified(("IM000" + std::to_string(n + 1) + ".dcm").c_str(), changes[n]), 0);

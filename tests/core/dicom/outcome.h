@@ -32,6 +32,14 @@ inline std::string kindOf(const task::Reason &reason) {
     return out.substr(0, out.find("has the same instance UID as") == 0 ? 28 : std::string::npos);
 }
 
+// " (missing slices, interpolated)": what the volume says.
+inline std::string warningsOf(const volume::Volume &volume) {
+    std::string all;
+    for (const task::Reason &warning : volume.notes().warnings)
+        all += (all.empty() ? " (" : " + ") + kindOf(warning);
+    return all.empty() ? all : all + ")";
+}
+
 // "| folder | volumes | images | not used |", with sizes of volumes and counts of reasons.
 inline std::string outcomeOf(const fs::path &folder) {
     std::map<std::string, int> reasons;
@@ -53,8 +61,7 @@ inline std::string outcomeOf(const fs::path &folder) {
                 const auto n = loaded.volume.lattice().size();
                 if (loaded.volume.notes().placed)
                     volumes.push_back(std::to_string(n.i) + "x" + std::to_string(n.j) + "x" +
-                                      std::to_string(n.k) +
-                                      (loaded.volume.notes().warnings.empty() ? "" : " (warned)"));
+                                      std::to_string(n.k) + warningsOf(loaded.volume));
                 else
                     images += n.k;
             } catch (const task::Error &error) {

@@ -141,7 +141,7 @@ TEST(GroupSeries, AGapGivesEachRunAndTheFilledStack) {
 TEST(GroupSeries, RunsOfPhasesAreTheirPhases) {
     auto files = stack({0, 2, 4, 10, 12, 14, 0, 2, 4, 10, 12, 14});
     for (int n = 0; n < 12; ++n)
-        files[n].header.frames[0].dimensions["temporal position"] = n < 6 ? "1" : "2";
+        files[n].header.frames[0].dimensions[0x00200100] = n < 6 ? "1" : "2";
     std::vector<std::string> labels;
     for (const auto &entry : group(files))
         labels.push_back(dicom::labelText(entry.label));

@@ -10,6 +10,7 @@
 #include "core/network/file_start.h"
 #include "core/network/statuses.h"
 #include "core/task/error.h"
+#include "tests/support/dicom_writer.h"
 
 namespace pellucid::network {
 
@@ -116,13 +117,35 @@ TEST(FileStart, TheMetaHeaderNamesTheObject) {
     const auto bytes = std::as_bytes(std::span(file));
     for (std::size_t length = 0; length < file.size() - 8; ++length)
         EXPECT_FALSE(arrivalOf(bytes.first(length))) << length;
-    const auto arrival = arrivalOf(bytes);
+    EXPECT_FALSE(arrivalOf(bytes)); // the data set may name another object
+    const auto arrival = arrivalOf(bytes, true);
     ASSERT_TRUE(arrival);
     EXPECT_EQ(arrival->sopClassUid, "1.2.3");
     EXPECT_EQ(arrival->sopInstanceUid, "1.2.3.4");
     EXPECT_EQ(arrival->transferSyntax, "1.2.840.10008.1.2.1");
     const std::string page = std::string(200, '<');
     EXPECT_THROW(arrivalOf(std::as_bytes(std::span(page))), task::Error);
+}
+
+// De-identification often changes the UIDs of the data set alone.
+TEST(FileStart, TheUidsOfTheDataSetCount) {
+    for (const test::DicomWriter::Form &form :
+         {test::DicomWriter::Form{}, test::DicomWriter::Form{"1.2.840.10008.1.2", true}}) {
+        test::DicomWriter w;
+        w.put({0x0008, 0x0005}, "CS", std::string("ISO_IR 100"));
+        w.put({0x0008, 0x0016}, "UI", std::string("1.2.3"));
+        w.put({0x0008, 0x0018}, "UI", std::string("1.2.3.4"));
+        w.put({0x0008, 0x0020}, "DA", std::string("20200101"));
+        std::string file = w.file(form);
+        const std::size_t meta = file.find("1.2.3.4");
+        ASSERT_LT(meta, file.rfind("1.2.3.4"));
+        file.replace(meta, 7, "9.8.7.6");
+        const auto bytes = std::as_bytes(std::span(file));
+        const auto arrival = arrivalOf(bytes);
+        ASSERT_TRUE(arrival);
+        EXPECT_EQ(arrival->sopClassUid, "1.2.3");
+        EXPECT_EQ(arrival->sopInstanceUid, "1.2.3.4");
+    }
 }
 
 } // namespace pellucid::network
