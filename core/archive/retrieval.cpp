@@ -314,19 +314,21 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
         runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {}, {},
                    early ? &*early : nullptr, work, progress);
     early.reset();
-    const bool hasMoved = server.retrieve == RetrieveMethod::move || work.needsMove();
     const std::string destinationAe =
         destination.ae.empty() ? server.peer.callingAe : destination.ae;
     std::optional<Listener> listener;
-    if (hasMoved) {
+    const auto moveAll = [&] {
         if (destination.isTakenByOtherTls)
             throw Error(ErrorCode::unusable, because::receiverDiffersInTls(destination.port));
         work.useMove();
-        if (!destination.hasListener)
+        if (!destination.hasListener && !listener)
             listener.emplace(listenerFor(server, destinationAe, destination.port),
                              [&] { return std::make_unique<Objects>(work); });
         runWorkers(server, Purpose::move, {}, {}, destinationAe, nullptr, work, progress);
-    }
+    };
+    const bool hasMoved = server.retrieve == RetrieveMethod::move || work.needsMove();
+    if (hasMoved)
+        moveAll();
     // Some servers take the first presentation context of a kind, whatever they have stored, and
     // then cannot send it: one encoding at a time, until all is here.
     if (server.retrieve != RetrieveMethod::move && !hasMoved &&
@@ -335,10 +337,17 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
             if (work.fillQueueAgain(instances))
                 runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {syntax}, {},
                            nullptr, work, progress);
-    // Of what the server did not list, and of what it could not send one by one.
-    if (work.fillQueueWithShortSeries())
-        runWorkers(server, hasMoved ? Purpose::move : Purpose::get, {}, {}, destinationAe, nullptr,
-                   work, progress);
+    // What the server did not list comes with its whole series.
+    const bool isShort = work.fillQueueWithShortSeries();
+    if (isShort && hasMoved) {
+        moveAll();
+    } else if (isShort) {
+        std::set<std::string> all = classes;
+        all.insert(exchange::commonClasses().begin(), exchange::commonClasses().end());
+        runWorkers(server, Purpose::get, {all.begin(), all.end()}, {}, {}, nullptr, work, progress);
+        if (work.needsMove())
+            moveAll();
+    }
     listener.reset();
     RetrievalReport report = work.report();
     if (report.state.received > 0)

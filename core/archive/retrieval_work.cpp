@@ -20,6 +20,26 @@ using task::ErrorCode;
 constexpr std::size_t maxBatchSize = 32;
 constexpr std::size_t maxUnwanted = 1000; // objects
 
+// The objects of a series in a folder that are not known.
+std::vector<StoredObject> unlistedIn(const ObjectFolder &folder, const ShortSeries &series,
+                                     const std::set<std::string> &known) {
+    namespace fs = std::filesystem;
+    std::vector<StoredObject> objects;
+    std::error_code none;
+    const fs::path study = folder.folder() / series.studyUid;
+    fs::recursive_directory_iterator it(series.seriesUid.empty() ? study : study / series.seriesUid,
+                                        none);
+    for (; !none && it != fs::recursive_directory_iterator(); it.increment(none)) {
+        const std::string uid = it->path().stem().string();
+        if (it->path().extension() != ".dcm" || known.contains(uid))
+            continue;
+        if (auto object =
+                folder.find(series.studyUid, it->path().parent_path().filename().string(), uid))
+            objects.push_back(std::move(*object));
+    }
+    return objects;
+}
+
 } // namespace
 
 RetrievalWork::RetrievalWork(const Listing &listing, const ObjectFolder &folder,
@@ -37,30 +57,14 @@ RetrievalWork::RetrievalWork(const Listing &listing, const ObjectFolder &folder,
             m_missing.emplace(instance.sopInstanceUid, instance);
         }
     }
-    for (ShortSeries &series : m_short) {
+    for (const ShortSeries &series : m_short) {
         m_state.wanted += series.unlisted;
-        findUnlisted(series);
+        for (const StoredObject &object : unlistedIn(m_folder, series, m_known))
+            if (takeUnlisted(object))
+                compare(object);
     }
     m_state.present += std::exchange(m_state.received, 0);
     fillQueue(listing.instances);
-}
-
-// Those that are here although the server does not list them.
-void RetrievalWork::findUnlisted(const ShortSeries &series) {
-    namespace fs = std::filesystem;
-    std::error_code none;
-    const fs::path study = m_folder.folder() / series.studyUid;
-    const fs::path folder = series.seriesUid.empty() ? study : study / series.seriesUid;
-    for (const auto &entry : fs::recursive_directory_iterator(folder, none)) {
-        const std::string uid = entry.path().stem().string();
-        if (entry.path().extension() != ".dcm" || m_known.contains(uid))
-            continue;
-        if (const auto object = m_folder.find(
-                series.studyUid, entry.path().parent_path().filename().string(), uid)) {
-            takeUnlisted(*object);
-            compare(*object);
-        }
-    }
 }
 
 // Counts an object that the server has not listed. False if it is none.
@@ -144,7 +148,7 @@ std::vector<ObjectFolder::Place> RetrievalWork::placesOf(const std::string &uid)
     if (!m_known.contains(uid) && m_known.size() < maxObjectsOfStudy)
         for (const ShortSeries &series : m_short)
             places.push_back({series.studyUid, series.seriesUid});
-    // Of a series that is asked for as a whole, those that are here come again.
+    // Objects that are here come again with their whole series.
     if (places.empty() && ++m_unwanted > maxUnwanted + 2 * m_state.wanted)
         throw Error(ErrorCode::unusable, because::serverSendsTooMuch);
     return places;
@@ -167,14 +171,24 @@ void RetrievalWork::stored(const StoredObject &object) {
 
 void RetrievalWork::refused(const std::string &uid, const task::Reason &reason) {
     const std::lock_guard lock(m_mutex);
-    m_reasons.insert_or_assign(uid, reason);
+    if (m_missing.contains(uid))
+        m_reasons.insert_or_assign(uid, reason);
+    else if (++m_unwanted > maxUnwanted + 2 * m_state.wanted)
+        throw Error(ErrorCode::unusable, because::serverSendsTooMuch);
 }
 
 void RetrievalWork::findHere(const Batch &batch) {
     if (batch.uids.empty()) {
-        const std::lock_guard lock(m_mutex);
-        for (const ShortSeries &series : m_short)
-            findUnlisted(series);
+        std::set<std::string> known;
+        {
+            const std::lock_guard lock(m_mutex);
+            known = m_known;
+        }
+        for (const StoredObject &object :
+             unlistedIn(m_folder, {batch.studyUid, batch.seriesUid}, known)) {
+            moved(std::int64_t(object.bytes));
+            stored(object);
+        }
     }
     for (const std::string &uid : batch.uids) {
         const std::optional<Instance> awaited = [&]() -> std::optional<Instance> {
@@ -193,8 +207,17 @@ void RetrievalWork::findHere(const Batch &batch) {
 
 void RetrievalWork::ended(const Batch &batch, const exchange::RetrievalEnd &end) {
     const std::lock_guard lock(m_mutex);
-    if (batch.uids.empty() && !end.reason.empty())
-        m_whyUnlisted = task::Reason::decoded(end.reason);
+    if (batch.uids.empty()) {
+        const bool hasFailed =
+            std::any_of(end.failedInstances.begin(), end.failedInstances.end(),
+                        [&](const std::string &uid) { return !m_known.contains(uid); });
+        if (!end.reason.empty())
+            m_whyUnlisted = task::Reason::decoded(end.reason);
+        else if (hasFailed)
+            m_whyUnlisted = because::serverCouldNotSendIt;
+        else
+            m_whole.insert(batch.seriesUid);
+    }
     for (const std::string &uid : batch.uids)
         if (m_missing.contains(uid) && !m_reasons.contains(uid))
             m_reasons.emplace(
@@ -275,6 +298,7 @@ bool RetrievalWork::fillQueueAgain(const std::vector<Instance> &instances) {
 
 bool RetrievalWork::fillQueueWithShortSeries() {
     const std::lock_guard lock(m_mutex);
+    m_queue.clear(); // what connections that gave up have left
     for (const ShortSeries &series : m_short)
         if (series.unlisted > 0 || series.mayHaveMore)
             m_queue.push_back({series.studyUid, series.seriesUid, {}});
@@ -291,7 +315,7 @@ RetrievalReport RetrievalWork::report() {
     }
     for (const ShortSeries &series : m_short) {
         // Nothing tells how many there are, and the series did not come as a whole.
-        const bool isUncertain = series.mayHaveMore && m_whyUnlisted;
+        const bool isUncertain = series.mayHaveMore && !m_whole.contains(series.seriesUid);
         const std::size_t count = series.unlisted > 0 ? series.unlisted : isUncertain ? 1 : 0;
         for (std::size_t n = 0; n < count; ++n)
             report.lacking.push_back({"", n < series.invalid

@@ -83,7 +83,6 @@ public:
 private:
     void fillQueue(const std::vector<Instance> &instances);
     void compare(const StoredObject &object);
-    void findUnlisted(const ShortSeries &series);
     bool takeUnlisted(const StoredObject &object);
 
     const ObjectFolder &m_folder;
@@ -96,6 +95,7 @@ private:
     std::map<std::string, Instance> m_missing;
     std::vector<ShortSeries> m_short; ///< and what is still missing of it
     std::set<std::string> m_known;    ///< listed, or here without having been listed
+    std::set<std::string> m_whole;    ///< series of them that came as a whole; "": the study
     std::optional<task::Reason> m_whyUnlisted;
     std::map<std::string, task::Reason> m_reasons;
     std::deque<Batch> m_queue;

@@ -138,6 +138,9 @@ std::vector<std::string> modalitiesIn(const std::string &text) {
             modalities.emplace_back();
         else if (c != ' ')
             modalities.back() += char(std::toupper((unsigned char)(c)));
+    std::erase(modalities, "");
+    if (modalities.empty())
+        modalities.emplace_back(); // any
     return modalities;
 }
 

@@ -191,7 +191,9 @@ void requireValid(const volume::ValueWindow &window) {
     const bool isTable = window.function == WindowFunction::table;
     if (!(window.width > 0.0) || window.function < WindowFunction::linearExact ||
         window.function > WindowFunction::table || isTable != bool(window.curve) ||
-        (isTable && (window.curve->size() < 2 || window.curve->size() > 65536)))
+        (isTable && (window.curve->size() < 2 || window.curve->size() > 65536 ||
+                     std::any_of(window.curve->begin(), window.curve->end(),
+                                 [](float grey) { return !(grey >= 0.0F && grey <= 1.0F); }))))
         fail();
 }
 

@@ -131,15 +131,24 @@ std::size_t finestStride(const std::vector<bool> &isHere) {
     return stride;
 }
 
-ArrivingSeries::ArrivingSeries(std::size_t count, std::size_t unlisted)
-    : m_isHere(count), m_missing(count + unlisted), m_paths(count), m_all(count + unlisted) {}
+ArrivingSeries::ArrivingSeries(std::size_t count, std::size_t unlisted, bool mayHaveMore)
+    : m_isHere(count), m_missing(count), m_unlisted(unlisted), m_mayHaveMore(mayHaveMore),
+      m_paths(count), m_all(count + unlisted) {}
+
+// With the lock held.
+void ArrivingSeries::endIfComplete() {
+    if (m_missing == 0 && m_unlisted == 0 && !m_mayHaveMore) {
+        m_hasEnded = true;
+        m_complete.request_stop();
+    }
+}
 
 void ArrivingSeries::addUnlisted(const fs::path &path) {
     {
         const std::lock_guard lock(m_mutex);
         m_pending.emplace_back(count(), path);
-        if (m_missing > 0 && --m_missing == 0)
-            m_complete.request_stop();
+        m_unlisted -= std::min<std::size_t>(1, m_unlisted);
+        endIfComplete();
     }
     m_changed.notify_all();
 }
@@ -152,8 +161,7 @@ void ArrivingSeries::add(std::size_t number, const fs::path &path) {
         m_isHere[number] = true;
         m_pending.emplace_back(number, path);
         --m_missing;
-        if (m_missing == 0)
-            m_complete.request_stop();
+        endIfComplete();
     }
     m_changed.notify_all();
 }
@@ -171,7 +179,7 @@ void ArrivingSeries::end() {
 std::vector<ArrivingSeries::Arrival> ArrivingSeries::await(const task::Progress &progress) {
     constexpr std::chrono::milliseconds pause(20); // after a cancel
     std::unique_lock lock(m_mutex);
-    while (m_pending.empty() && m_missing > 0 && !m_hasEnded) {
+    while (m_pending.empty() && !m_hasEnded) {
         progress.check();
         m_changed.wait_for(lock, pause);
     }
@@ -310,9 +318,15 @@ ArrivedSeries ArrivingSeries::load(const task::Progress &progress, const Show &s
     arrived.loaded = loadVolume(*defaultSelection(*arrived.catalogue).volume,
                                 progress.part(0.92, 1.0), {}, &m_decoded);
     // A part of a series is never taken for all of it.
-    if (paths.size() < m_all) {
+    const bool isPart = [&] {
+        const std::lock_guard lock(m_mutex);
+        return m_missing > 0 || m_unlisted > 0;
+    }();
+    if (isPart) {
         volume::VolumeNotes notes = arrived.loaded.volume.notes();
-        notes.warnings.insert(notes.warnings.begin(), because::slicesOfSeries(paths.size(), m_all));
+        notes.warnings.insert(
+            notes.warnings.begin(),
+            because::slicesOfSeries(paths.size(), std::max(m_all, paths.size() + 1)));
         arrived.loaded.volume = arrived.loaded.volume.withNotes(std::move(notes));
     }
     m_decoded.clear(); // whoever holds this object does not hold the volume twice

@@ -40,8 +40,8 @@ struct ArrivedSeries {
 class ArrivingSeries {
 public:
     /// *Shape*: `count` files, which are numbered in the order of slices, as far as their sender
-    /// knows it; and `unlisted` others. *Requires*: at least one.
-    explicit ArrivingSeries(std::size_t count, std::size_t unlisted = 0);
+    /// knows it; and `unlisted` others, or more if nobody knows how many. *Requires*: at least one.
+    explicit ArrivingSeries(std::size_t count, std::size_t unlisted = 0, bool mayHaveMore = false);
 
     std::size_t count() const { return m_isHere.size(); }
     /// A file is there. One that comes again is ignored. Thread-safe.
@@ -54,8 +54,8 @@ public:
     /// Receives what is there at first, and when every eighth, fourth and second slice is there.
     /// Its progress stops when the series is complete: then a partial volume is of no more use.
     using Show = std::function<void(const PartialVolume &, const task::Progress &)>;
-    /// Waits for all files, then assembles the volume of those that came; if some did not, it says
-    /// so. Only series of single
+    /// Waits for all files, then assembles the volume of those that came, which says if some did
+    /// not. Only series of single
     /// images that lie on a line in the order of their numbers are shown before. *Requires*: it is
     /// called once. *Throws* as `scan` and `loadVolume`; Error{unusable} if nothing came;
     /// Cancelled.
@@ -63,14 +63,16 @@ public:
 
 private:
     using Arrival = std::pair<std::size_t, std::filesystem::path>; ///< number and file
+    void endIfComplete();
     std::vector<Arrival> await(const task::Progress &progress);
     void decode(const std::vector<Arrival> &arrivals, const task::Progress &progress);
     void showPartial(std::size_t stride, const task::Progress &progress, const Show &show) const;
 
     std::mutex m_mutex;
     std::condition_variable m_changed;
-    std::vector<bool> m_isHere; ///< by number
-    std::size_t m_missing;
+    std::vector<bool> m_isHere;        ///< by number
+    std::size_t m_missing, m_unlisted; ///< files that have not come
+    const bool m_mayHaveMore;
     std::vector<Arrival> m_pending; ///< not yet decoded
     bool m_hasEnded = false;
     std::stop_source m_complete;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <span>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/decoder/instance.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom {
@@ -29,8 +31,16 @@ std::optional<double> parsed(std::string_view text) {
         text.remove_prefix(1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool isNumber = error == std::errc() && end == text.data() + text.size();
+    const bool isNumber =
+        error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
     return isNumber ? std::optional(value) : std::nullopt;
+}
+
+// The number of an item, as a list writes it.
+std::uint32_t itemNumber(const Attribute &item) {
+    std::uint32_t number = 0;
+    std::from_chars(item.name.data(), item.name.data() + item.name.size(), number);
+    return number;
 }
 
 // Seconds of a time, or of a date with its time, of which nothing is left out: HHMMSS.FFFFFF.
@@ -127,13 +137,11 @@ template <class F> void forEachValue(const decoder::AttributeList &list, F &&tak
             frame.reset();
         const bool isItem = attribute.vr.empty();
         if (isItem && attribute.depth == 1 && path.front() == perFrameGroups)
-            frame = int(parsed(attribute.name).value_or(1.0)) - 1;
+            frame = int(std::min<std::uint32_t>(itemNumber(attribute), decoder::maxFrames)) - 1;
         if (!isItem && attribute.vr != "SQ")
             take(attribute, path, frame);
         const bool isFrame = isItem && frame && attribute.depth == 1;
-        path.push_back(!isItem   ? attribute.tag
-                       : isFrame ? 0
-                                 : std::uint32_t(parsed(attribute.name).value_or(0.0)));
+        path.push_back(!isItem ? attribute.tag : isFrame ? 0 : itemNumber(attribute));
     }
 }
 
@@ -183,8 +191,9 @@ private:
 
 } // namespace
 
-Column::Column(ValueKind kind, Label label, std::size_t frames)
-    : m_kind(kind), m_label(std::move(label)), m_ids(frames), m_values(1), m_numbers(1) {}
+Column::Column(ValueKind kind, Label label, std::size_t frames, bool isKnown)
+    : m_kind(kind), m_label(std::move(label)), m_isKnown(isKnown), m_ids(frames), m_values(1),
+      m_numbers(1) {}
 
 void Column::set(std::size_t frame, const std::string &value) {
     if (value.empty())
@@ -222,7 +231,7 @@ std::vector<Column> headerColumns(const std::vector<PlacedFrame> &frames) {
                                         : std::nullopt;
                 return dimension.label(number ? fmt::format("{:g}", *number) : value);
             },
-            frames.size());
+            frames.size(), true);
         for (std::size_t n = 0; n < frames.size(); ++n)
             if (const auto at = frames[n].header.dimensions.find(dimension.tag);
                 at != frames[n].header.dimensions.end())
@@ -230,11 +239,14 @@ std::vector<Column> headerColumns(const std::vector<PlacedFrame> &frames) {
         add(std::move(column));
     }
     Column files(
-        ValueKind::text, [](const std::string &name) { return because::fileNamed(name); },
-        frames.size());
+        ValueKind::text,
+        [](const std::string &path) {
+            return because::fileNamed(std::filesystem::path(path).filename().string());
+        },
+        frames.size(), true);
     for (std::size_t n = 0; n < frames.size(); ++n)
         if (frames[n].framesOfFile > 1)
-            files.set(n, frames[n].reference.path.filename().string());
+            files.set(n, frames[n].reference.path.string());
     add(std::move(files));
     return columns;
 }
@@ -257,10 +269,15 @@ std::vector<Column> otherColumns(const std::vector<PlacedFrame> &frames, const R
                 progress.check();
                 lists[n] = read(files[first + n]->first);
             });
+            if (std::any_of(lists.begin(), lists.end(),
+                            [](const auto &list) { return !list.isComplete; }))
+                return {};
             for (std::size_t n = 0; n < lists.size(); ++n)
                 builder.add(lists[n], files[first + n]->second);
         }
-    } catch (const task::Error &) {
+    } catch (const task::Error &error) {
+        if (error.code() == task::ErrorCode::internal)
+            throw;
         return {};
     }
     return builder.take();

@@ -21,21 +21,24 @@ namespace pellucid::dicom {
 class Column {
 public:
     using Label = std::function<task::Reason(const std::string &value)>;
-    Column(decoder::ValueKind kind, Label label, std::size_t frames);
+    /// `isKnown`: one of `decoder::dimensions`.
+    Column(decoder::ValueKind kind, Label label, std::size_t frames, bool isKnown = false);
 
     void set(std::size_t frame, const std::string &value);
 
-    /// Of a frame's value: equal values have equal numbers; 0: the frame does not state it.
+    /// Equal values have equal identifiers; 0: the frame does not state the attribute.
     std::uint32_t idOf(std::size_t frame) const { return m_ids[frame]; }
     /// Nothing for a value that is no number, or no time. *Units* of times: s.
     std::optional<double> numberOf(std::uint32_t id) const { return m_numbers[id]; }
     bool mayDrift() const;
+    bool isKnown() const { return m_isKnown; }
     bool isConstant() const;
     task::Reason labelOf(std::uint32_t id) const { return m_label(m_values[id]); }
 
 private:
     decoder::ValueKind m_kind;
     Label m_label;
+    bool m_isKnown;
     std::vector<std::uint32_t> m_ids;
     std::unordered_map<std::string, std::uint32_t> m_known;
     std::vector<std::string> m_values; ///< by id

@@ -39,8 +39,9 @@ struct StackGeometry {
 };
 
 /// `arriving`: more slices will come between these. Gaps mean nothing: a stack is neither split nor
-/// refused because of them, and counts as evenly spaced.
-enum class Slices { all, arriving };
+/// refused because of them, and counts as evenly spaced. `remaining`: what is left of one volume.
+/// Its images are not told apart.
+enum class Slices { all, arriving, remaining };
 
 /// Frames that make one volume or, without positions, a set of images.
 struct VolumeEntry {

@@ -287,9 +287,21 @@ void addImages(Frames frames, const task::Reason &reason, Stacks &stacks) {
     stacks.emplace_back().push_back(std::move(entry));
 }
 
+// Whether the parts are packages of one stack, such as its odd and its even slices: together they
+// fill it.
+bool arePackages(const StackResult &whole, const std::vector<Part> &parts) {
+    if (whole.refusal)
+        return false;
+    const double stepMm = stackGeometry(parts.front().frames).geometry.lattice.sliceDistanceMm(),
+                 together = double(parts.size()) * whole.geometry.lattice.sliceDistanceMm();
+    return std::abs(together - stepMm) < 0.1 * stepMm;
+}
+
 // The parts of a block that are a volume each. Empty if repeated images cannot be told apart.
 std::vector<Part> partsOf(const Frames &block, Slices slices, const ReadAttributes &read,
                           const task::Progress &progress) {
+    if (slices == Slices::remaining)
+        return {{{}, block, {}}};
     if (hasRepeatedPositions(block))
         return splitRepeats(block, read, progress);
     if (slices == Slices::all) {
@@ -298,7 +310,8 @@ std::vector<Part> partsOf(const Frames &block, Slices slices, const ReadAttribut
             return warning.is(because::unevenSlices) || warning.is(because::missingSlices);
         };
         if (whole.refusal || std::any_of(whole.warnings.begin(), whole.warnings.end(), isUneven))
-            if (std::vector<Part> parts = splitOverlapping(block, read, progress); !parts.empty())
+            if (std::vector<Part> parts = splitOverlapping(block, read, progress);
+                !parts.empty() && !arePackages(whole, parts))
                 return parts;
     }
     return {{{}, block, {}}};

@@ -36,8 +36,8 @@ public:
 
     VolumeEntry regrouped() const {
         std::vector<Skipped> ignored;
-        // The frames were told apart when they were scanned.
-        const std::vector<VolumeEntry> volumes = groupSeries(m_files, ignored);
+        const std::vector<VolumeEntry> volumes =
+            groupSeries(m_files, ignored, {}, Slices::remaining);
         const VolumeEntry &found = largest(volumes);
         if (volumes.size() != 1 && (!found.placed || found.geometry.lattice.size().k < 2))
             throw Error(ErrorCode::unusable, because::othersMakeNoVolume(m_skipped.front().reason),

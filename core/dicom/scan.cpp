@@ -40,6 +40,8 @@ using task::ErrorCode;
 std::size_t bytesToGroup(const InstanceHeader &header) {
     constexpr std::size_t copies = 5, pathBytes = 256;
     std::size_t bytes = 0;
+    for (const volume::ValueWindow &window : header.windows)
+        bytes += sizeof window + (window.curve ? window.curve->size() * sizeof(float) : 0);
     for (const decoder::FrameHeader &frame : header.frames) {
         bytes += sizeof(PlacedFrame) + pathBytes;
         for (const auto &[tag, value] : frame.dimensions)

@@ -50,13 +50,14 @@ public:
     Groups split(const std::vector<Column> &columns) const {
         if (Groups groups = splitExactly(m_all, columns); !groups.empty())
             return groups;
-        // Good enough if slices are missing.
+        // Where slices are missing: as many groups as repeats, or groups that are each a stack.
+        if (Groups groups = refined(columns); !groups.empty())
+            return groups;
         for (const Column &column : columns) {
             Groups groups = byValue(m_all, column);
-            const bool isOfRepeats = groups.size() == m_mostRepeats;
             if (groups.size() > 1 &&
                 std::all_of(groups.begin(), groups.end(), [&](const Group &group) {
-                    return !repeats(group.frames) && (isOfRepeats || isEvenStack(group.frames));
+                    return !repeats(group.frames) && isEvenStack(group.frames);
                 }))
                 return groups;
         }
@@ -99,7 +100,9 @@ public:
             setOf[frame] = met[place]++;
             set = std::max(set, met[place]);
         }
-        if (!runsByPart && !runsByPlace)
+        // Without one image, those of its position would count for another set.
+        const bool isWhole = repeatsOfEach(m_all) == m_mostRepeats;
+        if (!runsByPart && !(runsByPlace && isWhole))
             return {};
         Groups groups(m_mostRepeats);
         for (const std::size_t frame : m_all)
@@ -120,6 +123,37 @@ public:
     }
 
 private:
+    // By as many attributes as it takes until no position repeats in a group. Empty if that makes
+    // more groups than there are repeats.
+    Groups refined(const std::vector<Column> &columns) const {
+        Groups groups{{{}, m_all}};
+        for (const Column &column : columns) {
+            Groups finer;
+            for (const Group &group : groups) {
+                if (!repeats(group.frames)) {
+                    finer.push_back(group);
+                    continue;
+                }
+                for (const Group &one : byValue(group.frames, column))
+                    finer.push_back(within(group, one));
+            }
+            if (finer.size() > groups.size() && finer.size() <= m_mostRepeats)
+                groups = std::move(finer);
+        }
+        const bool isSplit = groups.size() == m_mostRepeats &&
+                             std::none_of(groups.begin(), groups.end(), [&](const Group &group) {
+                                 return repeats(group.frames);
+                             });
+        return isSplit ? groups : Groups();
+    }
+
+    // The labels of both.
+    static Group within(const Group &group, const Group &one) {
+        Group both{group.label, one.frames};
+        both.label.insert(both.label.end(), one.label.begin(), one.label.end());
+        return both;
+    }
+
     bool repeats(const Indices &sorted) const {
         return std::adjacent_find(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
                    return m_placeOf[a] == m_placeOf[b];
@@ -204,8 +238,12 @@ private:
     // from a drift that all have in common.
     Groups byRank(const Indices &frames, const Column &column, std::size_t each) const {
         const std::size_t places = frames.size() / each;
-        if (!column.mayDrift() || places < minSlices)
+        // Noise follows itself by chance: in a few positions, or among many attributes.
+        constexpr std::size_t manyPairs = 12;
+        const std::size_t pairs = (places - 1) * (each - 1);
+        if (!column.mayDrift() || places < minSlices || (!column.isKnown() && pairs < manyPairs))
             return {};
+        const double tolerance = column.isKnown() ? 0.5 : 0.25; // of the narrowest gap
         std::vector<double> before, here(each);
         Groups groups(each);
         for (std::size_t place = 0; place < places; ++place) {
@@ -221,7 +259,7 @@ private:
                 here[n] = *value(at[n]);
                 groups[n].frames.push_back(at[n]);
             }
-            if (!before.empty() && !follows(before, here))
+            if (!before.empty() && !follows(before, here, tolerance))
                 return {};
             before = here;
         }
@@ -237,11 +275,12 @@ private:
         return gap;
     }
 
-    static bool follows(const std::vector<double> &before, const std::vector<double> &here) {
+    static bool follows(const std::vector<double> &before, const std::vector<double> &here,
+                        double tolerance) {
         double drift = 0.0;
         for (std::size_t n = 0; n < here.size(); ++n)
             drift += (here[n] - before[n]) / double(here.size());
-        const double most = 0.5 * std::min(narrowestGap(before), narrowestGap(here));
+        const double most = tolerance * std::min(narrowestGap(before), narrowestGap(here));
         for (std::size_t n = 0; n < here.size(); ++n)
             if (!(std::abs(here[n] - before[n] - drift) < most))
                 return false;
@@ -251,7 +290,9 @@ private:
     // So that each group has each position of the frames once. Empty if there is no such split.
     Groups splitExactly(const Indices &frames, const std::vector<Column> &columns) const {
         const std::size_t each = repeatsOfEach(frames);
-        if (each < 2)
+        // Attributes that a file makes up could be combined for ever.
+        constexpr int mostCombinations = 10000;
+        if (each < 2 || ++m_combinations > mostCombinations)
             return {};
         const std::size_t places = frames.size() / each;
         for (const Column &column : columns) {
@@ -285,10 +326,8 @@ private:
             const Groups further = splitExactly(group.frames, columns);
             if (further.empty())
                 return std::nullopt;
-            for (const Group &one : further) {
-                all.push_back({group.label, one.frames});
-                all.back().label.insert(all.back().label.end(), one.label.begin(), one.label.end());
-            }
+            for (const Group &one : further)
+                all.push_back(within(group, one));
         }
         return all;
     }
@@ -298,6 +337,7 @@ private:
     Indices m_all;
     std::vector<std::size_t> m_placeOf; ///< by frame: the number of its position
     std::size_t m_mostRepeats = 0;
+    mutable int m_combinations = 0;
 };
 
 } // namespace

@@ -11,9 +11,9 @@
 
 namespace pellucid::files {
 
-/// *Throws* Error{output} for a file, folder or link of another user where anybody may make them:
-/// it would choose where files of this user go.
-void requireTrusted(const std::filesystem::path &path);
+/// *Throws* Error{output} for a link of another user where anybody may make them: it would choose
+/// where files of this user go.
+void requireTrusted(const std::filesystem::path &link);
 
 /// The file that writing to a path affects: the target if it is a link. *Throws* Error{output} if a
 /// file would replace a device or a pipe, or if another user made the link where anybody may.

@@ -62,12 +62,15 @@ void createPrivateFolders(const std::filesystem::path &folder) {
     createPrivateFolders(folder.parent_path());
     if (!folder.has_filename()) // a slash at the end
         return;
-    if (std::filesystem::is_directory(folder, unknown)) {
-        requireTrusted(folder);
+    const auto isThere = [&] {
+        if (std::filesystem::is_symlink(folder, unknown))
+            requireTrusted(folder);
+        return std::filesystem::is_directory(folder, unknown);
+    };
+    if (isThere())
         return;
-    }
     const int error = ::mkdir(folder.c_str(), 0700) == 0 ? 0 : errno;
-    if (error != 0 && !std::filesystem::is_directory(folder, unknown))
+    if (error != 0 && !isThere())
         throw task::Error(task::ErrorCode::output,
                           task::because::cannotBeMade(task::systemReason(error)), folder);
 }

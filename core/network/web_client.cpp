@@ -176,7 +176,8 @@ exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &contro
                             {}},
                            {});
         // Some servers refuse attributes that they do not know, and list those that they have.
-        if (answer.status == 400 && !m_asksPlainly && terms.find("includefield") != terms.npos) {
+        if (answer.status == 400 && !m_asksPlainly && offset == query.skip &&
+            terms.find("includefield") != terms.npos) {
             m_asksPlainly = true;
             return find(query, control);
         }

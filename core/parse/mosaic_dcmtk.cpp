@@ -157,7 +157,12 @@ std::optional<Mosaic> guessedMosaic(DcmItem &dataset, const decoder::InstanceHea
     Mosaic mosaic;
     mosaic.side = header.columns / size;
     mosaic.slices = mosaic.side * mosaic.side;
-    if (mosaic.side < 2 || header.columns % size != 0 || !fits(mosaic, header))
+    // A tile may be interpolated: then it has more pixels than were acquired.
+    const auto diameter = readNumber(&dataset, DCM_ReconstructionDiameter);
+    const auto &spacing = header.frames[0].spacingMm;
+    const bool isOtherSize =
+        diameter && spacing && std::abs(size * spacing->x - *diameter) > 0.05 * *diameter;
+    if (mosaic.side < 2 || header.columns % size != 0 || isOtherSize || !fits(mosaic, header))
         return std::nullopt;
     mosaic.normal = normalOf(csaHeaderOf(dataset), header.frames[0]);
     const int rows = header.rows / mosaic.side, columns = header.columns / mosaic.side;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -95,10 +96,12 @@ void readPixelDescription(DcmDataset &dataset, InstanceHeader &h) {
     h.photometric = readText(&dataset, DCM_PhotometricInterpretation);
     h.rescaleType = readText(&dataset, DCM_RescaleType);
     h.isInverse = readText(&dataset, DCM_PresentationLUTShape) == "INVERSE";
-    if (const auto value = readNumber(&dataset, DCM_PixelPaddingValue))
-        h.paddingValue = int(std::clamp(*value, -65536.0, 65536.0));
-    if (const auto value = readNumber(&dataset, DCM_PixelPaddingRangeLimit))
-        h.paddingLimit = int(std::clamp(*value, -65536.0, 65536.0));
+    const auto padding = [&](const DcmTagKey &tag) {
+        const auto value = readNumber(&dataset, tag);
+        return value && std::abs(*value) <= 65536.0 ? std::optional(int(*value)) : std::nullopt;
+    };
+    h.paddingValue = padding(DCM_PixelPaddingValue);
+    h.paddingLimit = padding(DCM_PixelPaddingRangeLimit);
 }
 
 // Philips' factor from counts to uptake values is a private element.

@@ -21,7 +21,7 @@ constexpr std::array hidden{
     Range{0x115F, 0x1160},   // Hangul fillers
     Range{0x17B4, 0x17B5},   // Khmer inherent vowels
     Range{0x180E, 0x180E},   // Mongolian vowel separator
-    Range{0x200B, 0x200D},   // zero-width space and joiners
+    Range{0x200B, 0x200B},   // zero-width space
     Range{0x200E, 0x200F},   // direction marks
     Range{0x202A, 0x202E},   // embeddings and overrides of the direction
     Range{0x2060, 0x206F},   // word joiner, invisible operators, isolates, deprecated controls

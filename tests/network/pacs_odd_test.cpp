@@ -15,6 +15,8 @@
 #include "core/task/error.h"
 #include "tests/network/http_server.h"
 #include "tests/network/pacs.h"
+#include "tests/network/scripted_server.h"
+#include "tests/network/servers.h"
 #include "tests/support/dicom_writer.h"
 
 namespace pellucid {
@@ -169,6 +171,26 @@ private:
     HttpServer m_http;
 };
 
+// Ends a search after three studies in its own way.
+class LimitedServer {
+public:
+    LimitedServer(int studies, std::uint16_t status)
+        : m_server([=](ScriptedAssociation &association, const ScriptedRequest &request) {
+              if (request.field != command::findRequest)
+                  return;
+              for (int n = 0; n < studies; ++n) {
+                  DicomWriter row;
+                  row.put({0x0020, 0x000d}, "UI", "1.2.3." + std::to_string(n));
+                  association.answer(request, 0xff00, row);
+              }
+              association.answer(request, status);
+          }) {}
+    archive::Server server() const { return serverAt(m_server.port(), "LIMITED"); }
+
+private:
+    ScriptedServer m_server;
+};
+
 class PacsOdd : public PacsScripted {
 protected:
     archive::RetrievalReport retrieved(const Quirks &quirks, const std::string &to) {
@@ -264,6 +286,42 @@ TEST_F(PacsOdd, WhatASearchLeavesOutIsCounted) {
     EXPECT_EQ(result.entries.size(), 1U);
     EXPECT_EQ(result.outcomes.front().withoutUid, 4U); // of two searches
     EXPECT_TRUE(result.outcomes.front().mayBeIncomplete);
+}
+
+// A cancel that nobody asked for, a warning that the standard does not know, and a lack of
+// resources: what came before it is a part.
+TEST_F(PacsOdd, ALimitOfTheServerIsTold) {
+    for (const std::uint16_t status : {0xfe00, 0xb001, 0xa700}) {
+        const LimitedServer limited(3, status);
+        const auto result = archive::search({limited.server()}, {});
+        ASSERT_EQ(result.outcomes.size(), 1U);
+        EXPECT_FALSE(result.outcomes.front().failure);
+        EXPECT_TRUE(result.outcomes.front().mayBeIncomplete) << std::hex << status;
+        EXPECT_EQ(result.entries.size(), 3U);
+    }
+    const LimitedServer whole(3, 0), nothing(0, 0xa700);
+    EXPECT_FALSE(archive::search({whole.server()}, {}).outcomes.front().mayBeIncomplete);
+    EXPECT_TRUE(archive::search({nothing.server()}, {}).outcomes.front().failure);
+}
+
+// Orthanc lists as many objects as it is configured to, and knows how many it has.
+TEST_F(Pacs, ALimitedOrthancSendsAllOfASeries) {
+    if (!isInstalled("Orthanc") || !fs::exists("/usr/share/orthanc/plugins/libOrthancDicomWeb.so"))
+        GTEST_SKIP() << "Orthanc's DICOMweb plugin is not installed";
+    const Orthanc orthanc(Orthanc::dicomWeb() +
+                          R"(, "LimitFindInstances": 20, "LimitFindResults": 20)");
+    const archive::Server dicom = serverAt(orthanc.port(), "ORTHANC");
+    const archive::Server web{
+        "web",
+        archive::webPeer("http://127.0.0.1:" + std::to_string(orthanc.webPort()) + "/dicom-web")};
+    const fs::path sent = series("A", 64);
+    put(dicom, sent);
+    for (const archive::Server &server : {dicom, web}) {
+        const auto report = get(server, studyIn(sent), server.name);
+        EXPECT_TRUE(report.isComplete());
+        EXPECT_EQ(report.state.received, 64U);
+        EXPECT_EQ(report.state.wanted, 64U);
+    }
 }
 
 } // namespace pellucid

@@ -100,7 +100,7 @@ private slots:
         // Within an archive, and within a folder, a file with such a name.
         const fs::path named = m_folder / "study" / (m_image + "x").toStdString();
         fs::create_directories(named.parent_path());
-        writeText(named, "no image");
+        writeText(named, ""); // listed by its name
         QProcess packer;
         packer.start("python3",
                      {"-c",

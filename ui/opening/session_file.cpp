@@ -35,7 +35,10 @@ QJsonArray curveOf(const volume::ValueWindow &window) {
 
 void setFunction(const QJsonObject &in, volume::ValueWindow &window) {
     using volume::WindowFunction;
-    window.function = WindowFunction(std::clamp(in["function"].toInt(), 0, 3));
+    for (const WindowFunction known :
+         {WindowFunction::linear, WindowFunction::sigmoid, WindowFunction::table})
+        if (in["function"].toInt() == int(known))
+            window.function = known;
     if (window.function != WindowFunction::table)
         return;
     constexpr qsizetype longest = 65536;

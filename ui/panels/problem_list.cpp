@@ -28,7 +28,7 @@ constexpr int maxHeight = 170;
 bool isNoImage(const task::Reason &reason) {
     return reason.is(because::isNotDicom) || reason.is(because::hasNoPixels) ||
            reason.is(because::hasNoPixelsBut) || reason.is(because::isAnIndex) ||
-           reason.is(because::isAnArchive);
+           reason.is(because::isAnArchive) || reason.is(because::otherFiles);
 }
 
 } // namespace
@@ -98,7 +98,12 @@ void ProblemList::showProblems() {
         }
     }
     fitHeight();
-    m_heading->setText(tr("PROBLEMS (%1)").arg(problems.size()));
+    // Texts and programs beside images are mentioned, but no problem.
+    const auto count =
+        std::count_if(problems.begin(), problems.end(), [](const dicom::Skipped &problem) {
+            return !problem.reason.is(because::otherFiles);
+        });
+    m_heading->setText(count > 0 ? tr("PROBLEMS (%1)").arg(count) : tr("NOT USED"));
     setVisible(!problems.empty());
 }
 

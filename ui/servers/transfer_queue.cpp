@@ -46,9 +46,13 @@ public:
             if (instance.seriesUid == m_uid)
                 m_numbers.emplace(instance.sopInstanceUid, m_numbers.size());
         std::size_t unlisted = 0;
+        bool mayHaveMore = false;
         for (const archive::ShortSeries &series : listing.shortSeries)
-            unlisted += series.seriesUid == m_uid ? series.unlisted : 0;
-        m_series = std::make_shared<dicom::ArrivingSeries>(m_numbers.size(), unlisted);
+            if (series.seriesUid == m_uid || series.seriesUid.empty()) {
+                unlisted += series.seriesUid.empty() ? 0 : series.unlisted;
+                mayHaveMore = mayHaveMore || series.mayHaveMore || series.seriesUid.empty();
+            }
+        m_series = std::make_shared<dicom::ArrivingSeries>(m_numbers.size(), unlisted, mayHaveMore);
         return m_series;
     }
     void add(const archive::StoredObject &object) {

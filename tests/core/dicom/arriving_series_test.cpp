@@ -232,7 +232,27 @@ TEST(ArrivingSeries, WhatDoesNotComeOrCannotBeReadLacks) {
     EXPECT_EQ(shown.arrived.loaded.volume.lattice().size().k, slices); // two holes, interpolated
     ASSERT_EQ(shown.arrived.catalogue->skipped.size(), 1U);
     EXPECT_EQ(shown.arrived.catalogue->skipped[0].path, files[10]);
-    EXPECT_FALSE(shown.arrived.loaded.volume.notes().warnings.empty());
+    // A part of a series says first that it is one.
+    const auto &warnings = shown.arrived.loaded.volume.notes().warnings;
+    ASSERT_GE(warnings.size(), 2U);
+    EXPECT_EQ(warnings.front(),
+              task::Reason(task::because::slicesOfSeries(files.size() - 1, files.size())));
+}
+
+// Files that the server did not list belong to the volume, too.
+TEST(ArrivingSeries, UnlistedFilesBelongToIt) {
+    const test::TemporaryFolder folder;
+    const auto files = filesOfSeries(folder / "series", unevenValues());
+    constexpr std::size_t listed = 8;
+    ArrivingSeries series(listed, files.size() - listed);
+    for (std::size_t n = 0; n < files.size(); ++n)
+        if (n < listed)
+            series.add(n, files[n]);
+        else
+            series.addUnlisted(files[n]);
+    const auto arrived = series.load({}, {});
+    EXPECT_EQ(arrived.loaded.volume.lattice().size().k, slices);
+    EXPECT_TRUE(arrived.loaded.volume.notes().warnings.empty());
 }
 
 TEST(ArrivingSeries, NothingAndCancelAreErrors) {

@@ -40,7 +40,8 @@ struct Volume {
 
 // The volumes of a series with `repeats` images at each position.
 std::vector<Volume> volumesOf(int repeats, const Attributes &attributes,
-                              Numbers order = Numbers::random, double stepMm = 2.0) {
+                              Numbers order = Numbers::random,
+                              const std::vector<int> &missing = {}) {
     const test::TemporaryFolder folder;
     std::vector<int> numbers(std::size_t(repeats * places));
     std::iota(numbers.begin(), numbers.end(), 1);
@@ -50,10 +51,11 @@ std::vector<Volume> volumesOf(int repeats, const Attributes &attributes,
     }
     test::SeriesKnobs knobs;
     knobs.slices = repeats * places;
+    knobs.missing = missing;
     knobs.value = [](int i, int j, int n) { return n / places * valueOfRepeat + 10 * j + i; };
     knobs.change = [&](DicomWriter &w, int n) {
         const int repeat = n / places, place = n % places;
-        w.putNumbers({0x0020, 0x0032}, {0.0, 0.0, stepMm * place});
+        w.putNumbers({0x0020, 0x0032}, {0.0, 0.0, 2.0 * place});
         const int number =
             numbers[std::size_t(order == Numbers::byPlace ? place * repeats + repeat : n)];
         if (order == Numbers::missing)
@@ -171,6 +173,45 @@ TEST(Repeats, SeveralAttributesTellThemApartTogether) {
                   {"80 kVp, 15 ms", "80 kVp, 115 ms", "140 kVp, 15 ms", "140 kVp, 115 ms"});
 }
 
+// A missing image does not hide what tells the others apart.
+TEST(Repeats, WithoutOneImageTheyAreStillToldApart) {
+    const auto volumes =
+        volumesOf(4,
+                  [](DicomWriter &w, int repeat, int) {
+                      w.put({0x0018, 0x0060}, "DS", std::string(repeat < 2 ? "80" : "140"));
+                      w.put({0x0018, 0x1210}, "SH", std::string(repeat % 2 == 0 ? "B30f" : "B60f"));
+                  },
+                  Numbers::byPlace, {2 * places + 4});
+    ASSERT_EQ(volumes.size(), 4U);
+    for (int n = 0; n < 4; ++n) {
+        const Volume &volume = volumes[std::size_t(n)];
+        EXPECT_EQ(volume.repeat, n);
+        EXPECT_EQ(volume.slices, places);
+        EXPECT_EQ(volume.warnings.size(), n == 2 ? 1U : 0U);
+    }
+    // Numbers alone would shift the sets from the gap on.
+    const auto unknown =
+        volumesOf(3, [](DicomWriter &, int, int) {}, Numbers::byPlace, {places + 4});
+    ASSERT_EQ(unknown.size(), 1U);
+    EXPECT_FALSE(unknown.front().isPlaced);
+}
+
+// Odd and even slices of one stack, as MR scanners acquire them, of which one is missing.
+TEST(Repeats, PackagesOfOneStackStayTogether) {
+    const test::TemporaryFolder folder;
+    test::SeriesKnobs knobs;
+    knobs.slices = 40;
+    knobs.missing = {1};
+    knobs.change = [](DicomWriter &w, int slice) {
+        w.put({0x0020, 0x0012}, "IS", std::to_string(slice % 2 + 1));
+    };
+    test::writeSeries(folder.path(), knobs);
+    const dicom::Catalogue catalogue = dicom::scan({folder.path()});
+    ASSERT_EQ(dicom::selections(catalogue).size(), 1U);
+    const auto loaded = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume);
+    EXPECT_EQ(loaded.volume.lattice().size().k, 40);
+}
+
 // Random numbers are no reason to mix the repeats.
 TEST(Repeats, NoiseTellsNothing) {
     std::mt19937 random(3);
@@ -179,6 +220,15 @@ TEST(Repeats, NoiseTellsNothing) {
         w.putNumbers({0x0018, 0x1060}, {values(random)});
         w.putNumbers({0x0018, 0x9345}, {values(random)});
     });
+    // Of two repeats, one order in every few is as if it meant something.
+    for (int series = 0; series < 20; ++series) {
+        const auto pairs = volumesOf(2,
+                                     [&](DicomWriter &w, int, int) {
+                                         w.putNumbers({0x0018, 0x9345}, {values(random)});
+                                     },
+                                     Numbers::random, {5, 6, 7, 8, 9, 15, 16, 17, 18, 19});
+        EXPECT_EQ(pairs.size(), 1U);
+    }
     ASSERT_EQ(volumes.size(), 1U);
     EXPECT_FALSE(volumes.front().isPlaced);
     ASSERT_EQ(volumes.front().warnings.size(), 1U);
