@@ -5820,6 +5820,10 @@ Open it beside?</source>
         <source>Clear the list</source>
         <translation>清除清單</translation>
     </message>
+    <message>
+        <source>NOT USED</source>
+        <translation>未使用</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::ProjectionView</name>

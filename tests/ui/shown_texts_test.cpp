@@ -27,6 +27,7 @@
 #include "core/presets/preset_library.h"
 #include "core/segment/write_segmentation.h"
 #include "tests/support/dicom_writer.h"
+#include "ui/beside/study_beside.h"
 #include "ui/document/commands.h"
 #include "ui/document/region_marking.h"
 #include "ui/language/plain_label.h"
@@ -89,6 +90,20 @@ QString clean(const QString &text) {
 class ShownTextsTest : public StudiesWindow {
     Q_OBJECT
 private slots:
+    // A name that looks like the rest of the heading neither replaces it nor hides it.
+    void noNamePassesForAnotherField() {
+        ui::StudySource source;
+        source.study.patientName = QString::fromUtf8("SMITH^JOHN  ·  M  ·  ID 4711  •  CT") +
+                                   QString(200, QChar(0x2800)) + QString(200, 'x');
+        source.study.patientId = "REAL";
+        source.study.birthDate = "19500101";
+        const QString banner = ui::bannerText(source);
+        const QString gap = QString::fromUtf8("  ·  ");
+        QCOMPARE(banner.section(gap, 0, 0).size(), 64);
+        QCOMPARE(banner.section(gap, 1, 1), QString("1950-01-01"));
+        QCOMPARE(banner.section(gap, 2, 2), QString("ID REAL"));
+    }
+
     void initTestCase() {
         StudiesWindow::initTestCase();
         const std::string pipe = (m_folder / "p").string();

@@ -11,6 +11,7 @@
 
 #include "core/files/atomic_file.h"
 #include "core/files/image_files.h"
+#include "core/files/user_folders.h"
 #include "core/task/error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -147,6 +148,24 @@ TEST(AtomicFile, ALinkOfAnotherUserIsNotFollowedWhereAnybodyMayMakeOne) {
     ASSERT_EQ(::chown((folder / "shared").c_str(), 0, 0), 0);
     ASSERT_EQ(::chmod((folder / "shared").c_str(), 0755), 0);
     EXPECT_FALSE(isRefused(planted));
+}
+
+// Nor as a folder on the way.
+TEST(UserFolders, AFolderOfAnotherUserIsNotFollowedWhereAnybodyMayMakeOne) {
+    namespace fs = std::filesystem;
+    if (::geteuid() != 0)
+        GTEST_SKIP() << "needs root to make links of another user";
+    const test::TemporaryFolder folder;
+    fs::create_directory(folder / "shared");
+    fs::create_directory(folder / "elsewhere");
+    const fs::path planted = folder / "shared/study";
+    fs::create_symlink(folder / "elsewhere", planted);
+    ASSERT_EQ(::chmod((folder / "shared").c_str(), 01777), 0);
+    files::createPrivateFolders(planted / "mine"); // the link is this user's
+    constexpr uid_t other = 65534;
+    ASSERT_EQ(::lchown(planted.c_str(), other, other), 0);
+    EXPECT_THROW(files::createPrivateFolders(planted / "theirs"), task::Error);
+    EXPECT_FALSE(fs::exists(folder / "elsewhere/theirs"));
 }
 
 TEST(AtomicFile, LinksInACircleAreNotReplaced) {
