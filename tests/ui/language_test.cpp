@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reasons of the core in the user's language, and in files that keep them.
+#include <algorithm>
 #include <array>
 
 #include <QTranslator>
@@ -68,8 +69,12 @@ private slots:
         QVERIFY(chinese.isThere());
         for (int n = 0; n < int(task::Reason::Id::count); ++n) {
             const auto id = task::Reason::Id(n);
-            // A sentence of the command line or of an older version is not translated.
-            const bool isSameInAll = id == because::inWords.id;
+            // A sentence of the command line or of an older version is not translated. Units are
+            // the same in all languages.
+            const std::array same{because::inWords.id, because::attributeIs.id,
+                                  because::percentOfCycle.id, because::tubeVoltage.id,
+                                  because::milliseconds.id};
+            const bool isSameInAll = std::find(same.begin(), same.end(), id) != same.end();
             const task::Reason reason = reasonOf(id);
             const QString english = QString::fromStdString(reason.english()),
                           text = translated(reason);
