@@ -49,7 +49,7 @@ json volumeJson(const dicom::VolumeEntry &v) {
                            {"name", w.name},
                            {"function", nameOf(w.function)}});
     const auto vector = [](const glm::dvec3 &x) { return json{x.x, x.y, x.z}; };
-    // What the files do not state is null.
+    // Sizes and positions that the files do not state are null.
     const auto ifKnown = [](bool isKnown, const json &value) { return isKnown ? value : json(); };
     json out = {
         {"label", dicom::labelText(v.label)},

@@ -105,15 +105,22 @@ public:
             listing.instances.insert(listing.instances.end(),
                                      std::make_move_iterator(series.begin()),
                                      std::make_move_iterator(series.end()));
+        addRestOfStudy();
         if (listing.instances.empty() && m_short.empty())
             throw task::Error(task::ErrorCode::unusable, because::serverHasNoSuchStudy);
-        addRestOfStudy();
+        // A server may count what it likes, and each missing object is reported.
+        std::size_t all = m_known.size();
+        for (const ShortSeries &series : m_short)
+            all += series.unlisted;
+        if (all > maxObjectsOfStudy)
+            throw task::Error(task::ErrorCode::unusable,
+                              because::studyHasTooManyObjects(maxObjects));
         listing.shortSeries = std::move(m_short);
         return listing;
     }
 
 private:
-    // Nothing if the server does not know series or objects: these are retrieved as a whole.
+    // Empty if the server cannot list series or objects. They are then retrieved as a whole.
     std::optional<exchange::QueryEnd> find(Level level, const exchange::Attributes &keys,
                                            const std::function<void(const Attributes &)> &take) {
         try {
@@ -228,7 +235,7 @@ private:
         return instances;
     }
 
-    // What the server says that the study has, beyond the series that it lists.
+    // Adds the objects that the server counts in the study but not in the series that it lists.
     void addRestOfStudy() {
         std::size_t told = m_known.size();
         for (const ShortSeries &series : m_short)

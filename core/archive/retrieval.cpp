@@ -337,7 +337,7 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
             if (work.fillQueueAgain(instances))
                 runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {syntax}, {},
                            nullptr, work, progress);
-    // What the server did not list comes with its whole series.
+    // Objects that the server did not list are retrieved with their whole series.
     const bool isShort = work.fillQueueWithShortSeries();
     if (isShort && hasMoved) {
         moveAll();
@@ -352,10 +352,11 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     RetrievalReport report = work.report();
     if (report.state.received > 0)
         files::flush(folder.folder());
-    // Not even a list.
-    if (instances.empty() && report.state.received + report.state.present == 0 &&
-        !report.lacking.empty())
-        throw Error(ErrorCode::unusable, report.lacking.front().reason);
+    // Neither a list nor an object.
+    if (instances.empty() && report.state.received + report.state.present == 0)
+        throw Error(ErrorCode::unusable, report.lacking.empty()
+                                             ? task::Reason(because::serverHasNoSuchStudy)
+                                             : report.lacking.front().reason);
     report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return report;
 }

@@ -314,7 +314,7 @@ RetrievalReport RetrievalWork::report() {
             {uid, reason == m_reasons.end() ? because::serverLeftItOut : reason->second});
     }
     for (const ShortSeries &series : m_short) {
-        // Nothing tells how many there are, and the series did not come as a whole.
+        // The number is unknown, and the series was not received as a whole.
         const bool isUncertain = series.mayHaveMore && !m_whole.contains(series.seriesUid);
         const std::size_t count = series.unlisted > 0 ? series.unlisted : isUncertain ? 1 : 0;
         for (std::size_t n = 0; n < count; ++n)

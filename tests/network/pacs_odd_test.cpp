@@ -38,7 +38,7 @@ struct Quirks {
     int cap = 0;               ///< objects that it lists at most
     bool countsObjects = true; ///< Number of Series Related Instances
     bool knowsOffsets = true;
-    bool sendsSeries = true, sendsInstances = true, listsInstances = true;
+    bool sendsSeries = true, sendsInstances = true, listsInstances = true, listsSeries = true;
     bool knowsAsterisk = true, takesIncludefield = true;
     int answersOnAConnection = 0; ///< 0: any number
     int busyEvery = 0;
@@ -103,11 +103,11 @@ private:
         if (!m_quirks.takesIncludefield && terms.contains("includefield"))
             return {400, "text/plain", "unknown attribute", ""};
         if (request.header("accept").find("multipart") != std::string::npos)
-            return retrieve(request, path, series);
+            return retrieve(request, path == all ? series : path, series);
         std::vector<std::string> list;
         if (path == "/studies")
             list = {"{" + uidElement("0020000D", study) + "}"};
-        else if (path == all + "/series")
+        else if (path == all + "/series" && m_quirks.listsSeries)
             list = {"{" + uidElement("0020000E", seriesUid) +
                     (m_quirks.countsObjects
                          ? ", " + element("00201209", "IS", std::to_string(objectCount))
@@ -214,6 +214,7 @@ TEST_F(PacsOdd, WhatCanComeComes) {
          {.cap = 20, .countsObjects = false, .saysThereIsMore = true}},
         {"no offsets", {.knowsOffsets = false}},
         {"no list of objects", {.listsInstances = false}},
+        {"no list of series", {.listsSeries = false}},
         {"an invalid UID in the list", {.hasInvalidUid = true}},
         {"whole series only", {.sendsInstances = false}},
         {"no asterisk", {.knowsAsterisk = false}},
@@ -240,6 +241,12 @@ TEST_F(PacsOdd, WhatCanComeComes) {
 
 // A part is called a part.
 TEST_F(PacsOdd, APartOfAStudyIsIncomplete) {
+    try { // nothing is listed, and nothing comes
+        retrieved({.sendsSeries = false, .listsSeries = false}, "nothing");
+        ADD_FAILURE();
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.code(), task::ErrorCode::unusable);
+    }
     const auto short20 = retrieved({.cap = 20, .sendsSeries = false}, "short");
     EXPECT_EQ(short20.state.received, 20U);
     EXPECT_EQ(short20.state.wanted, std::size_t(objectCount));
