@@ -30,7 +30,7 @@ struct Options {
     archive::Wanted wanted;
     archive::MoveDestination destination;
     std::int64_t id = 0;
-    bool isForLibrary = false, json = false;
+    bool isForLibrary = false, json = false, replaces = false;
 };
 
 nlohmann::json jsonOf(const RetrievalReport &report, const fs::path &folder) {
@@ -38,15 +38,11 @@ nlohmann::json jsonOf(const RetrievalReport &report, const fs::path &folder) {
     for (const archive::RefusedObject &object : report.lacking)
         lacking.push_back(
             {{"instance_uid", object.sopInstanceUid}, {"reason", object.reason.english()}});
-    return {{"folder", folder.string()},
-            {"wanted", report.state.wanted},
-            {"present", report.state.present},
-            {"received", report.state.received},
-            {"bytes", report.state.bytes},
-            {"seconds", report.seconds},
-            {"unwanted", report.unwanted},
-            {"of_another_patient", report.ofAnotherPatient},
-            {"lacking", lacking}};
+    return {{"folder", folder.string()},       {"wanted", report.state.wanted},
+            {"present", report.state.present}, {"received", report.state.received},
+            {"bytes", report.state.bytes},     {"seconds", report.seconds},
+            {"unwanted", report.unwanted},     {"of_another_patient", report.ofAnotherPatient},
+            {"corrected", report.corrected},   {"lacking", lacking}};
 }
 
 // "509 of 512, 100 of them were here; 42.0 MB, 8.4 MB/s"
@@ -63,8 +59,9 @@ void run(TransferLog &log, std::int64_t id, const Options &o, const Context &con
     const archive::Server server = serverNamed(transfer.server, context);
     const RetrievalReport report = task::naming(server.name, [&] {
         return watched([&](const archive::RetrievalObserver &observer) {
-            return archive::runTransfer(log, id, server, observer, task::Progress(context.stop),
-                                        o.destination);
+            return archive::runTransfer(
+                log, id, server, observer, task::Progress(context.stop), o.destination, {},
+                o.replaces ? archive::Existing::isReplaced : archive::Existing::stays);
         });
     });
     if (o.json) {
@@ -164,6 +161,9 @@ void addGetCommand(CLI::App &app, const Context &context) {
     c->add_option(
         "--ae", o->destination.ae,
         "AE title of this program if the server only sends; default: that of the list of servers");
+    c->add_flag("--replace", o->replaces,
+                "Retrieve again what is here and of which the server lists corrected data: another "
+                "name, ID, birth date or study date");
     c->add_flag("--json", o->json, "Print a report as one JSON object");
     c->callback([o, context] { get(*o, context); });
 

@@ -37,7 +37,8 @@ std::vector<archive::Sender> knownSenders() {
     const auto list = archive::ServerList::ofUser();
     for (const archive::Server &server : list.servers())
         if (server.peer.protocol == exchange::Protocol::dicom)
-            senders.push_back({server.peer.calledAe, server.peer.host});
+            for (const std::string &host : archive::hostsOf(server))
+                senders.push_back({server.peer.calledAe, host});
     return senders;
 }
 
@@ -69,6 +70,8 @@ void listen(Options o, const Context &context) {
                 end.sender == end.address ? end.address : end.sender + " at " + end.address;
             if (end.reason && refused.isNew(end.address, *end.reason))
                 warn(sender + ": " + end.reason->english());
+            if (end.refused && refused.isNew(end.address, *end.refused))
+                warn(sender + ": " + end.refused->english());
             if (end.stored == 0)
                 return;
             std::size_t &count = stored[sender];
@@ -97,7 +100,7 @@ void addListenCommand(CLI::App &app, const Context &context) {
     c->add_flag("--library", o->isForLibrary, "Add what arrives to the library of the workstation")
         ->excludes(to);
     c->add_option("--address", o->listener.address,
-                  "IPv4 address of this computer to receive on; default: all of them");
+                  "Address of this computer to receive on; default: all of them");
     c->add_option("--port", o->listener.port, "Port; default 11112; 0: any free one")
         ->check(CLI::Range(0, 65535));
     c->add_option("--ae", o->listener.ae, "AE title of this program; default PELLUCID");

@@ -46,14 +46,19 @@ void send(const Options &o, const Context &context) {
                             {"seconds", report.seconds},
                             {"uncompressed", report.uncompressed},
                             {"not_sent", jsonOf(report.notSent)},
+                            {"with_changes", jsonOf(report.withChanges)},
                             {"left_out", jsonOf(report.leftOut)}})
                       .c_str());
     } else {
-        std::vector<Named> notSent;
-        for (const dicom::Skipped &file : report.notSent)
-            notSent.push_back({file.path.string(), file.reason});
-        for (const std::string &line : linesByReason(notSent, "not sent"))
-            warn(line);
+        const auto warnOf = [](const std::vector<dicom::Skipped> &files, const char *what) {
+            std::vector<Named> named;
+            for (const dicom::Skipped &file : files)
+                named.push_back({file.path.string(), file.reason});
+            for (const std::string &line : linesByReason(named, what))
+                warn(line);
+        };
+        warnOf(report.notSent, "not sent");
+        warnOf(report.withChanges, "sent");
         if (!report.leftOut.empty())
             warn(
                 fmt::format("files of other kinds, which are not sent: {}", report.leftOut.size()));

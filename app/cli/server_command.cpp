@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.h"
@@ -52,6 +53,7 @@ struct Options {
     std::string name, dicom, web, tls = "off", authorities, certificate, key,
                                   callingAe = "PELLUCID", retrieve = "automatic",
                                   authentication = "none", user, set;
+    std::vector<std::string> sendsFrom;
     archive::LoginSettings login;
     int connections = 4;
     std::uint32_t limit = 200;
@@ -85,6 +87,7 @@ void add(const Options &o) {
             task::because::inWords("--authentication bearer is for DICOMweb servers only"));
     server.loginSettings = o.login;
     server.retrieve = meaningOf(o.retrieve, methods);
+    server.sendsFrom = o.sendsFrom;
     server.connections = o.connections;
     server.limit = o.limit;
     server.mayUncompress = o.uncompress;
@@ -102,6 +105,7 @@ nlohmann::json jsonOf(const Server &server) {
             {"tls", peer.usesTls},
             {"calling_ae", peer.callingAe},
             {"retrieve", wordFor(server.retrieve, methods)},
+            {"sends_from", server.sendsFrom},
             {"connections", server.connections},
             {"limit", server.limit},
             {"uncompress", server.mayUncompress},
@@ -133,6 +137,7 @@ std::string lineOf(const Server &server) {
     add(peer.callingAe != usual.peer.callingAe, "calling AE " + peer.callingAe);
     add(server.retrieve != usual.retrieve,
         std::string("retrieve ") + wordFor(server.retrieve, methods));
+    add(!server.sendsFrom.empty(), fmt::format("sends from {}", fmt::join(server.sendsFrom, ", ")));
     add(server.connections != usual.connections,
         counted(std::size_t(server.connections), "connection"));
     add(server.limit != usual.limit,
@@ -171,6 +176,7 @@ const char *nameOf(Step step) {
         return "TLS";
     case Step::association:
         return "association";
+    case Step::refused: // of a client
     case Step::service:
         return "offers";
     }
@@ -232,6 +238,11 @@ void addServerCommand(CLI::App &app, const Context &context) {
                     "How objects of a DICOM server are retrieved; default automatic")
         ->check(CLI::IsMember({"automatic", "get", "move"}))
         ->excludes(web);
+    put->add_option("--sends-from", o->sendsFrom,
+                    "Other hosts from which a DICOM server sends what C-MOVE asks for, such as the "
+                    "nodes of a cluster")
+        ->delimiter(',')
+        ->excludes(web);
     put->add_option(
            "--authentication,--login", o->authentication,
            "How this program authenticates itself; default none; bearer: by a token; oauth: "
@@ -260,7 +271,7 @@ void addServerCommand(CLI::App &app, const Context &context) {
                     "Character set of a DICOM server's answers that name none, such as "
                     "'ISO_IR 100'")
         ->excludes(web);
-    put->add_option("--connections", o->connections, "Connections at once, 1 to 8; default 4")
+    put->add_option("--connections", o->connections, "Most connections at once, 1 to 8; default 4")
         ->check(CLI::Range(1, archive::maxConnections));
     put->add_option("--limit", o->limit, "Most answers to a search; default 200; 0: no limit");
     put->add_flag("--uncompress", o->uncompress,

@@ -82,6 +82,10 @@ archive::RetrievalReport watched(
 void warnOfObjects(const archive::RetrievalReport &report) {
     if (report.ofAnotherPatient > 0)
         warn(task::Reason(because::objectsAreOfAnotherPatient(report.ofAnotherPatient)).english());
+    for (const archive::Correction &correction : report.corrections)
+        warn(archive::reasonOf(correction).english());
+    if (report.corrected > 0)
+        warn(task::Reason(because::replaceTheCorrected(report.corrected)).english());
     std::vector<Named> lacking;
     for (const archive::RefusedObject &object : report.lacking)
         lacking.push_back({object.sopInstanceUid, object.reason});

@@ -35,7 +35,7 @@ void hide(int terminal, const termios &before) {
     hidden = {terminal, before};
     termios without = before;
     without.c_lflag &= ~tcflag_t(ECHO);
-    ::tcsetattr(terminal, TCSAFLUSH, &without);
+    ::tcsetattr(terminal, TCSADRAIN, &without);
 }
 
 // Requires the lock.
@@ -83,8 +83,9 @@ std::string askHidden(const std::string &question, const std::stop_token &stop) 
     termios shown{};
     if (!terminal || ::tcgetattr(terminal.get(), &shown) != 0)
         throw task::Error(task::ErrorCode::usage, task::because::passwordNeedsATerminal);
-    (void)!::write(terminal.get(), question.data(), question.size());
+    // Hidden before the question: a quick answer is neither shown nor thrown away.
     hide(terminal.get(), shown);
+    (void)!::write(terminal.get(), question.data(), question.size());
     const bool isAnswered = hasLine(terminal.get(), stop);
     std::string line;
     for (char c = 0; isAnswered && ::read(terminal.get(), &c, 1) == 1 && c != '\n';)

@@ -94,7 +94,7 @@ public:
         Listing listing;
         listing.patient = m_wanted.patient;
         if (!listing.patient.isKnown() || m_wanted.seriesUids.empty())
-            describeStudy(listing.patient);
+            describeStudy(listing);
         std::vector<std::vector<Instance>> bySeries;
         for (const ListedSeries &series : seriesOfStudy())
             bySeries.push_back(instancesOf(series));
@@ -130,14 +130,17 @@ private:
             const task::Reason &why = error.reason();
             if (level == Level::study || error.code() != task::ErrorCode::unusable ||
                 !(why.is(because::serverStatus) || why.is(because::serverStatusWithComment) ||
-                  why.is(because::serverHasNothingThere) || why.is(because::serverAnswersHttp)))
+                  why.is(because::serverHasNothingThere) || why.is(because::serverAnswersHttp) ||
+                  why.is(because::serverSays)))
                 throw;
             return std::nullopt;
         }
     }
 
-    // The patient, unless the user has been shown one, and the numbers of series and objects.
-    void describeStudy(Patient &patient) {
+    // The patient, unless the user has been shown one, the date, and the numbers of series and
+    // objects.
+    void describeStudy(Listing &listing) {
+        Patient &patient = listing.patient;
         bool isFirst = true;
         const bool isKnown = patient.isKnown();
         find(Level::study,
@@ -145,6 +148,7 @@ private:
               {tag::patientName, ""},
               {tag::patientId, ""},
               {tag::birthDate, ""},
+              {tag::studyDate, ""},
               {tag::seriesInStudy, ""},
               {tag::instancesInStudy, ""}},
              [&](const Attributes &match) {
@@ -152,6 +156,7 @@ private:
                      patient = {textOf(match, tag::patientName), textOf(match, tag::patientId),
                                 textOf(match, tag::birthDate)};
                  if (std::exchange(isFirst, false)) {
+                     listing.studyDate = textOf(match, tag::studyDate);
                      m_seriesInStudy = countOf(textOf(match, tag::seriesInStudy));
                      m_objectsInStudy = countOf(textOf(match, tag::instancesInStudy));
                  }

@@ -24,6 +24,7 @@ struct Wanted {
     std::string studyUid;
     std::vector<std::string> seriesUids;
     Patient patient{}; ///< the one shown to the user; if unknown, the server is asked
+    Existing existing = Existing::stays; ///< of objects of which the server lists corrected data
 };
 
 /// A series of which a server lists less than it has, as far as it tells.
@@ -42,6 +43,7 @@ struct Listing {
     /// Series by series, that with the most objects first, each in the order of slices.
     std::vector<Instance> instances;
     Patient patient; ///< unknown if the server does not report it
+    std::string studyDate;
     std::vector<ShortSeries> shortSeries;
 };
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <arpa/inet.h>
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -46,12 +45,6 @@ constexpr double minBytesPerSecond = 1000.0;
 
 Clock::duration seconds(double count) {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(count));
-}
-
-std::string textOf(const in_addr &address) {
-    std::array<char, INET_ADDRSTRLEN> text{};
-    ::inet_ntop(AF_INET, &address, text.data(), text.size());
-    return text.data();
 }
 
 // A client that has connected. Protected by the mutex of the listener, except its thread's own.
@@ -112,16 +105,33 @@ private:
     Clock::time_point m_begun; // of the current object
 };
 
+// An address of this computer to receive on; none: all of them, IPv6 and IPv4.
+sockaddr_storage ownAddress(const std::string &text, int port, bool knowsIpv6) {
+    sockaddr_storage address{};
+    auto &at4 = reinterpret_cast<sockaddr_in &>(address);
+    auto &at6 = reinterpret_cast<sockaddr_in6 &>(address);
+    if (text.empty() ? knowsIpv6 : ::inet_pton(AF_INET6, text.c_str(), &at6.sin6_addr) == 1) {
+        at6.sin6_family = AF_INET6;
+        at6.sin6_port = htons(std::uint16_t(port));
+        return address;
+    }
+    // Linux binds a port to the address of broadcasts, which nobody can connect to.
+    if (!text.empty() && (::inet_pton(AF_INET, text.c_str(), &at4.sin_addr) != 1 ||
+                          at4.sin_addr.s_addr == INADDR_BROADCAST))
+        throw Error(ErrorCode::usage, because::isNoListeningAddress(text));
+    at4.sin_family = AF_INET;
+    at4.sin_port = htons(std::uint16_t(port));
+    return address;
+}
+
 Descriptor openPort(const std::string &address, int port, int &boundPort) {
-    Descriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    const int on = 1;
+    const bool knowsIpv6 =
+        bool(Descriptor(::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0))); // may be switched off
+    sockaddr_storage at = ownAddress(address, port, knowsIpv6);
+    Descriptor socket(::socket(at.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    const int on = 1, off = 0;
     ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    sockaddr_in at{};
-    at.sin_family = AF_INET;
-    at.sin_port = htons(std::uint16_t(port));
-    at.sin_addr.s_addr = htonl(INADDR_ANY);
-    if (!address.empty() && ::inet_pton(AF_INET, address.c_str(), &at.sin_addr) != 1)
-        throw Error(ErrorCode::usage, because::isNoListeningAddress(address));
+    ::setsockopt(socket.get(), IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
     if (!socket || ::bind(socket.get(), reinterpret_cast<const sockaddr *>(&at), sizeof at) != 0 ||
         ::listen(socket.get(), int(maxAtOnce)) != 0) {
         const int failure = errno;
@@ -133,7 +143,8 @@ Descriptor openPort(const std::string &address, int port, int &boundPort) {
     }
     socklen_t size = sizeof at;
     ::getsockname(socket.get(), reinterpret_cast<sockaddr *>(&at), &size);
-    boundPort = ntohs(at.sin_port);
+    boundPort = ntohs(at.ss_family == AF_INET6 ? reinterpret_cast<sockaddr_in6 &>(at).sin6_port
+                                               : reinterpret_cast<sockaddr_in &>(at).sin_port);
     return socket;
 }
 
@@ -179,7 +190,7 @@ private:
             }
             if (::poll(&waiting, 1, pollMs) <= 0)
                 continue;
-            sockaddr_in from{};
+            sockaddr_storage from{};
             socklen_t size = sizeof from;
             Descriptor client(::accept4(m_socket.get(), reinterpret_cast<sockaddr *>(&from), &size,
                                         SOCK_CLOEXEC));
@@ -187,7 +198,7 @@ private:
                 std::this_thread::sleep_for(std::chrono::milliseconds(pollMs));
                 continue;
             }
-            begin(std::move(client), textOf(from.sin_addr));
+            begin(std::move(client), exchange::textOf(from));
         }
     }
 
@@ -319,6 +330,8 @@ private:
             Watched watched(*receiver, end.stored, extend, m_options.silenceSeconds);
             exchange::serveClient(std::move(socket), acceptance, watched, progress,
                                   [&](exchange::Step step, const std::string &found) {
+                                      if (step == exchange::Step::refused)
+                                          end.refused = because::kindsAreRefused(found);
                                       if (step == exchange::Step::association) {
                                           end.sender = found;
                                           const std::lock_guard lock(m_connectionsMutex);

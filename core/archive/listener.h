@@ -21,7 +21,7 @@ struct Sender {
 };
 
 struct ListenerOptions {
-    std::string address;            ///< of this computer, IPv4; empty: all
+    std::string address;            ///< of this computer, IPv4 or IPv6; empty: all
     int port = defaultListenerPort; ///< 0: any free one
     std::string ae = "PELLUCID";
     std::vector<Sender> senders; ///< empty: nobody
@@ -46,6 +46,8 @@ struct ConnectionEnd {
     std::string address;                ///< of its host
     std::size_t stored = 0;             ///< objects that were kept
     std::optional<task::Reason> reason; ///< empty: in order
+    /// Kinds of objects that the sender proposed and this program does not take.
+    std::optional<task::Reason> refused{};
 };
 
 /// Reports what a listener does, from the listener's threads, one call at a time.

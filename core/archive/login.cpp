@@ -25,6 +25,17 @@ std::chrono::milliseconds marginOf(std::chrono::milliseconds lifetime) {
     return std::min<std::chrono::milliseconds>(std::chrono::seconds(60), lifetime / 5);
 }
 
+// Names the login server when it cannot be reached: the user sees only that of the images.
+template <class F> auto atLoginServer(const std::string &url, F &&work) {
+    try {
+        return work();
+    } catch (const Error &error) {
+        if (error.code() != ErrorCode::unreachable)
+            throw;
+        throw Error(error.code(), because::loginServerFails(loginPeer(url).host, error.reason()));
+    }
+}
+
 std::string withoutSlash(std::string url) {
     if (url.ends_with('/'))
         url.pop_back();
@@ -59,11 +70,11 @@ std::string Login::token(const task::Progress &progress, const std::string &refu
     try {
         if (refresh.empty())
             throw Error(ErrorCode::unusable, because::loginHasExpired);
-        exchange::Link link(connectionTo(endpoints(progress).tokenUrl), progress);
-        const Tokens tokens = link.requestTokens({{"grant_type", "refresh_token"},
-                                                  {"refresh_token", refresh},
-                                                  {"client_id", m_settings.clientId}},
-                                                 progress);
+        const Tokens tokens = requestTokens(endpoints(progress).tokenUrl,
+                                            {{"grant_type", "refresh_token"},
+                                             {"refresh_token", refresh},
+                                             {"client_id", m_settings.clientId}},
+                                            progress);
         if (!takeRenewed(tokens, refresh))
             throw Error(ErrorCode::unusable, because::loginHasExpired);
         return tokens.access;
@@ -101,13 +112,13 @@ void Login::logIn(const OpenPage &open, const Texts &texts, const task::Progress
     exchange::awaitRedirect(
         std::move(port.socket), {state, texts.success, texts.failure, patience}, [&] { open(url); },
         [&](const std::string &code) {
-            exchange::Link link(connectionTo(at.tokenUrl), progress);
-            const Tokens tokens = link.requestTokens({{"grant_type", "authorization_code"},
-                                                      {"code", code},
-                                                      {"redirect_uri", redirectUrl},
-                                                      {"client_id", m_settings.clientId},
-                                                      {"code_verifier", verifier}},
-                                                     progress);
+            const Tokens tokens = requestTokens(at.tokenUrl,
+                                                {{"grant_type", "authorization_code"},
+                                                 {"code", code},
+                                                 {"redirect_uri", redirectUrl},
+                                                 {"client_id", m_settings.clientId},
+                                                 {"code_verifier", verifier}},
+                                                progress);
             forget(); // the tokens may be of another user
             take(tokens);
         },
@@ -132,6 +143,13 @@ exchange::Connection Login::connectionTo(const std::string &url) const {
     return {.peer = std::move(peer), .purpose = exchange::Purpose::login};
 }
 
+Tokens Login::requestTokens(const std::string &url, const exchange::TokenRequest &request,
+                            const task::Progress &progress) const {
+    return atLoginServer(url, [&] {
+        return exchange::Link(connectionTo(url), progress).requestTokens(request, progress);
+    });
+}
+
 // Requires the turn.
 Endpoints Login::endpoints(const task::Progress &progress) {
     if (m_endpoints)
@@ -139,8 +157,9 @@ Endpoints Login::endpoints(const task::Progress &progress) {
     Endpoints found{{}, m_settings.authorizationUrl, m_settings.tokenUrl};
     if (!m_settings.issuer.empty()) {
         const std::string issuer = withoutSlash(m_settings.issuer);
-        exchange::Link link(connectionTo(issuer + "/.well-known/openid-configuration"), progress);
-        found = link.discover(progress);
+        const std::string url = issuer + "/.well-known/openid-configuration";
+        found = atLoginServer(
+            url, [&] { return exchange::Link(connectionTo(url), progress).discover(progress); });
         // OpenID Connect Discovery 1.0, 4.3: one login server must not speak for another.
         if (withoutSlash(found.issuer) != issuer)
             throw Error(ErrorCode::unusable, because::issuerIsAnother(found.issuer));

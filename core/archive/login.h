@@ -56,6 +56,8 @@ public:
 private:
     exchange::Connection connectionTo(const std::string &url) const;
     exchange::Endpoints endpoints(const task::Progress &progress);
+    exchange::Tokens requestTokens(const std::string &url, const exchange::TokenRequest &request,
+                                   const task::Progress &progress) const;
     std::optional<std::string> currentToken(const std::string &refused) const;
     std::string refreshToken() const;
     /// Whether it is the current token, and its end has not come.

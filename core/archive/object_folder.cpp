@@ -45,7 +45,8 @@ StoredObject describedBy(const decoder::AttributeList &list) {
             valueOf(list, tag::sopClassUid),
             0,
             {valueOf(list, tag::patientName), valueOf(list, tag::patientId),
-             valueOf(list, tag::birthDate)}};
+             valueOf(list, tag::birthDate)},
+            valueOf(list, tag::studyDate)};
 }
 
 // The object in a file that is there; nothing if it cannot be read to its end: a power cut may have
@@ -104,6 +105,34 @@ bool isOfAnother(const Patient &listed, const Patient &named) {
     return id == different || (name == different && date == different);
 }
 
+std::vector<Correction> correctionsOf(const Patient &listed, const std::string &studyDate,
+                                      const StoredObject &object) {
+    const Patient &here = object.patient;
+    std::vector<Correction> corrections{
+        {Correction::Kind::name, here.name, listed.name},
+        {Correction::Kind::id, here.id, listed.id},
+        {Correction::Kind::birthDate, here.birthDate, listed.birthDate},
+        {Correction::Kind::studyDate, object.studyDate, studyDate}};
+    std::erase_if(corrections, [](const Correction &one) {
+        return compare(one.here, one.listed) != Comparison::different;
+    });
+    return corrections;
+}
+
+task::Reason reasonOf(const Correction &correction) {
+    switch (correction.kind) {
+    case Correction::Kind::name:
+        return because::nameIsCorrected(correction.here, correction.listed);
+    case Correction::Kind::id:
+        return because::idIsCorrected(correction.here, correction.listed);
+    case Correction::Kind::birthDate:
+        return because::birthDateIsCorrected(correction.here, correction.listed);
+    case Correction::Kind::studyDate:
+        return because::studyDateIsCorrected(correction.here, correction.listed);
+    }
+    return because::studyDateIsCorrected(correction.here, correction.listed);
+}
+
 ObjectFolder::ObjectFolder(fs::path folder, Keeps keeps)
     : m_folder(std::move(folder)), m_keeps(keeps) {}
 
@@ -128,7 +157,8 @@ std::unique_ptr<files::AtomicFile> ObjectFolder::open(const exchange::Arrival &a
 }
 
 StoredObject ObjectFolder::keep(const files::AtomicFile &file, const exchange::Arrival &arrival,
-                                std::uint64_t bytes, const std::vector<Place> &places) const {
+                                std::uint64_t bytes, const std::vector<Place> &places,
+                                Existing existing) const {
     if (bytes == 0)
         throw Error(ErrorCode::output, because::isNotWritable, m_folder);
     // The helper still has the file open and could change it after the checks. It cannot reach the
@@ -161,9 +191,10 @@ StoredObject ObjectFolder::keep(const files::AtomicFile &file, const exchange::A
         throw Error(ErrorCode::unusable, because::isNotWhatWasAnnounced);
     object.path = pathOf(object.studyUid, object.seriesUid, object.sopInstanceUid);
     if (objectIn(object.path)) { // what is damaged is replaced
-        if (!haveSameBytes(unnamed, object.path))
+        if (haveSameBytes(unnamed, object.path))
+            return object;
+        if (existing == Existing::stays)
             throw Error(ErrorCode::unusable, because::anotherObjectHasItsUid);
-        return object;
     }
     files::createPrivateFolders(object.path.parent_path());
     copy->moveTo(object.path);

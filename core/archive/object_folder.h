@@ -34,13 +34,32 @@ struct StoredObject {
     std::string studyUid, seriesUid, sopInstanceUid, sopClassUid;
     std::uint64_t bytes = 0;
     Patient patient{};
+    std::string studyDate{};
 };
+
+/// What an archive has corrected since an object was received: what it lists, and what is here.
+struct Correction {
+    enum class Kind { name, id, birthDate, studyDate };
+    Kind kind = Kind::name;
+    std::string here, listed;
+};
+
+/// How an object differs from what its server lists. What is unknown does not differ; case and
+/// separators of names make no difference.
+std::vector<Correction> correctionsOf(const Patient &listed, const std::string &studyDate,
+                                      const StoredObject &object);
+
+/// It as a sentence for the user.
+task::Reason reasonOf(const Correction &correction);
 
 /// Why an object was not kept.
 struct RefusedObject {
     std::string sopInstanceUid;
     task::Reason reason;
 };
+
+/// What becomes of an object that is here when another one with its UID comes.
+enum class Existing { stays, isReplaced };
 
 /// Where received objects are stored: FOLDER/STUDY/SERIES/INSTANCE.dcm, named by their UIDs. A file
 /// appears there only when it is complete, readable, and is what its sender announced.
@@ -68,9 +87,11 @@ public:
     /// Copies a complete file and gives the copy its name, because a compromised helper could still
     /// write to the original. If the same object is there already, with the same bytes, it
     /// stays; a damaged one is replaced. *Throws* Error{unusable} if it is not the object that was
-    /// announced, belongs to none of the places, or would replace another file; Error{output}.
+    /// announced, belongs to none of the places, or would replace another file that stays;
+    /// Error{output}.
     StoredObject keep(const files::AtomicFile &file, const exchange::Arrival &arrival,
-                      std::uint64_t bytes, const std::vector<Place> &places = {}) const;
+                      std::uint64_t bytes, const std::vector<Place> &places = {},
+                      Existing existing = Existing::stays) const;
     /// A file without a name. *Throws* Error{output}.
     std::unique_ptr<files::AtomicFile> open(const exchange::Arrival &arrival) const;
 

@@ -2,10 +2,13 @@
 #include "core/archive/retrieval.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <future>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -40,10 +43,14 @@ constexpr std::chrono::milliseconds pauses[maxFailures]{std::chrono::millisecond
 // The objects of one connection.
 class Objects : public exchange::Receiver {
 public:
-    explicit Objects(RetrievalWork &work) : m_work(work) {}
+    Objects(RetrievalWork &work, Existing existing) : m_work(work), m_existing(existing) {}
+
+    /// The server is asked for objects.
+    void await() { m_since = Clock::now(); }
 
     std::variant<int, std::uint16_t> open(const exchange::Arrival &arrival) override {
         m_reported = 0;
+        m_begun = Clock::now();
         m_places = m_work.placesOf(arrival.sopInstanceUid);
         if (m_places.empty())
             return exchange::status::notWanted;
@@ -54,7 +61,12 @@ public:
         receive(bytes);
         const std::unique_ptr<files::AtomicFile> file = std::move(m_file);
         try {
-            m_work.stored(m_work.folder().keep(*file, arrival, bytes, m_places));
+            const StoredObject object =
+                m_work.folder().keep(*file, arrival, bytes, m_places, m_existing);
+            const auto waited = std::exchange(m_since, Clock::now());
+            m_work.worked(std::chrono::duration<double>(m_begun - waited).count(),
+                          std::chrono::duration<double>(m_since - m_begun).count());
+            m_work.stored(object);
             return 0;
         } catch (const Error &error) {
             if (error.code() == ErrorCode::output) {
@@ -72,10 +84,55 @@ public:
 
 private:
     RetrievalWork &m_work;
+    Existing m_existing;
+    Clock::time_point m_since = Clock::now(), m_begun; // of the pause before the current object
     std::unique_ptr<files::AtomicFile> m_file;
     std::vector<ObjectFolder::Place> m_places; ///< of which the object has to be of one
     std::uint64_t m_reported = 0;
 };
+
+// How many associations each server has granted at once, by its address. One that refused more
+// is not asked for more for a while.
+class Grants {
+public:
+    int of(const Server &server) {
+        const std::lock_guard lock(m_mutex);
+        const auto known = m_known.find(addressOf(server.peer));
+        return known == m_known.end() || Clock::now() - known->second.since > validity
+                   ? server.connections
+                   : std::min(server.connections, known->second.count);
+    }
+    void note(const Server &server, int granted) {
+        const std::lock_guard lock(m_mutex);
+        m_known[addressOf(server.peer)] = {std::max(1, granted), Clock::now()};
+    }
+
+private:
+    std::mutex m_mutex;
+    // Others use the server as well, and end.
+    static constexpr std::chrono::minutes validity{10};
+    struct Grant {
+        int count;
+        Clock::time_point since;
+    };
+    std::map<std::string, Grant> m_known;
+};
+
+Grants &grants() {
+    static Grants known;
+    return known;
+}
+
+bool isFull(const Error &error) {
+    return error.reason().is(because::serverHasTooManyConnections) ||
+           error.reason().is(because::serverIsBusy);
+}
+
+// The server answers a request with a failure.
+bool isRefusal(const Error &error) {
+    return error.reason().is(because::serverStatus) ||
+           error.reason().is(because::serverStatusWithComment);
+}
 
 // Connects while the server is still listing its objects, because the slices at both ends are shown
 // first. These connections propose the common kinds of objects.
@@ -85,7 +142,7 @@ public:
         if (server.retrieve == RetrieveMethod::move ||
             server.peer.protocol != exchange::Protocol::dicom)
             return;
-        for (int n = 0; n < std::min(int(firstSlices), server.connections - 1); ++n) // one lists
+        for (int n = 0; n < std::min(int(firstSlices), grants().of(server) - 1); ++n) // one lists
             m_links.push_back(std::async(std::launch::async, [&server, &progress] {
                 return std::make_unique<exchange::Link>(
                     exchange::Connection{server.peer, Purpose::get}, progress);
@@ -120,25 +177,28 @@ class Worker {
 public:
     Worker(const Server &server, Purpose purpose, std::vector<std::string> classes,
            std::vector<std::string> syntaxes, std::string destinationAe,
-           std::unique_ptr<exchange::Link> first, RetrievalWork &work,
-           const task::Progress &progress)
-        : m_server(server), m_work(work), m_progress(progress), m_link(std::move(first)),
-          m_objects(work), m_connection{server.peer, purpose, std::move(classes),
-                                        std::move(syntaxes)},
+           std::unique_ptr<exchange::Link> first, Existing existing, std::atomic<int> &open,
+           RetrievalWork &work, const task::Progress &progress)
+        : m_server(server), m_work(work), m_progress(progress), m_open(open),
+          m_link(std::move(first)),
+          m_objects(work, existing), m_connection{server.peer, purpose, std::move(classes),
+                                                  std::move(syntaxes)},
           m_destinationAe(std::move(destinationAe)),
-          m_mayMove(purpose == Purpose::get && server.retrieve == RetrieveMethod::automatic) {}
+          m_isAutomatic(server.retrieve == RetrieveMethod::automatic) {
+        m_open += m_link ? 1 : 0;
+    }
 
-    /// `awaited`: the objects that come first. Later connections wait for them, so that the first
-    /// slices get the whole bandwidth.
-    void run(std::size_t awaited) {
+    /// `index`: of this connection. Those for the slices at both ends begin at once, and have the
+    /// whole bandwidth; later ones begin if they save time.
+    void run(std::size_t index) {
         try {
-            m_work.awaitReceived(awaited);
-            takeAll();
+            if (index < firstSlices || m_work.awaitNeed(index))
+                takeAll();
         } catch (...) {
             m_work.stop(std::current_exception());
         }
         // At once: some servers keep others waiting while an association is open.
-        m_link.reset();
+        disconnect();
     }
     const std::optional<Error> &failure() const { return m_failure; }
 
@@ -155,18 +215,24 @@ private:
             } catch (const Error &error) {
                 if (error.code() != ErrorCode::unreachable)
                     throw;
-                m_link.reset();
+                disconnect();
+                if (isFull(error) && m_open > 0) { // the others are what the server grants
+                    grants().note(m_server, m_open);
+                    m_work.putBack(std::move(*batch));
+                    return;
+                }
                 m_work.findHere(*batch);
-                failures = m_work.receivedCount() > before ? 0 : failures + 1;
+                failures = m_work.receivedCount() > before ? 1 : failures + 1;
                 if (failures >= maxFailures) {
                     m_work.failed(*batch, error.reason());
+                    m_work.gaveUp(error.reason());
                     // Another connection may succeed.
                     m_work.putBack(std::move(*batch));
                     m_failure = error;
                     return;
                 }
                 m_work.putBack(std::move(*batch));
-                pause(pauses[failures]);
+                pause(pauses[failures - 1]);
             }
         }
     }
@@ -177,10 +243,16 @@ private:
                                           m_refusedTokens.empty() ? "" : m_refusedTokens.back());
         m_receivedBefore = m_work.receivedBefore(m_connection.peer.secret);
         m_link = std::make_unique<exchange::Link>(m_connection, m_progress);
+        ++m_open;
+    }
+    void disconnect() {
+        m_open -= m_link ? 1 : 0;
+        m_link.reset();
     }
     void take(const Batch &batch) {
         try {
             connect();
+            m_objects.await();
             const Level level = !batch.uids.empty()       ? Level::image
                                 : batch.seriesUid.empty() ? Level::study
                                                           : Level::series;
@@ -197,16 +269,25 @@ private:
                 throw;
             if (isTokenRefused(m_server, error) && mayRenew()) {
                 m_refusedTokens.push_back(m_connection.peer.secret);
-                m_link.reset();
+                disconnect();
                 m_work.putBack(batch);
                 return;
             }
-            if (m_mayMove && error.reason().is(because::serverLacksTheService)) {
+            if (m_isAutomatic && error.reason().is(because::serverLacksTheService)) {
+                if (m_connection.purpose == Purpose::move) {
+                    m_work.refuseAll(batch, because::serverSendsNothing);
+                    return;
+                }
                 m_work.putBack(batch);
                 m_work.offersNoGet();
                 return;
             }
-            m_link.reset();
+            if (isRefusal(error)) {
+                m_work.failed(batch, error.reason());
+                if (m_work.askDifferently(batch))
+                    return;
+            }
+            disconnect();
             // A login that is refused will be refused again; anything else concerns these objects.
             if (isTokenRefused(m_server, error) || error.reason().is(because::serverDoesNotAllowIt))
                 m_work.refuseAll(batch, error.reason());
@@ -233,13 +314,14 @@ private:
     const Server &m_server;
     RetrievalWork &m_work;
     const task::Progress &m_progress;
+    std::atomic<int> &m_open; ///< connections, of all workers
     std::unique_ptr<exchange::Link> m_link;
     Objects m_objects;
     exchange::Connection m_connection;
     std::vector<std::string> m_refusedTokens; ///< the last one at the end
     std::size_t m_receivedBefore = 0;         ///< before the token was used
     std::string m_destinationAe;
-    bool m_mayMove;
+    bool m_isAutomatic; ///< C-MOVE where there is no C-GET
     std::optional<Error> m_failure;
 };
 
@@ -247,30 +329,59 @@ private:
 // if nothing has come.
 void runWorkers(const Server &server, Purpose purpose, const std::vector<std::string> &classes,
                 const std::vector<std::string> &syntaxes, const std::string &destinationAe,
-                EarlyLinks *early, RetrievalWork &work, const task::Progress &progress) {
+                Existing existing, EarlyLinks *early, RetrievalWork &work,
+                const task::Progress &progress) {
     // A connection costs round trips, which a few objects do not repay.
     const std::size_t useful =
         std::max((work.missing() + firstBatchSize - 1) / firstBatchSize, work.wholeBatches());
-    const std::size_t count = std::min<std::size_t>(useful, std::size_t(server.connections));
+    const std::size_t count = std::min(useful, std::size_t(grants().of(server)));
+    std::atomic<int> open = 0;
     std::vector<std::unique_ptr<Worker>> workers;
     for (std::size_t n = 0; n < count; ++n)
-        workers.push_back(
-            std::make_unique<Worker>(server, purpose, classes, syntaxes, destinationAe,
-                                     early != nullptr ? early->take() : nullptr, work, progress));
+        workers.push_back(std::make_unique<Worker>(
+            server, purpose, classes, syntaxes, destinationAe,
+            early != nullptr ? early->take() : nullptr, existing, open, work, progress));
     {
         std::vector<std::jthread> threads;
         for (std::size_t n = 1; n < workers.size(); ++n)
-            threads.emplace_back(
-                [n, worker = workers[n].get()] { worker->run(n < firstSlices ? 0 : firstSlices); });
+            threads.emplace_back([n, worker = workers[n].get()] { worker->run(n); });
         if (!workers.empty())
             workers.front()->run(0);
     }
+    const bool hasGivenUp = std::any_of(workers.begin(), workers.end(), [](const auto &worker) {
+        return worker->failure().has_value();
+    });
+    // One that gave way to another may have left its batch when that one had ended.
+    if (!hasGivenUp && work.hasBatches())
+        workers.front()->run(0);
     work.rethrow();
     if (work.receivedCount() == 0 && work.missing() > 0)
         for (const auto &worker : workers)
             if (worker->failure())
                 throw *worker->failure();
 }
+
+// Who tried to send from an address that the server is not known to have.
+class Strangers {
+public:
+    ListenerObserver observer() {
+        return {[this](const ConnectionEnd &end) {
+            if (!end.reason || !end.reason->is(because::senderIsUnknown))
+                return;
+            const std::lock_guard lock(m_mutex);
+            if (m_first.empty())
+                m_first = end.address;
+        }};
+    }
+    std::string first() {
+        const std::lock_guard lock(m_mutex);
+        return m_first;
+    }
+
+private:
+    std::mutex m_mutex;
+    std::string m_first; ///< address
+};
 
 // For what a server sends because it is asked to.
 ListenerOptions listenerFor(const Server &server, const std::string &ae, int port) {
@@ -285,7 +396,8 @@ ListenerOptions listenerFor(const Server &server, const std::string &ae, int por
     options.key = server.peer.key;
     options.keyPassword = server.peer.keyPassword;
     options.authorities = server.peer.authorities;
-    options.senders = {{"", server.peer.host}};
+    for (const std::string &host : hostsOf(server))
+        options.senders.push_back({"", host});
     options.silenceSeconds = server.peer.silenceSeconds;
     return options;
 }
@@ -297,12 +409,22 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
                          const MoveDestination &destination) {
     const auto begin = Clock::now();
     std::optional<EarlyLinks> early(std::in_place, server, progress);
-    const Listing listing = listInstances(server, wanted, progress);
+    const Listing listing = [&] {
+        try {
+            return listInstances(server, wanted, progress);
+        } catch (const Error &error) {
+            if (!isFull(error))
+                throw;
+        }
+        early.reset(); // they may have taken all that the server grants
+        return listInstances(server, wanted, progress);
+    }();
     const std::vector<Instance> &instances = listing.instances;
     if (observer.listed)
         observer.listed(listing);
     folder.create();
-    RetrievalWork work(listing, folder, observer, server.connections);
+    RetrievalWork work(listing, folder, observer, std::min(int(firstSlices), server.connections),
+                       wanted.existing);
     // Every connection proposes the kinds that lack; a server that does not tell them gets the
     // common ones.
     std::set<std::string> classes = work.classes();
@@ -311,22 +433,30 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     if (!areCommon(classes))
         early.reset(); // servers count connections
     if (server.retrieve != RetrieveMethod::move)
-        runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {}, {},
+        runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {}, {}, wanted.existing,
                    early ? &*early : nullptr, work, progress);
     early.reset();
     const std::string destinationAe =
         destination.ae.empty() ? server.peer.callingAe : destination.ae;
+    Strangers strangers;
     std::optional<Listener> listener;
     const auto moveAll = [&] {
         if (destination.isTakenByOtherTls)
             throw Error(ErrorCode::unusable, because::receiverDiffersInTls(destination.port));
         work.useMove();
         if (!destination.hasListener && !listener)
-            listener.emplace(listenerFor(server, destinationAe, destination.port),
-                             [&] { return std::make_unique<Objects>(work); });
-        runWorkers(server, Purpose::move, {}, {}, destinationAe, nullptr, work, progress);
+            listener.emplace(
+                listenerFor(server, destinationAe, destination.port),
+                [&] { return std::make_unique<Objects>(work, wanted.existing); },
+                strangers.observer());
+        runWorkers(server, Purpose::move, {}, {}, destinationAe, wanted.existing, nullptr, work,
+                   progress);
+        // Others may try to send, too.
+        if (const std::string address = strangers.first();
+            !address.empty() && work.receivedCount() == 0)
+            work.refuseMissing(because::sentFromElsewhere(address));
     };
-    const bool hasMoved = server.retrieve == RetrieveMethod::move || work.needsMove();
+    bool hasMoved = server.retrieve == RetrieveMethod::move || work.needsMove();
     if (hasMoved)
         moveAll();
     // Some servers take the first presentation context of a kind, whatever they have stored, and
@@ -336,7 +466,21 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
         for (const std::string &syntax : exchange::transferSyntaxes())
             if (work.fillQueueAgain(instances))
                 runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {syntax}, {},
-                           nullptr, work, progress);
+                           wanted.existing, nullptr, work, progress);
+    // Some servers list objects but cannot send them on the same association.
+    if (!hasMoved && server.retrieve == RetrieveMethod::automatic && work.receivedCount() == 0 &&
+        server.peer.protocol == exchange::Protocol::dicom && work.fillQueueAgain(instances)) {
+        hasMoved = true;
+        const std::map<std::string, task::Reason> before = work.reasons();
+        try {
+            moveAll();
+        } catch (const Error &error) {
+            if (error.code() == ErrorCode::output)
+                throw;
+        }
+        if (work.receivedCount() == 0) // the first reasons are the true ones
+            work.restoreReasons(before);
+    }
     // Objects that the server did not list are retrieved with their whole series.
     const bool isShort = work.fillQueueWithShortSeries();
     if (isShort && hasMoved) {
@@ -344,7 +488,8 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     } else if (isShort) {
         std::set<std::string> all = classes;
         all.insert(exchange::commonClasses().begin(), exchange::commonClasses().end());
-        runWorkers(server, Purpose::get, {all.begin(), all.end()}, {}, {}, nullptr, work, progress);
+        runWorkers(server, Purpose::get, {all.begin(), all.end()}, {}, {}, wanted.existing, nullptr,
+                   work, progress);
         if (work.needsMove())
             moveAll();
     }

@@ -33,6 +33,11 @@ struct RetrievalReport {
     /// both, as the first of them shows.
     std::size_t ofAnotherPatient = 0;
     Patient listed, named;
+    /// Objects that were here before and whose patient or date the server lists differently, and
+    /// how, as the first of them shows: the archive has corrected them since. None if they were
+    /// replaced.
+    std::size_t corrected = 0;
+    std::vector<Correction> corrections{};
     bool isComplete() const { return lacking.empty(); }
 };
 
@@ -57,7 +62,8 @@ struct MoveDestination {
 };
 
 /// Retrieves what lacks in a folder of a study: compressed objects stay compressed, series come
-/// from coarse to fine, over up to `Server::connections` connections. A connection that is lost is
+/// from coarse to fine, over up to `Server::connections` connections, as far as the server grants
+/// them and they save time. A connection that is lost is
 /// made again while the others go on; what is still missing at the end is listed. *Throws*
 /// Error{unreachable} if nothing could be retrieved because the server cannot be reached, or
 /// because the port of the destination is in use; as exchange::Link otherwise; Error{unusable,

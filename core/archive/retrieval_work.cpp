@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -43,14 +44,16 @@ std::vector<StoredObject> unlistedIn(const ObjectFolder &folder, const ShortSeri
 } // namespace
 
 RetrievalWork::RetrievalWork(const Listing &listing, const ObjectFolder &folder,
-                             const RetrievalObserver &observer, int connections)
+                             const RetrievalObserver &observer, int connections, Existing existing)
     : m_folder(folder), m_observer(observer), m_connections(std::size_t(connections)),
-      m_patient(listing.patient), m_short(listing.shortSeries) {
+      m_patient(listing.patient), m_studyDate(listing.studyDate), m_short(listing.shortSeries),
+      m_existing(existing) {
     m_state.wanted = listing.instances.size();
     for (const Instance &instance : listing.instances) {
         m_known.insert(instance.sopInstanceUid);
-        if (const auto object =
-                folder.find(instance.studyUid, instance.seriesUid, instance.sopInstanceUid)) {
+        const auto object =
+            folder.find(instance.studyUid, instance.seriesUid, instance.sopInstanceUid);
+        if (object && !(noteCorrections(*object) && existing == Existing::isReplaced)) {
             ++m_state.present;
             compare(*object);
         } else {
@@ -84,6 +87,16 @@ bool RetrievalWork::takeUnlisted(const StoredObject &object) {
     return true;
 }
 
+// False if the server lists the object as it is here.
+bool RetrievalWork::noteCorrections(const StoredObject &object) {
+    std::vector<Correction> found = correctionsOf(m_patient, m_studyDate, object);
+    if (found.empty())
+        return false;
+    if (m_corrected++ == 0)
+        m_corrections = std::move(found);
+    return true;
+}
+
 // A server may send anybody's images under the UIDs that it was asked for.
 void RetrievalWork::compare(const StoredObject &object) {
     if (!isOfAnother(m_patient, object.patient)) {
@@ -105,6 +118,11 @@ std::size_t RetrievalWork::wholeBatches() const {
                                      [](const Batch &batch) { return batch.uids.empty(); }));
 }
 
+bool RetrievalWork::hasBatches() const {
+    const std::lock_guard lock(m_mutex);
+    return !m_queue.empty() && !m_failure && !m_offersNoGet;
+}
+
 std::set<std::string> RetrievalWork::classes() const {
     std::set<std::string> found;
     for (const auto &[uid, instance] : m_missing)
@@ -112,12 +130,29 @@ std::set<std::string> RetrievalWork::classes() const {
     return found;
 }
 
-void RetrievalWork::awaitReceived(std::size_t objects) {
+bool RetrievalWork::awaitNeed(std::size_t index) {
     constexpr std::chrono::milliseconds moment(150);
     std::unique_lock lock(m_mutex);
-    m_received.wait_for(lock, moment, [&] {
-        return m_state.received >= objects || m_missing.empty() || m_failure || m_offersNoGet;
-    });
+    for (;;) {
+        if (m_queue.empty() || m_failure || m_offersNoGet)
+            return false;
+        const bool isMeasured = m_state.received >= firstBatchSize;
+        if (m_whyGivenUp || (isMeasured && !isEnough(index))) // nobody else may be left
+            return true;
+        m_received.wait_for(lock, moment);
+    }
+}
+
+// Requires the lock.
+bool RetrievalWork::isEnough(std::size_t connections) const {
+    return m_receiving > 0.0 &&
+           double(connections) >= std::round((m_waited + m_receiving) / m_receiving);
+}
+
+void RetrievalWork::worked(double waited, double received) {
+    const std::lock_guard lock(m_mutex);
+    m_waited += waited;
+    m_receiving += received;
 }
 
 std::optional<Batch> RetrievalWork::next() {
@@ -128,6 +163,12 @@ std::optional<Batch> RetrievalWork::next() {
         // Some have come with others.
         const bool isWhole = batch.uids.empty();
         std::erase_if(batch.uids, [&](const std::string &uid) { return !m_missing.contains(uid); });
+        if (m_asksOneByOne && batch.uids.size() > 1) {
+            Batch rest = batch;
+            rest.uids.erase(rest.uids.begin());
+            m_queue.push_front(std::move(rest));
+            batch.uids.resize(1);
+        }
         if (isWhole || !batch.uids.empty())
             return batch;
     }
@@ -160,6 +201,7 @@ void RetrievalWork::stored(const StoredObject &object) {
         ++m_state.received;
     else if (!takeUnlisted(object))
         return;
+    m_hasSentOne = m_asksOneByOne;
     m_reasons.erase(object.sopInstanceUid);
     m_received.notify_all();
     if (m_observer.stored)
@@ -245,6 +287,47 @@ void RetrievalWork::moved(std::int64_t bytes) {
         m_observer.changed(m_state);
 }
 
+bool RetrievalWork::askDifferently(const Batch &batch) {
+    const std::lock_guard lock(m_mutex);
+    if (batch.uids.size() > 1 && (m_asksOneByOne || !m_hasRefusedLists)) {
+        m_hasRefusedLists = m_asksOneByOne = true;
+        m_queue.push_front(batch);
+        return true;
+    }
+    if (batch.uids.size() == 1 && m_asksOneByOne && !m_hasSentOne) {
+        m_asksOneByOne = false;
+        m_asksWholeSeries = true;
+    }
+    if (batch.uids.empty() || !m_asksWholeSeries || !m_askedWhole.insert(batch.seriesUid).second)
+        return false;
+    m_queue.push_front({batch.studyUid, batch.seriesUid, {}});
+    return true;
+}
+
+void RetrievalWork::gaveUp(const task::Reason &reason) {
+    const std::lock_guard lock(m_mutex);
+    m_whyGivenUp = reason;
+    m_received.notify_all();
+}
+
+std::map<std::string, task::Reason> RetrievalWork::reasons() const {
+    const std::lock_guard lock(m_mutex);
+    return m_reasons;
+}
+
+void RetrievalWork::restoreReasons(const std::map<std::string, task::Reason> &before) {
+    const std::lock_guard lock(m_mutex);
+    for (const auto &[uid, reason] : before)
+        if (m_missing.contains(uid))
+            m_reasons.insert_or_assign(uid, reason);
+}
+
+void RetrievalWork::refuseMissing(const task::Reason &reason) {
+    const std::lock_guard lock(m_mutex);
+    for (const auto &[uid, instance] : m_missing)
+        m_reasons.insert_or_assign(uid, reason);
+}
+
 void RetrievalWork::refuseAll(const Batch &batch, const task::Reason &reason) {
     failed(batch, reason);
     const std::lock_guard lock(m_mutex);
@@ -308,10 +391,15 @@ bool RetrievalWork::fillQueueWithShortSeries() {
 RetrievalReport RetrievalWork::report() {
     const std::lock_guard lock(m_mutex);
     RetrievalReport report{m_state, 0.0, {}, m_unwanted, m_ofAnotherPatient, m_patient, m_named};
+    if (m_existing == Existing::stays) {
+        report.corrected = m_corrected;
+        report.corrections = m_corrections;
+    }
     for (const auto &[uid, instance] : m_missing) {
         const auto reason = m_reasons.find(uid);
-        report.lacking.push_back(
-            {uid, reason == m_reasons.end() ? because::serverLeftItOut : reason->second});
+        report.lacking.push_back({uid, reason != m_reasons.end()
+                                           ? reason->second
+                                           : m_whyGivenUp.value_or(because::serverLeftItOut)});
     }
     for (const ShortSeries &series : m_short) {
         // The number is unknown, and the series was not received as a whole.

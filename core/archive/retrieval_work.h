@@ -24,7 +24,8 @@ struct Batch {
     std::vector<std::string> uids;
 };
 
-/// The size of the first batches; fewer objects do not repay a connection.
+/// The size of the first batches; fewer objects do not repay a connection, and are too few to
+/// measure its speed.
 inline constexpr std::size_t firstBatchSize = 8;
 
 /// The state of a retrieval, shared by its connections: what lacks and why, and the queue of
@@ -32,17 +33,25 @@ inline constexpr std::size_t firstBatchSize = 8;
 /// are for the time when no connection runs.
 class RetrievalWork {
 public:
-    /// `folder` and `observer` outlive this object. *Requires*: at least one connection.
+    /// `folder` and `observer` outlive this object. `existing`: whether objects here of which
+    /// the server lists corrected data are missing. `connections`: that begin at once, at least
+    /// one.
     RetrievalWork(const Listing &listing, const ObjectFolder &folder,
-                  const RetrievalObserver &observer, int connections);
+                  const RetrievalObserver &observer, int connections, Existing existing);
 
     std::size_t missing() const;
     std::set<std::string> classes() const;
 
-    /// Waits until so many objects have come, nothing else can come, or a moment is over.
-    void awaitReceived(std::size_t objects);
+    /// Waits until connection `index` (from 0) would save time: the open ones leave the line idle
+    /// between objects, or one has given up. *Returns* false if nothing is left to do.
+    bool awaitNeed(std::size_t index);
+    /// What a connection did with an object, in seconds: it waited for the first byte, then
+    /// received and kept the object.
+    void worked(double waited, double received);
+
     /// Batches in the queue that ask for a whole series or study.
     std::size_t wholeBatches() const;
+    bool hasBatches() const;
     /// The next batch; nothing when all are taken.
     std::optional<Batch> next();
 
@@ -60,6 +69,17 @@ public:
     void ended(const Batch &batch, const exchange::RetrievalEnd &end);
     void failed(const Batch &batch, const task::Reason &reason);
     void moved(std::int64_t bytes);
+    /// Puts back a batch that the server refuses in a form that it may take: one object at a time,
+    /// and if that is refused as well, the whole series. False if it has been refused like this.
+    bool askDifferently(const Batch &batch);
+    /// A connection gives up; objects still queued at the end get this reason.
+    void gaveUp(const task::Reason &reason);
+    /// Why objects are missing, by UID.
+    std::map<std::string, task::Reason> reasons() const;
+    /// Gives the objects that are still missing the reasons that they had before.
+    void restoreReasons(const std::map<std::string, task::Reason> &before);
+    /// The reason of all that is missing.
+    void refuseMissing(const task::Reason &reason);
     /// The rest is not asked for.
     void refuseAll(const Batch &batch, const task::Reason &reason);
     void offersNoGet();
@@ -82,6 +102,8 @@ public:
 
 private:
     void fillQueue(const std::vector<Instance> &instances);
+    bool isEnough(std::size_t connections) const;
+    bool noteCorrections(const StoredObject &object);
     void compare(const StoredObject &object);
     bool takeUnlisted(const StoredObject &object);
 
@@ -89,20 +111,30 @@ private:
     const RetrievalObserver &m_observer;
     const std::size_t m_connections;
     const Patient m_patient; ///< as the server lists it
-    Patient m_named;         ///< by the first object of another patient
+    const std::string m_studyDate;
+    Patient m_named; ///< by the first object of another patient
+    std::vector<Correction> m_corrections;
+    std::size_t m_corrected = 0;
     mutable std::mutex m_mutex;
     std::condition_variable m_received;
     std::map<std::string, Instance> m_missing;
     std::vector<ShortSeries> m_short; ///< and what is still missing of it
-    std::set<std::string> m_known;    ///< listed, or here without having been listed
-    std::set<std::string> m_whole;    ///< series of them that came as a whole; "": the study
-    std::optional<task::Reason> m_whyUnlisted;
+    const Existing m_existing;
+    std::set<std::string> m_known; ///< listed, or here without having been listed
+    std::set<std::string> m_whole; ///< series of them that came as a whole; "": the study
+    std::optional<task::Reason> m_whyUnlisted, m_whyGivenUp;
     std::map<std::string, task::Reason> m_reasons;
     std::deque<Batch> m_queue;
     RetrievalState m_state;
     std::size_t m_unwanted = 0, m_ofAnotherPatient = 0;
     std::map<std::string, std::size_t> m_receivedBefore; ///< by access token
+    double m_waited = 0.0, m_receiving = 0.0;            ///< of all connections, in seconds
     bool m_offersNoGet = false;
+    /// Of objects one at a time: whether the server has refused a list, is asked like this, and has
+    /// sent one.
+    bool m_hasRefusedLists = false, m_asksOneByOne = false, m_hasSentOne = false;
+    bool m_asksWholeSeries = false;     ///< because it refuses them, too
+    std::set<std::string> m_askedWhole; ///< series, for this reason
     std::exception_ptr m_failure;
 };
 

@@ -49,7 +49,8 @@ std::filesystem::path libraryObjectFolder() {
 
 RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &server,
                             const RetrievalObserver &observer, const task::Progress &progress,
-                            const MoveDestination &destination, const Patient &listed) {
+                            const MoveDestination &destination, const Patient &listed,
+                            Existing existing) {
     std::optional<Transfer> transfer = log.transfer(id);
     if (!transfer || !log.claim(id))
         throw task::Error(task::ErrorCode::usage, because::transferIsRunning);
@@ -92,6 +93,7 @@ RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &ser
     const std::stop_callback forwarded(progress.stopToken(), [&] { stop.request_stop(); });
     try {
         transfer->wanted.patient = listed;
+        transfer->wanted.existing = existing;
         RetrievalReport report =
             retrieve(server, transfer->wanted,
                      ObjectFolder(transfer->folder, ObjectFolder::Keeps::inMemoryOfTheSystem),

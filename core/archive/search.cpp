@@ -5,6 +5,8 @@
 #include <cctype>
 #include <chrono>
 #include <exception>
+#include <fnmatch.h>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -80,18 +82,6 @@ void requireTermsOfTheLevel(const SearchTerms &terms) {
                         because::termDoesNotApply(term.option, nameOf(terms.level)));
 }
 
-std::uint32_t uidOf(Level level) {
-    switch (level) {
-    case Level::study:
-        return tag::studyUid;
-    case Level::series:
-        return tag::seriesUid;
-    case Level::image:
-        return tag::sopInstanceUid;
-    }
-    return tag::studyUid;
-}
-
 // Folds the answers of all servers.
 class Fold {
 public:
@@ -99,7 +89,7 @@ public:
 
     void add(const std::string &server, exchange::Attributes attributes) {
         const std::lock_guard lock(m_mutex);
-        const std::string uid = attributes[uidOf(m_level)];
+        const std::string uid = attributes[exchange::uidOf(m_level)];
         if (!exchange::isUid(uid)) {
             ++m_withoutUid[server];
             return;
@@ -144,6 +134,44 @@ std::vector<std::string> modalitiesIn(const std::string &text) {
     return modalities;
 }
 
+// Letters without cases, accents and variants, which no server folds: ideographs and syllables of
+// Hangul.
+bool isUnfolded(char32_t code) {
+    return (code >= 0x3400 && code <= 0x9fff) || (code >= 0xac00 && code <= 0xd7a3) ||
+           code >= 0x20000;
+}
+
+// *Returns* a pattern for such letters of a term, in their order; empty: none.
+std::string patternOf(const std::string &term) {
+    std::string pattern;
+    for (std::size_t at = 0; at < term.size();) {
+        const system::CodePoint point = system::codePointAt(term, at);
+        if (isUnfolded(point.code))
+            pattern += "*" + term.substr(at, point.bytes);
+        at += std::max<std::size_t>(1, point.bytes);
+    }
+    return pattern.empty() ? pattern : pattern + "*";
+}
+
+bool hasOthersThanAscii(const std::string &text) {
+    return std::any_of(text.begin(), text.end(), [](char c) { return (unsigned char)(c) >= 0x80; });
+}
+
+// Some servers ignore letters beyond ASCII, and list whatever has the others. One that returns a
+// name in Latin letters only is believed.
+bool isAnswer(const SearchTerms &terms, const exchange::Attributes &match) {
+    const std::pair<const std::string &, std::uint32_t> all[]{
+        {terms.patientName, tag::patientName},
+        {terms.patientId, tag::patientId},
+        {terms.accession, tag::accessionNumber}};
+    return std::all_of(std::begin(all), std::end(all), [&](const auto &term) {
+        const std::string pattern = patternOf(term.first);
+        const auto found = match.find(term.second);
+        return pattern.empty() || found == match.end() || !hasOthersThanAscii(found->second) ||
+               ::fnmatch(pattern.c_str(), found->second.c_str(), FNM_NOESCAPE) == 0;
+    });
+}
+
 void searchAt(const Server &server, const SearchTerms &terms, Fold &fold,
               const task::Progress &progress) {
     const auto begin = std::chrono::steady_clock::now();
@@ -151,14 +179,17 @@ void searchAt(const Server &server, const SearchTerms &terms, Fold &fold,
     outcome.server = server.name;
     try {
         const auto find = [&](const exchange::Peer &peer) {
-            exchange::Link link(exchange::Connection{peer, exchange::Purpose::find}, progress);
             // Servers match one modality at a time.
             for (const std::string &modality : modalitiesIn(terms.modality)) {
+                exchange::Link link(exchange::Connection{peer, exchange::Purpose::find}, progress);
                 SearchTerms one = terms;
                 one.modality = modality;
                 const exchange::QueryEnd end = link.find(
                     queryOf(one, server.limit),
-                    [&](exchange::Attributes match) { fold.add(server.name, std::move(match)); },
+                    [&](exchange::Attributes match) {
+                        if (isAnswer(terms, match))
+                            fold.add(server.name, std::move(match));
+                    },
                     progress);
                 outcome.reachedLimit = outcome.reachedLimit || end.reachedLimit;
                 outcome.mayBeIncomplete = outcome.mayBeIncomplete || end.mayBeIncomplete;

@@ -72,6 +72,8 @@ std::vector<Outgoing> describe(const std::vector<fs::path> &files, const std::se
                 report.leftOut.push_back({path, because::hasNoValidUids});
                 continue;
             }
+            if (!list.isComplete && list.attributes.size() < decoder::maxAttributes)
+                throw Error(ErrorCode::unusable, because::isTruncated, path);
             if (!exchange::isUid(encoding.sopClassUid) || !exchange::isUid(encoding.transferSyntax))
                 throw Error(ErrorCode::unusable, because::hasNoValidUids, path);
             outgoing.push_back({path, encoding});
@@ -95,8 +97,9 @@ public:
         std::optional<exchange::Link> link;
         std::string token, refusedToken;
         bool mayRenew = true;
-        int failures = 0;
+        int failures = 0, filesLost = 0; // in a row
         for (std::size_t n = 0; n < files.size();) {
+            bool isConnected = false;
             try {
                 if (!link) {
                     const exchange::Peer peer = authenticated(m_server, m_progress, refusedToken);
@@ -105,8 +108,9 @@ public:
                         exchange::Connection{peer, exchange::Purpose::store, {}, {}, encodings},
                         m_progress);
                 }
+                isConnected = true;
                 store(*link, files[n]);
-                failures = 0;
+                failures = filesLost = 0;
                 mayRenew = true;
                 ++n;
             } catch (const Error &error) {
@@ -120,6 +124,12 @@ public:
                     link.reset();
                     if (!hasExpired && ++failures < maxFailures)
                         continue; // the same file again
+                    // A server that hangs up on a file may take the next.
+                    if (isConnected && ++filesLost < maxFailures) {
+                        m_report.notSent.push_back({files[n++].path, error.reason()});
+                        failures = 0;
+                        continue;
+                    }
                     if (m_report.state.sent == 0)
                         throw;
                     for (; n < files.size(); ++n)
@@ -140,20 +150,20 @@ private:
         if (::fstat(file.get(), &about) != 0)
             throw Error(ErrorCode::unusable, task::systemReason(errno), path);
         try {
-            storeFile(link, file.get(), std::uint64_t(about.st_size));
+            storeFile(link, path, file.get(), std::uint64_t(about.st_size));
         } catch (const Error &error) {
             if (!error.reason().is(because::serverDoesNotTakeTheEncoding))
                 throw;
-            if (m_server.mayUncompress)
-                storeUncompressed(link, path);
-            else if (isPlain(outgoing.encoding))
-                throw;
+            // From explicit to implicit VR and back, nothing is lost.
+            if (m_server.mayUncompress || isPlain(outgoing.encoding))
+                storeUncompressed(link, outgoing);
             else
                 throw Error(error.code(), because::mayBeUncompressed(error.reason()), error.path());
         }
     }
     // In the encoding that every DICOM server has to accept, if not in the better one.
-    void storeUncompressed(exchange::Link &link, const fs::path &path) {
+    void storeUncompressed(exchange::Link &link, const Outgoing &outgoing) {
+        const fs::path &path = outgoing.path;
         for (const bool isExplicit : {true, false}) {
             const auto plain =
                 decoder::Decoder::shared().uncompressed(path, isExplicit, m_progress);
@@ -161,8 +171,8 @@ private:
             files::AtomicFile file(m_folder.path() / "uncompressed.dcm");
             file.write(plain.bytes);
             try {
-                storeFile(link, file.descriptor(), plain.bytes.size());
-                ++m_report.uncompressed;
+                storeFile(link, path, file.descriptor(), plain.bytes.size());
+                m_report.uncompressed += isPlain(outgoing.encoding) ? 0 : 1;
                 return;
             } catch (const Error &error) {
                 if (!isExplicit || !error.reason().is(because::serverDoesNotTakeTheEncoding))
@@ -170,8 +180,10 @@ private:
             }
         }
     }
-    void storeFile(exchange::Link &link, int file, std::uint64_t bytes) {
-        link.store(file, bytes, m_progress);
+    // `path`: of the file that the user sends.
+    void storeFile(exchange::Link &link, const fs::path &path, int file, std::uint64_t bytes) {
+        if (const auto change = link.store(file, bytes, m_progress))
+            m_report.withChanges.push_back({path, *change});
         ++m_report.state.sent;
         m_report.state.bytes += bytes;
         m_progress.report(double(m_report.state.sent) / double(m_report.state.files));

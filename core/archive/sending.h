@@ -22,6 +22,8 @@ struct SendingReport {
     double seconds = 0.0;
     std::size_t uncompressed = 0;        ///< of those sent, see Server::mayUncompress
     std::vector<dicom::Skipped> notSent; ///< each with its reason
+    /// Sent, but the server has changed or left out something of them.
+    std::vector<dicom::Skipped> withChanges;
     /// Files of other kinds in folders and archives, such as texts.
     std::vector<dicom::Skipped> leftOut;
 };

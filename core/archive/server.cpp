@@ -2,6 +2,7 @@
 #include "core/archive/server.h"
 
 #include <algorithm>
+#include <arpa/inet.h>
 #include <charconv>
 #include <fstream>
 
@@ -24,6 +25,26 @@ int portIn(const std::string &text) {
     if (error != std::errc() || end != text.data() + text.size() || port < 1 || port > 65535)
         fail(because::isNoPort(text));
     return port;
+}
+
+// "pacs", "pacs:104", "[2001:db8::7]:104" (RFC 3986, 3.2.2). Without a port, that of the peer
+// stays.
+void takeHostAndPort(exchange::Peer &peer, const std::string &text) {
+    const auto bracket = text.starts_with('[') ? text.find(']') : std::string::npos;
+    const auto colon = text.find(':', bracket == std::string::npos ? 0 : bracket);
+    if (bracket != std::string::npos && std::min(colon, text.size()) != bracket + 1)
+        fail(because::isNoHost(text));
+    if (colon != std::string::npos)
+        peer.port = portIn(text.substr(colon + 1));
+    peer.host = bracket == std::string::npos ? text.substr(0, colon) : text.substr(1, bracket - 1);
+}
+
+// A name, or an address; only one of IPv6 contains colons.
+bool isHost(const std::string &text) {
+    in6_addr address{};
+    return !text.empty() && text.find_first_of(" /@?#[]\"\\") == std::string::npos &&
+           (text.find(':') == std::string::npos ||
+            ::inet_pton(AF_INET6, text.c_str(), &address) == 1);
 }
 
 void requireValidLogin(const Server &server) {
@@ -58,14 +79,10 @@ exchange::Peer dicomPeer(const std::string &address) {
         fail(because::isNoDicomAddress(address));
     exchange::Peer peer;
     peer.calledAe = address.substr(0, at);
-    peer.host = address.substr(at + 1);
     peer.port = defaultDicomPort;
-    if (const auto colon = peer.host.rfind(':'); colon != std::string::npos) {
-        peer.port = portIn(peer.host.substr(colon + 1));
-        peer.host.resize(colon);
-    }
+    takeHostAndPort(peer, address.substr(at + 1));
     requireAeTitle(peer.calledAe);
-    if (peer.host.empty() || peer.host.find_first_of(" /:") != std::string::npos)
+    if (!isHost(peer.host))
         fail(because::isNoDicomAddress(address));
     return peer;
 }
@@ -86,17 +103,12 @@ exchange::Peer webPeer(const std::string &url) {
         fail(because::isNoWebAddress(url));
     }
     const auto slash = rest.find('/');
-    peer.host = rest.substr(0, slash);
     peer.path = slash == std::string::npos ? "" : rest.substr(slash);
     while (!peer.path.empty() && peer.path.back() == '/')
         peer.path.pop_back();
-    if (const auto colon = peer.host.rfind(':'); colon != std::string::npos) {
-        peer.port = portIn(peer.host.substr(colon + 1));
-        peer.host.resize(colon);
-    }
+    takeHostAndPort(peer, rest.substr(0, slash));
     // A name and a password in the address would end in logs and files.
-    if (peer.host.empty() || peer.host.find_first_of(" @:?#") != std::string::npos ||
-        peer.path.find_first_of(" ?#") != std::string::npos)
+    if (!isHost(peer.host) || peer.path.find_first_of(" ?#") != std::string::npos)
         fail(because::isNoWebAddress(url));
     return peer;
 }
@@ -120,11 +132,18 @@ exchange::Peer loginPeer(const std::string &url) {
     return peer;
 }
 
+std::vector<std::string> hostsOf(const Server &server) {
+    std::vector<std::string> hosts{server.peer.host};
+    hosts.insert(hosts.end(), server.sendsFrom.begin(), server.sendsFrom.end());
+    return hosts;
+}
+
 std::string addressOf(const exchange::Peer &peer) {
     if (peer.protocol == exchange::Protocol::dicom)
-        return peer.calledAe + "@" + peer.host + ":" + std::to_string(peer.port);
+        return peer.calledAe + "@" + exchange::hostPart(peer.host) + ":" +
+               std::to_string(peer.port);
     const int usual = peer.usesTls ? 443 : 80;
-    return (peer.usesTls ? "https://" : "http://") + peer.host +
+    return (peer.usesTls ? "https://" : "http://") + exchange::hostPart(peer.host) +
            (peer.port == usual ? "" : ":" + std::to_string(peer.port)) + peer.path;
 }
 
@@ -145,6 +164,9 @@ void requireValid(const Server &server) {
     if (server.peer.protocol == exchange::Protocol::dicom)
         requireAeTitle(server.peer.calledAe);
     requireAeTitle(server.peer.callingAe);
+    for (const std::string &host : server.sendsFrom)
+        if (!isHost(host))
+            fail(because::isNoHost(host));
     if (server.connections < 1 || server.connections > maxConnections)
         fail(because::connectionsAreOutOfRange(maxConnections));
     if (server.limit > maxAnswers)

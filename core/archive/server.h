@@ -33,7 +33,9 @@ struct Server {
     std::string name;
     exchange::Peer peer;
     RetrieveMethod retrieve = RetrieveMethod::automatic;
-    int connections = 4;       ///< at once, 1 to 8
+    /// Other hosts from which it sends what C-MOVE asks for, such as the nodes of a cluster.
+    std::vector<std::string> sendsFrom{};
+    int connections = 4;       ///< at once, 1 to 8: the most; see RetrievalWork::awaitNeed
     std::uint32_t limit = 200; ///< of answers to a search
     /// Whether compressed files are sent uncompressed if the server does not accept their encoding.
     bool mayUncompress = false;
@@ -48,13 +50,15 @@ inline constexpr int maxConnections = 8;
 inline constexpr std::uint32_t maxAnswers = exchange::maxMatches;
 inline constexpr int defaultDicomPort = 104, defaultListenerPort = 11112;
 
-/// AET@HOST:PORT, the port being optional. *Throws* Error{usage}.
+/// AET@HOST:PORT, the port being optional; an IPv6 address in brackets. *Throws* Error{usage}.
 exchange::Peer dicomPeer(const std::string &address);
 /// http://HOST:PORT/PATH or https://... *Throws* Error{usage}.
 exchange::Peer webPeer(const std::string &url);
 /// The peer at the URL of a login server. Its path contains the query. Only https, except at this
 /// computer. *Throws* Error{usage}.
 exchange::Peer loginPeer(const std::string &url);
+/// The hosts from which a server may send.
+std::vector<std::string> hostsOf(const Server &server);
 /// The address as the user entered it.
 std::string addressOf(const exchange::Peer &peer);
 /// *Throws* Error{usage} if it is not an AE title.

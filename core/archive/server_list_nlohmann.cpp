@@ -53,6 +53,8 @@ Json toJson(const Server &server) {
         json["retrieve"] = files::wordFor(server.retrieve, methods);
         json["tls"] = peer.usesTls;
     }
+    if (!server.sendsFrom.empty())
+        json["sends_from"] = server.sendsFrom;
     if (!peer.authorities.empty())
         json["authorities"] = peer.authorities;
     if (!peer.certificate.empty()) {
@@ -92,6 +94,9 @@ Server fromJson(const JsonValue &json) {
     peer.callingAe = textOr(json["calling_ae"], peer.callingAe);
     if (json["retrieve"])
         server.retrieve = json["retrieve"].meaning(methods);
+    if (json["sends_from"])
+        for (const JsonValue &host : json["sends_from"].elements())
+            server.sendsFrom.push_back(host.text());
     if (json["tls"])
         peer.usesTls = json["tls"].boolean();
     if (json["connections"])

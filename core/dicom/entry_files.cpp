@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "core/dicom/group_series.h"
+#include "core/dicom/copies.h"
 
 namespace pellucid::dicom {
 

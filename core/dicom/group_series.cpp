@@ -6,13 +6,16 @@
 #include <functional>
 #include <iterator>
 #include <map>
-#include <set>
+#include <string>
 #include <tuple>
+#include <utility>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/dicom/copies.h"
+#include "core/dicom/split_overlapping.h"
 #include "core/dicom/split_repeats.h"
+#include "core/dicom/volume_entries.h"
 
 namespace pellucid::dicom {
 
@@ -38,65 +41,6 @@ bool sameBlock(const PlacedFrame &a, const PlacedFrame &b) {
            isLocalizer(x) == isLocalizer(y) && a.statesValues == b.statesValues &&
            sameSpacing(*x.spacingMm, *y.spacingMm) && sameAxis(*x.rowAxis, *y.rowAxis) &&
            sameAxis(*x.columnAxis, *y.columnAxis);
-}
-
-std::size_t digestOf(const PlacedFrame &frame) {
-    return dicom::digestOf(frame.sopInstanceUid, frame.frameOfReferenceUid, frame.modality,
-                           frame.header);
-}
-
-// Drops second copies of an instance, as when a CD is copied into a folder that contains it
-// already. Some tools write one UID into all images of a series, or into an Enhanced file and the
-// slices extracted from it: those are different images, and are kept.
-void dropCopies(Frames &frames, std::vector<Skipped> &skipped) {
-    using Instance = std::pair<std::string, int>;
-    using Image = std::tuple<int, int, int, int, std::size_t>;
-    std::map<Instance, std::map<Image, std::filesystem::path>> seen;
-    std::set<std::filesystem::path> reported;
-    std::erase_if(frames, [&](const PlacedFrame &frame) {
-        if (frame.sopInstanceUid.empty())
-            return false;
-        const Image image(frame.framesOfFile, frame.rows, frame.columns, frame.instanceNumber,
-                          digestOf(frame));
-        const auto [it, isNew] = seen[{frame.sopInstanceUid, frame.reference.frame}].try_emplace(
-            image, frame.reference.path);
-        if (isNew)
-            return false;
-        if (reported.insert(frame.reference.path).second)
-            skipped.push_back(
-                {frame.reference.path, because::hasInstanceUidOf(it->second.filename().string())});
-        return true;
-    });
-    for (PlacedFrame &frame : frames)
-        if (!frame.sopInstanceUid.empty())
-            frame.sharesUid = seen[{frame.sopInstanceUid, frame.reference.frame}].size() > 1;
-}
-
-VolumeEntry entryFrom(const Part &part) {
-    VolumeEntry entry;
-    entry.label = part.label;
-    entry.notes.warnings = part.warnings;
-    for (const PlacedFrame &frame : part.frames) {
-        entry.frames.push_back(frame.reference);
-        entry.frames.back().digest = digestOf(frame);
-    }
-    const auto shared = std::count_if(part.frames.begin(), part.frames.end(),
-                                      [](const PlacedFrame &frame) { return frame.sharesUid; });
-    if (shared > 0)
-        entry.notes.warnings.push_back(because::sameInstanceUid(shared));
-    return entry;
-}
-
-// Makes an entry of images without a common geometry: slices 1 mm apart, shown one by one.
-void makeImages(VolumeEntry &entry, const Frames &frames, const task::Reason &reason) {
-    entry.placed = false;
-    entry.notPlacedReason = reason;
-    const glm::dvec2 spacing = frames.front().header.spacingMm.value_or(glm::dvec2(1.0));
-    entry.notes.hasSpacing = frames.front().header.spacingMm.has_value();
-    entry.geometry = {
-        volume::Lattice::centred({frames.front().columns, frames.front().rows, int(frames.size())},
-                                 {spacing.x, spacing.y, 1.0}),
-        {}};
 }
 
 // Groups frames that belong together. Each frame is compared only with blocks of about the same row
@@ -146,66 +90,6 @@ std::vector<Frames> spacesOf(Frames block, std::vector<task::Reason> &warnings) 
         return spaces;
     warnings.emplace_back(because::framesOfReferenceDiffer);
     return {std::move(block)};
-}
-
-VolumeEntry volumeOf(const Part &part, Slices slices = Slices::all) {
-    VolumeEntry entry = entryFrom(part);
-    StackResult stack = stackGeometry(part.frames, slices);
-    if (stack.refusal)
-        makeImages(entry, part.frames, *stack.refusal);
-    else
-        entry.geometry = std::move(stack.geometry);
-    entry.notes.filled = std::move(stack.filled);
-    entry.notes.warnings.insert(entry.notes.warnings.end(), stack.warnings.begin(),
-                                stack.warnings.end());
-    return entry;
-}
-
-// The volume of the frames [first, end) of a part, a run beside a break.
-VolumeEntry runOf(const Part &part, std::size_t first, std::size_t end, const Break &at) {
-    const bool isOne = end - first == 1;
-    Part run{
-        part.label,
-        {part.frames.begin() + std::ptrdiff_t(first), part.frames.begin() + std::ptrdiff_t(end)},
-        part.warnings};
-    run.label.push_back(isOne ? because::slice(end) : because::slicesTo(first + 1, end));
-    VolumeEntry entry = volumeOf(run);
-    const std::string a = part.frames[at.at - 1].reference.path.filename().string(),
-                      b = part.frames[at.at].reference.path.filename().string();
-    const std::string gap = fmt::format("{:.1f}", at.gapMm);
-    const std::size_t all = part.frames.size();
-    entry.notes.warnings.push_back(
-        at.shiftMm > 0.0 ? because::shiftBesideSlices(first + 1, end, all,
-                                                      fmt::format("{:.1f}", at.shiftMm), a, b)
-        : isOne          ? because::gapAroundSlice(end, all, gap, a, b)
-                         : because::gapAroundSlices(first + 1, end, all, gap, a, b));
-    return entry;
-}
-
-// The volumes of a part: its stack; or, if slices are missing or the field of view shifts, the runs
-// between; and in the first case the whole stack with its holes filled.
-std::vector<VolumeEntry> volumesOf(const Part &part, Slices slices) {
-    if (slices == Slices::arriving)
-        return {volumeOf(part, slices)};
-    const std::vector<Break> breaks = breaksOf(part.frames);
-    if (breaks.empty())
-        return {volumeOf(part)};
-    std::vector<VolumeEntry> volumes;
-    std::size_t first = 0;
-    for (std::size_t n = 0; n <= breaks.size(); ++n) {
-        const bool isLast = n == breaks.size();
-        const std::size_t end = isLast ? part.frames.size() : breaks[n].at;
-        volumes.push_back(runOf(part, first, end, breaks[isLast ? n - 1 : n]));
-        first = end;
-    }
-    // Not if more slices would be interpolated than were scanned.
-    VolumeEntry whole = volumeOf(part);
-    if (!whole.placed || whole.geometry.lattice.size().k > 2 * int(part.frames.size()))
-        return volumes;
-    whole.fillsHoles = true;
-    whole.label.emplace_back(because::gapsFilled);
-    volumes.push_back(std::move(whole));
-    return volumes;
 }
 
 // The name of a stack, and the name of one of several of that direction.
@@ -282,9 +166,7 @@ void addImages(Frames frames, const task::Reason &reason, Stacks &stacks) {
         return std::tuple(a.instanceNumber, a.reference.frame) <
                std::tuple(b.instanceNumber, b.reference.frame);
     });
-    VolumeEntry entry = entryFrom({{}, frames, {}});
-    makeImages(entry, frames, reason);
-    stacks.emplace_back().push_back(std::move(entry));
+    stacks.emplace_back().push_back(imagesOf({{}, std::move(frames), {}}, reason));
 }
 
 // Whether the parts are packages of one stack, such as its odd and its even slices: together they
@@ -365,21 +247,6 @@ bool isLocalizer(const FrameHeader &frame) {
 
 bool statesValues(const InstanceHeader &header, int frame) {
     return header.frames.at(std::size_t(frame)).rescale.isStated || !header.modalityTable.empty();
-}
-
-std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frameOfReferenceUid,
-                     const std::string &modality, const FrameHeader &frame) {
-    std::string all = sopInstanceUid + '\n' + frameOfReferenceUid + '\n' + modality;
-    const auto add = [&](const auto &values) {
-        all += values ? '+' : '-';
-        if (values)
-            all.append(reinterpret_cast<const char *>(&*values), sizeof(*values));
-    };
-    add(frame.positionMm);
-    add(frame.rowAxis);
-    add(frame.columnAxis);
-    add(frame.spacingMm);
-    return std::hash<std::string>()(all);
 }
 
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,

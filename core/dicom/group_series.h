@@ -33,11 +33,4 @@ bool isLocalizer(const FrameHeader &frame);
 /// Whether a file says what the samples of a frame mean, by a rescale or a table.
 bool statesValues(const InstanceHeader &header, int frame);
 
-/// A digest of the frame's instance, place and modality, kept in memory only: frames with different
-/// digests are different images, whatever the names of their files. It prevents mix-ups, not
-/// forgery. The standard library's hash is sufficient: it reads some 200 bytes, where the scan has
-/// just read and parsed a file.
-std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frameOfReferenceUid,
-                     const std::string &modality, const FrameHeader &frame);
-
 } // namespace pellucid::dicom

@@ -51,11 +51,6 @@ Plane meanPlane(const std::vector<PlacedFrame> &frames) {
     return plane;
 }
 
-// How far a frame may be from the line through the stack.
-double lineToleranceMm(const Plane &plane) {
-    return std::max(0.15, 0.1 * std::min(plane.spacingMm.x, plane.spacingMm.y));
-}
-
 std::vector<task::Reason> jitterWarnings(const std::vector<PlacedFrame> &frames,
                                          const Plane &plane) {
     double axes = 0.0;
@@ -191,7 +186,7 @@ private:
         if (!std::isfinite(total) || !(total > 0.0))
             return because::slicesAtOnePosition;
         m_axis = axisThrough(m_frames, m_depths);
-        const double tolerance = lineToleranceMm(m_plane);
+        const double tolerance = lineToleranceMm(m_plane.spacingMm);
         double worst = 0.0;
         const PlacedFrame *outlier = nullptr;
         for (std::size_t n = 0; n < m_frames.size(); ++n) {
@@ -286,7 +281,7 @@ std::vector<Break> shiftsOf(const std::vector<PlacedFrame> &frames,
     for (std::size_t n = 0; n < gaps.size(); ++n)
         // Both frames may be off the line by its tolerance.
         if (const double shift = glm::length(steps[n] - tilt * gaps[n]);
-            shift > 2.0 * lineToleranceMm(plane))
+            shift > 2.0 * lineToleranceMm(plane.spacingMm))
             shifts.push_back({n + 1, gaps[n], shift});
     std::size_t first = 0;
     for (std::size_t n = 0; n <= shifts.size(); ++n) {
@@ -302,10 +297,21 @@ std::vector<Break> shiftsOf(const std::vector<PlacedFrame> &frames,
 
 } // namespace
 
+double lineToleranceMm(const glm::dvec2 &spacingMm) {
+    return std::max(0.15, 0.1 * std::min(spacingMm.x, spacingMm.y));
+}
+
+bool sameDepth(const PlacedFrame &a, const PlacedFrame &b) {
+    return std::abs(a.depthMm - b.depthMm) < 0.01;
+}
+
 void sortByDepth(std::vector<PlacedFrame> &frames) {
-    const glm::dvec3 normal = meanPlane(frames).normal;
-    for (PlacedFrame &frame : frames)
-        frame.depthMm = glm::dot(normal, *frame.header.positionMm);
+    const Plane plane = meanPlane(frames);
+    for (PlacedFrame &frame : frames) {
+        const glm::dvec3 &at = *frame.header.positionMm;
+        frame.depthMm = glm::dot(plane.normal, at);
+        frame.placeMm = {glm::dot(plane.row, at), glm::dot(plane.column, at)};
+    }
     std::stable_sort(frames.begin(), frames.end(), [](const PlacedFrame &a, const PlacedFrame &b) {
         return a.depthMm < b.depthMm;
     });

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "core/decoder/instance.h"
 #include "core/dicom/catalogue.h"
 
@@ -30,6 +32,8 @@ struct PlacedFrame {
     /// Position along the mean normal of its block, mm. The block has one normal, because axes that
     /// differ in their last digit would move a distant image by many times the slice tolerance.
     double depthMm = 0.0;
+    /// Position along the mean row and column axes of its block, mm.
+    glm::dvec2 placeMm{0.0};
 };
 
 struct StackResult {
@@ -45,8 +49,14 @@ struct StackResult {
 /// warning if an axis deviates from the mean by `jitterToReport`, or two spacings differ by it.
 inline constexpr double largestJitter = 3e-3, jitterToReport = 1e-3;
 
-/// Sets the depths along the frames' mean normal and sorts by them. Every frame needs a position
-/// and an orientation.
+/// How far a frame may be from the line through the positions of its stack, mm: a part of a pixel.
+double lineToleranceMm(const glm::dvec2 &spacingMm);
+
+/// Whether two frames of a block have the same position along the normal.
+bool sameDepth(const PlacedFrame &a, const PlacedFrame &b);
+
+/// Sets the depths and places along the frames' mean axes and sorts by depth. Every frame needs a
+/// position and an orientation.
 void sortByDepth(std::vector<PlacedFrame> &frames);
 
 /// Where a stack ends and another begins, between frames `at - 1` and `at`.

@@ -105,9 +105,16 @@ QueryEnd Link::find(const Query &query, const std::function<void(Attributes)> &m
     m_isAtWork = true;
     // Also if the helper does not keep to the limit.
     const std::uint32_t limit = query.limit == 0 ? maxMatches : std::min(query.limit, maxMatches);
+    const std::uint32_t uidTag = uidOf(query.level);
     std::uint32_t count = 0;
-    std::size_t room = maxMatchesBytes;
+    std::size_t room = maxMatchesBytes, came = 0;
+    std::set<std::string> known;
     const auto counted = [&](Attributes attributes) {
+        ++came;
+        ++m_answers;
+        // After a connection was closed, servers without offsets begin again.
+        if (const std::string uid = attributes[uidTag]; !uid.empty() && !known.insert(uid).second)
+            return;
         std::size_t bytes = 0;
         for (const auto &[tag, value] : attributes)
             bytes += sizeof tag + value.size();
@@ -116,12 +123,18 @@ QueryEnd Link::find(const Query &query, const std::function<void(Attributes)> &m
             throw Error(ErrorCode::unusable, because::serverListsTooMuch(count));
         }
         ++count;
-        ++m_answers;
         room -= bytes;
         match(std::move(attributes));
     };
     QueryEnd end;
+    std::optional<std::uint32_t> before;
     request(progress, [&] {
+        if (before == count && came > 0) { // the same page again
+            end.mayBeIncomplete = came == matchesOfPage;
+            return;
+        }
+        before = count;
+        came = 0;
         Query rest = query;
         rest.skip = count;
         send({Kind::find, 0, 0, pack(rest)});
@@ -150,12 +163,15 @@ RetrievalEnd Link::retrieve(const Retrieval &retrieval, Receiver &receiver,
     return end;
 }
 
-void Link::store(int file, std::uint64_t bytes, const task::Progress &progress) {
+std::optional<task::Reason> Link::store(int file, std::uint64_t bytes,
+                                        const task::Progress &progress) {
     m_isAtWork = true;
+    std::string remark;
     request(progress, [&] {
         send({Kind::store, 0, bytes, {}}, file);
-        converse(progress, nullptr, {}, {}, Kind::done);
+        remark = converse(progress, nullptr, {}, {}, Kind::done).body;
     });
+    return remark.empty() ? std::nullopt : std::optional(unpackReason(remark));
 }
 
 Endpoints Link::discover(const task::Progress &progress) {
@@ -196,7 +212,7 @@ Message Link::converse(const task::Progress &progress, Receiver *receiver,
             return message;
         switch (message.kind) {
         case Kind::step:
-            if (observe && message.code >= 0 && message.code <= std::int32_t(Step::service)) {
+            if (observe && message.code >= 0 && message.code <= std::int32_t(Step::refused)) {
                 std::string found = message.body.substr(0, 200);
                 helper::makeOneLine(found);
                 observe(Step(message.code), found);

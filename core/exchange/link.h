@@ -52,8 +52,10 @@ public:
                   const task::Progress &progress = {});
     RetrievalEnd retrieve(const Retrieval &retrieval, Receiver &receiver,
                           const task::Progress &progress = {});
-    /// Sends an object from an open file of this size.
-    void store(int file, std::uint64_t bytes, const task::Progress &progress = {});
+    /// Sends an object from an open file of this size. *Returns* how the server changed the
+    /// object; nothing if it stored it unchanged.
+    std::optional<task::Reason> store(int file, std::uint64_t bytes,
+                                      const task::Progress &progress = {});
     /// Reads the description of a login server at the path of the peer (OpenID Connect Discovery
     /// 1.0, 4). *Requires*: Purpose::login.
     Endpoints discover(const task::Progress &progress = {});

@@ -26,7 +26,7 @@ struct Message {
         find,     ///< body: Query
         retrieve, ///< body: Retrieval
         uids,     ///< body: more instances of the next `retrieve`
-        store,    ///< body: Encoding and instance, with the open file; `number`: its size
+        store,    ///< with the open file; `number`: its size
         file,     ///< the answer to `arrival`: the open file to write to
         kept,     ///< the answer to `received`
         refused,  ///< the answer to either; `code`: the status for the sender
@@ -41,9 +41,10 @@ struct Message {
         arrival,     ///< body: Arrival; waits for `file`
         received,    ///< `number`: bytes of the file
         progress,    ///< work goes on; `number`: bytes received so far of the current object, or 0
-        done,   ///< the end of a request. body: QueryEnd, RetrievalEnd, Endpoints, Tokens or none
-        failed, ///< body: Reason; `code`: a Failure
-        code,   ///< body: the authorization code of a login; waits for `kept` or `refused`
+        done,        ///< the end of a request. body: QueryEnd, RetrievalEnd, Endpoints, Tokens, of
+                     ///< `store` a Reason if the server has changed the object, or none
+        failed,      ///< body: Reason; `code`: a Failure
+        code,        ///< body: the authorization code of a login; waits for `kept` or `refused`
     };
     Kind kind = Kind::ready;
     std::int32_t code = 0;
@@ -51,8 +52,9 @@ struct Message {
     std::string body;
 };
 
-/// The steps of connecting, in order.
-enum class Step : std::int32_t { name, tcp, tls, association, service };
+/// The steps of connecting, in order; `refused`: kinds of objects that a client proposes and this
+/// program does not take.
+enum class Step : std::int32_t { name, tcp, tls, association, service, refused };
 
 /// How a request failed.
 enum class Failure : std::int32_t {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/socket.h>
+
 namespace pellucid::exchange {
 
 enum class Protocol { dicom, web };
@@ -39,7 +41,14 @@ bool hasInsecureLogin(const Peer &peer);
 /// *Throws* Error{usage} in this case.
 void requireSecureLogin(const Peer &peer);
 
-/// The IPv4 addresses of a host, as the system's name service tells them; empty if it knows none.
+/// A host as it stands in a URL before its port: an IPv6 address in brackets (RFC 3986, 3.2.2).
+std::string hostPart(const std::string &host);
+
+/// An address as text, IPv4 or IPv6; one of IPv4 that is mapped into IPv6 (RFC 4291, 2.5.5.2) as
+/// the former.
+std::string textOf(const sockaddr_storage &address);
+
+/// The addresses of a host, as the system's name service tells them; empty if it knows none.
 std::vector<std::string> addressesOf(const std::string &host);
 
 /// A kind of object, and one way to encode it (transfer syntax).

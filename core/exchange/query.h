@@ -35,6 +35,9 @@ inline constexpr std::uint32_t sopClassUid = 0x00080016, sopInstanceUid = 0x0008
 /// Each answer is kept in memory.
 inline constexpr std::uint32_t maxMatches = 1000000;
 
+/// The most matches in one answer of a DICOMweb server.
+inline constexpr std::uint32_t matchesOfPage = 200;
+
 /// A search: the keys with a value restrict it, with the wildcards * and ?, and ranges of dates;
 /// the others are returned.
 struct Query {
@@ -44,6 +47,13 @@ struct Query {
         200; ///< the search is cancelled at the server when it is reached; 0: maxMatches
     std::uint32_t skip = 0; ///< matches of a DICOMweb server that are here already
 };
+
+/// The tag of the UIDs by which entries of a level are told apart.
+constexpr std::uint32_t uidOf(Level level) {
+    return level == Level::study    ? tag::studyUid
+           : level == Level::series ? tag::seriesUid
+                                    : tag::sopInstanceUid;
+}
 
 /// How a search ended.
 struct QueryEnd {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,8 +62,13 @@ public:
     void release();
 
 private:
-    void negotiate(const exchange::Connection &connection, const std::string &address);
-    [[noreturn]] void failRequest(const char *text) const;
+    void negotiate(const exchange::Connection &connection);
+    [[noreturn]] void failRequest(const std::string &text, bool usesTls) const;
+    /// Notes what each accepted context is for.
+    void noteContexts();
+    /// Accepts objects of all kinds.
+    void acceptContexts();
+    void reportRefused(Control &control) const;
 
     std::string m_characterSet, m_callingAe;
     double m_silenceSeconds;
@@ -71,6 +77,7 @@ private:
     T_ASC_Network *m_network = nullptr;
     T_ASC_Parameters *m_parameters = nullptr;
     T_ASC_Association *m_association = nullptr;
+    std::map<unsigned char, exchange::Encoding> m_contexts; ///< those accepted
 };
 
 } // namespace pellucid::network

@@ -2,13 +2,11 @@
 #include "core/network/association.h"
 
 #include <algorithm>
-#include <arpa/inet.h>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstring>
-#include <netdb.h>
 #include <poll.h>
 
 #include <dcmtk/config/osconfig.h>
@@ -19,9 +17,11 @@
 #include <dcmtk/dcmnet/dcmtrans.h>
 #include <dcmtk/dcmnet/dimse.h>
 #include <dcmtk/dcmnet/diutil.h>
+#include <dcmtk/dcmnet/lst.h>
 #include <dcmtk/dcmtls/tlslayer.h>
 
 #include "core/network/confine.h"
+#include "core/network/connect.h"
 
 namespace pellucid::network {
 
@@ -58,6 +58,20 @@ task::Reason rejectionOf(const T_ASC_RejectParameters &rejection) {
     }
 }
 
+// Private kinds, and those that are newer than DCMTK, are stored as well.
+bool isStorage(const std::string &sopClass) {
+    const bool isOfDicom = sopClass.starts_with("1.2.840.10008.");
+    return !isOfDicom || sopClass.starts_with("1.2.840.10008.5.1.4.1.1.") ||
+           std::any_of(dcmAllStorageSOPClassUIDs,
+                       dcmAllStorageSOPClassUIDs + numberOfDcmAllStorageSOPClassUIDs,
+                       [&](const char *known) { return sopClass == known; });
+}
+
+std::string nameOf(const char *uid) {
+    const char *const name = dcmFindNameOfUID(uid);
+    return name != nullptr ? name : uid;
+}
+
 struct Proposal {
     std::string sopClass;
     std::vector<std::string> syntaxes;
@@ -66,6 +80,11 @@ struct Proposal {
 
 const std::vector<std::string> plainSyntaxes{UID_LittleEndianExplicitTransferSyntax,
                                              UID_LittleEndianImplicitTransferSyntax};
+
+// High-Throughput JPEG 2000: DCMTK 3.6.7 answers no message in a context of it.
+bool isHighThroughput(const std::string &syntax) {
+    return syntax.starts_with("1.2.840.10008.1.2.4.20");
+}
 
 // One context for each kind and syntax, the best syntaxes first if not all fit.
 void proposeEach(std::vector<Proposal> &proposals, const std::vector<std::string> &classes,
@@ -103,7 +122,7 @@ std::vector<Proposal> proposalsFor(const exchange::Connection &connection) {
         break;
     case Purpose::store:
         for (const exchange::Encoding &encoding : connection.encodings)
-            if (proposals.size() < maxContexts)
+            if (proposals.size() < maxContexts && !isHighThroughput(encoding.transferSyntax))
                 proposals.push_back({encoding.sopClassUid, {encoding.transferSyntax}});
         break;
     case Purpose::login: // no service of DICOM
@@ -130,36 +149,25 @@ Association::Association(const exchange::Connection &connection, Control &contro
                             std::move(events), Certificates{peer.authorities, peer.certificate,
                                                             peer.key, peer.keyPassword, peer.host})
                       : std::make_unique<Transport>(std::move(events));
-    // DCMTK's network layer connects by IPv4 only.
-    const std::vector<std::string> addresses = exchange::addressesOf(peer.host);
-    if (addresses.empty())
-        throw Lost{because::hostIsUnknown(peer.host)};
-    control.step(Step::name, addresses.front());
+    useAtNextConnect(connectTo(peer, control).socket);
     if (ASC_initializeNetwork(NET_REQUESTOR, 0, int(std::lround(peer.associationSeconds)),
                               &m_network)
             .bad())
         throw Lost{because::networkCannotBeSetUp};
     ASC_setTransportLayer(m_network, &m_transport->layer(), 0);
-    for (std::size_t n = 0; n < addresses.size(); ++n) {
-        try {
-            negotiate(connection, addresses[n]);
-            break;
-        } catch (const Lost &) {
-            if (n + 1 == addresses.size() || m_transport->isConnected())
-                throw;
-        }
-    }
+    negotiate(connection);
     control.step(Step::association, m_parameters->theirImplementationVersionName);
 }
 
-void Association::negotiate(const exchange::Connection &connection, const std::string &address) {
+void Association::negotiate(const exchange::Connection &connection) {
     const exchange::Peer &peer = connection.peer;
     T_ASC_Parameters *parameters = nullptr;
     ASC_createAssociationParameters(&parameters, ASC_MAXIMUMPDUSIZE);
     ASC_setAPTitles(parameters, peer.callingAe.c_str(), peer.calledAe.c_str(), nullptr);
     ASC_setTransportLayerType(parameters, peer.usesTls);
+    // DCMTK takes the connection that is there.
     ASC_setPresentationAddresses(parameters, "127.0.0.1",
-                                 (address + ":" + std::to_string(peer.port)).c_str());
+                                 ("127.0.0.1:" + std::to_string(peer.port)).c_str());
     T_ASC_PresentationContextID id = 1;
     for (const Proposal &proposal : proposalsFor(connection)) {
         std::vector<const char *> syntaxes;
@@ -179,28 +187,25 @@ void Association::negotiate(const exchange::Connection &connection, const std::s
             ASC_getRejectParameters(m_parameters, &rejection);
             throw Lost{rejectionOf(rejection)};
         }
-        failRequest(requested.text());
+        failRequest(requested.text(), peer.usesTls);
     }
+    noteContexts();
     // Whether a kind of object or only its encodings are refused, each object tells.
     if (connection.purpose != Purpose::store &&
         ASC_countAcceptedPresentationContexts(m_parameters) == 0)
         throw task::Error(task::ErrorCode::unusable, because::serverLacksTheService);
 }
 
-void Association::failRequest(const char *text) const {
+void Association::failRequest(const std::string &text, bool usesTls) const {
     if (m_transport->refusal())
         throw Lost{*m_transport->refusal()};
-    const std::string said = text;
-    if (m_transport->isConnected())
-        throw Lost{said.find("imeout") != std::string::npos
-                       ? task::Reason(because::serverDoesNotAnswer)
-                       : because::associationFails(said)};
-    if (said.find("refused") != std::string::npos)
-        throw Lost{because::connectionIsRefused};
-    if (said.find("imeout") != std::string::npos || said.find("timed out") != std::string::npos ||
-        said.find("in progress") != std::string::npos)
-        throw Lost{because::hostDoesNotAnswer};
-    throw Lost{because::cannotConnect(said)};
+    if (text.find("imeout") != std::string::npos)
+        throw Lost{because::serverDoesNotAnswer};
+    // A server that expects TLS hangs up, or answers with an alert, whose first byte is 15h.
+    for (const char *const sign : {"closed", "bort", "eset by peer", "ype 15"})
+        if (!usesTls && text.find(sign) != std::string::npos)
+            throw Lost{because::tlsMayBeExpected};
+    throw Lost{because::associationFails(text)};
 }
 
 Association::Association(const exchange::Acceptance &acceptance, int socket, Control &control)
@@ -252,20 +257,37 @@ Association::Association(const exchange::Acceptance &acceptance, int socket, Con
             acceptance.callingAes.end())
         reject(ASC_REASON_SU_CALLINGAETITLENOTRECOGNIZED, because::senderIsUnknown(m_callingAe));
 
-    const char *verification[] = {UID_VerificationSOPClass};
-    std::vector<const char *> plain, all;
-    for (const std::string &syntax : plainSyntaxes)
-        plain.push_back(syntax.c_str());
-    for (const std::string &syntax : exchange::transferSyntaxes())
-        all.push_back(syntax.c_str());
-    ASC_acceptContextsWithPreferredTransferSyntaxes(m_parameters, verification, 1, plain.data(),
-                                                    int(plain.size()));
-    ASC_acceptContextsWithPreferredTransferSyntaxes(m_parameters, dcmAllStorageSOPClassUIDs,
-                                                    numberOfDcmAllStorageSOPClassUIDs, all.data(),
-                                                    int(all.size()));
+    acceptContexts();
     if (ASC_acknowledgeAssociation(m_association).bad())
         throw Lost{because::serverHungUp};
     control.step(Step::association, m_callingAe);
+    noteContexts(); // what the client has been told by now
+    reportRefused(control);
+}
+
+void Association::acceptContexts() {
+    const auto accept = [&](const std::vector<std::string> &classes,
+                            const std::vector<std::string> &syntaxes) {
+        const auto pointers = [](const std::vector<std::string> &texts) {
+            std::vector<const char *> all;
+            for (const std::string &text : texts)
+                all.push_back(text.c_str());
+            return all;
+        };
+        auto kinds = pointers(classes), ways = pointers(syntaxes);
+        ASC_acceptContextsWithPreferredTransferSyntaxes(
+            m_parameters, kinds.data(), int(kinds.size()), ways.data(), int(ways.size()));
+    };
+    std::vector<std::string> objects;
+    std::vector<T_ASC_PresentationContext> contexts(
+        std::size_t(ASC_countPresentationContexts(m_parameters)));
+    for (std::size_t n = 0; n < contexts.size(); ++n) {
+        ASC_getPresentationContext(m_parameters, int(n), &contexts[n]);
+        if (isStorage(contexts[n].abstractSyntax))
+            objects.emplace_back(contexts[n].abstractSyntax);
+    }
+    accept({UID_VerificationSOPClass}, plainSyntaxes);
+    accept(objects, exchange::transferSyntaxes());
 }
 
 Association::~Association() {
@@ -287,19 +309,42 @@ unsigned char Association::contextFor(const std::string &sopClassUid) const {
     return id;
 }
 
+void Association::reportRefused(Control &control) const {
+    std::string refused;
+    for (int n = 0; n < ASC_countPresentationContexts(m_parameters); ++n) {
+        T_ASC_PresentationContext context{};
+        ASC_getPresentationContext(m_parameters, n, &context);
+        if (!m_contexts.contains(context.presentationContextID))
+            refused += (refused.empty() ? "" : ", ") + nameOf(context.abstractSyntax) + " in " +
+                       nameOf(context.proposedTransferSyntaxes[0]);
+    }
+    if (!refused.empty())
+        control.step(Step::refused, refused);
+}
+
 std::optional<unsigned char> Association::contextFor(const exchange::Encoding &encoding) const {
-    const T_ASC_PresentationContextID id = ASC_findAcceptedPresentationContextID(
-        m_association, encoding.sopClassUid.c_str(), encoding.transferSyntax.c_str());
-    if (id == 0 || syntaxOf(id) != encoding.transferSyntax)
-        return std::nullopt;
-    return id;
+    for (const auto &[id, accepted] : m_contexts)
+        if (accepted == encoding)
+            return id;
+    return std::nullopt;
 }
 
 std::string Association::syntaxOf(unsigned char context) const {
-    T_ASC_PresentationContext found{};
-    if (ASC_findAcceptedPresentationContext(m_parameters, context, &found).bad())
-        return {};
-    return found.acceptedTransferSyntax;
+    const auto accepted = m_contexts.find(context);
+    return accepted == m_contexts.end() ? std::string() : accepted->second.transferSyntax;
+}
+
+void Association::noteContexts() {
+    LST_HEAD **const list = &m_parameters->DULparams.acceptedPresentationContext;
+    auto *each = static_cast<DUL_PRESENTATIONCONTEXT *>(LST_Head(list));
+    if (each != nullptr)
+        LST_Position(list, reinterpret_cast<LST_NODE *>(each));
+    for (; each != nullptr; each = static_cast<DUL_PRESENTATIONCONTEXT *>(LST_Next(list))) {
+        if (each->result != ASC_P_ACCEPTANCE)
+            continue;
+        m_contexts[each->presentationContextID] = {each->abstractSyntax,
+                                                   each->acceptedTransferSyntax};
+    }
 }
 
 bool Association::isClassRefused(const std::string &sopClassUid) const {

@@ -14,12 +14,11 @@ std::vector<exchange::Attributes> readDicomJson(const std::string &text);
 
 /// What a server reports about the objects it was sent (PS3.18, 10.5.3).
 struct StoreAnswer {
-    std::vector<std::string> stored; ///< UIDs
-    struct Failed {
+    struct Item {
         std::string uid;
-        int reason = 0; ///< as a status of C-STORE
+        int reason = 0; ///< of the failure or the warning, as a status of C-STORE; 0: none
     };
-    std::vector<Failed> failed;
+    std::vector<Item> stored, failed;
 };
 /// *Throws* as `readDicomJson`.
 StoreAnswer readStoreAnswer(const std::string &text);

@@ -5,6 +5,7 @@
 
 #include "core/network/dicom_json.h"
 #include "core/parse/attributes.h"
+#include "core/system/utf8.h"
 #include "core/task/error.h"
 
 namespace pellucid::network {
@@ -17,8 +18,23 @@ using Json = nlohmann::json;
     throw task::Error(task::ErrorCode::unusable, task::because::serverSendsNoDicomJson);
 }
 
+// Some servers send ISO 8859-1 where the standard has UTF-8 only.
+std::string inUtf8(const std::string &text) {
+    if (system::isUtf8(text))
+        return text;
+    std::string converted;
+    for (const char c : text) {
+        const auto code = (unsigned char)(c);
+        if (code < 0x80)
+            converted += c;
+        else
+            converted += {char(0xc0 | code >> 6), char(0x80 | (code & 0x3f))};
+    }
+    return converted;
+}
+
 Json parsed(const std::string &text) {
-    Json json = Json::parse(text, nullptr, false);
+    Json json = Json::parse(inUtf8(text), nullptr, false);
     if (json.is_discarded())
         fail();
     return json;
@@ -102,16 +118,17 @@ StoreAnswer readStoreAnswer(const std::string &text) {
     const Json &json = whole.is_array() && whole.size() == 1 ? whole[0] : whole;
     if (!json.is_object())
         fail();
-    StoreAnswer answer;
-    constexpr std::uint32_t referencedInstance = 0x00081155, failureReason = 0x00081197;
-    for (const Json &item : itemsOf(json, "00081199"))
-        answer.stored.push_back(attributesOf(item)[referencedInstance]);
-    for (const Json &item : itemsOf(json, "00081198")) {
-        exchange::Attributes attributes = attributesOf(item);
-        answer.failed.push_back(
-            {attributes[referencedInstance], numberOf(attributes[failureReason])});
-    }
-    return answer;
+    constexpr std::uint32_t referencedInstance = 0x00081155, warningReason = 0x00081196,
+                            failureReason = 0x00081197;
+    const auto itemsAt = [&](const char *sequence, std::uint32_t reason) {
+        std::vector<StoreAnswer::Item> items;
+        for (const Json &item : itemsOf(json, sequence)) {
+            exchange::Attributes attributes = attributesOf(item);
+            items.push_back({attributes[referencedInstance], numberOf(attributes[reason])});
+        }
+        return items;
+    };
+    return {itemsAt("00081199", warningReason), itemsAt("00081198", failureReason)};
 }
 
 } // namespace pellucid::network

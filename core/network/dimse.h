@@ -18,8 +18,10 @@ exchange::RetrievalEnd get(Association &association, const exchange::Retrieval &
 /// C-MOVE: the objects come to the server of the destination.
 exchange::RetrievalEnd move(Association &association, const exchange::Retrieval &retrieval,
                             Control &control);
-/// C-STORE of an open file of this size.
-void store(Association &association, int file, std::uint64_t bytes, Control &control);
+/// C-STORE of an open file of this size: its data set goes out byte for byte. *Returns* how
+/// the server changed the object; nothing if it stored it unchanged.
+std::optional<task::Reason> store(Association &association, int file, std::uint64_t bytes,
+                                  Control &control);
 
 /// Answers a client until it releases the association: C-ECHO, and C-STORE as `Storage`.
 void provide(Association &association, Control &control);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/network/dimse.h"
 
+#include <algorithm>
 #include <chrono>
+#include <span>
 #include <sstream>
+#include <vector>
 
 #include <dcmtk/config/osconfig.h>
 
@@ -12,9 +15,9 @@
 
 #include "core/decoder/channel.h"
 #include "core/network/dimse_dcmtk.h"
+#include "core/network/file_start.h"
 #include "core/network/statuses.h"
 #include "core/parse/attributes.h"
-#include "core/parse/memory_input.h"
 
 namespace pellucid::network {
 
@@ -77,7 +80,19 @@ void send(Association &association, unsigned char context, T_DIMSE_Message &mess
         association.fail(sent.text());
 }
 
-// Sends the cancel, and throws after the server has had time to end the request.
+std::string storeCommand(std::uint16_t id, const std::string &sopClass,
+                         const std::string &instance) {
+    CommandSet command;
+    command.put(0x0002, sopClass);
+    command.put(0x0100, std::uint16_t(DIMSE_C_STORE_RQ));
+    command.put(0x0110, id);
+    command.put(0x0700, std::uint16_t(DIMSE_PRIORITY_MEDIUM));
+    command.put(0x0800, std::uint16_t(DIMSE_DATASET_PRESENT));
+    command.put(0x1000, instance);
+    return command.bytes();
+}
+
+// Sends the cancel, and gives the server time to end the request.
 class Cancelling {
 public:
     void begin(Association &association, unsigned char context, unsigned short request) {
@@ -87,11 +102,12 @@ public:
         DIMSE_sendCancelRequest(association.get(), context, request);
     }
     bool hasBegun() const { return m_end.has_value(); }
-    void check(Association &association) const {
-        if (m_end && Clock::now() > *m_end) {
-            association.abort();
-            throw CancelledByProgram();
-        }
+    // Whether the server has ignored it; the association is over then.
+    bool isIgnored(Association &association) const {
+        if (!m_end || Clock::now() < *m_end)
+            return false;
+        association.abort();
+        return true;
     }
 
 private:
@@ -153,7 +169,8 @@ exchange::RetrievalEnd retrieve(Association &association, unsigned char context,
     exchange::RetrievalEnd end;
     Cancelling cancelling;
     for (;;) {
-        cancelling.check(association);
+        if (cancelling.isIgnored(association))
+            throw CancelledByProgram();
         std::optional<Command> command = nextCommand(association, control);
         if (!command) {
             cancelling.begin(association, context, request);
@@ -188,7 +205,7 @@ exchange::RetrievalEnd retrieve(Association &association, unsigned char context,
             control.heartbeat();
             continue;
         }
-        if (cancelling.hasBegun() || isCancel(status))
+        if (cancelling.hasBegun())
             throw CancelledByProgram();
         if (status != 0 && !isWarning(status)) {
             const task::Reason reason = statusReason(status, command->comment);
@@ -263,8 +280,24 @@ exchange::QueryEnd find(Association &association, const exchange::Query &query, 
     Cancelling cancelling;
     bool isCancelledByUser = false;
     for (std::uint32_t matches = 0;;) {
-        cancelling.check(association);
-        std::optional<Command> command = nextCommand(association, control);
+        if (cancelling.isIgnored(association)) {
+            if (isCancelledByUser)
+                throw CancelledByProgram();
+            return end;
+        }
+        bool isOver = false;
+        std::optional<Command> command = [&] {
+            try {
+                return nextCommand(association, control);
+            } catch (const Lost &) {
+                isOver = end.reachedLimit; // all that was asked for is here
+                if (!isOver)
+                    throw;
+                return std::optional<Command>();
+            }
+        }();
+        if (isOver)
+            return end;
         // While answers keep coming, nobody waits.
         if (!command || control.isCancelled()) {
             isCancelledByUser = true;
@@ -284,8 +317,11 @@ exchange::QueryEnd find(Association &association, const exchange::Query &query, 
                 end.reachedLimit = true;
                 cancelling.begin(association, context, find.MessageID);
             } else if (answer && !cancelling.hasBegun()) {
-                ++matches;
-                control.match(query, attributesOf(*answer, query, association.characterSet()));
+                auto attributes = attributesOf(*answer, query, association.characterSet());
+                if (!attributes.empty()) { // some servers begin with an empty one
+                    ++matches;
+                    control.match(query, std::move(attributes));
+                }
             }
             continue;
         }
@@ -321,38 +357,25 @@ exchange::RetrievalEnd move(Association &association, const exchange::Retrieval 
                    message.msg.CMoveRQ, retrieval, control);
 }
 
-void store(Association &association, int file, std::uint64_t bytes, Control &control) {
+std::optional<task::Reason> store(Association &association, int file, std::uint64_t bytes,
+                                  Control &control) {
     const decoder::Mapping mapping(file, bytes, decoder::Mapping::Access::read);
-    const auto input = parse::memoryInput(mapping.bytes());
-    DcmFileFormat object;
-    object.transferInit();
-    const OFCondition loaded = object.read(*input, EXS_Unknown, EGL_noChange, DCM_MaxReadLength);
-    object.transferEnd();
-    if (loaded.bad())
-        throw Error(ErrorCode::unusable, because::isDamagedBy(std::string(loaded.text())));
-    DcmDataset &dataset = *object.getDataset();
-    const exchange::Encoding encoding{
-        parse::readText(&dataset, DCM_SOPClassUID),
-        DcmXfer(dataset.getOriginalXfer()).getXferID(),
-    };
-    const std::string uid = parse::readText(&dataset, DCM_SOPInstanceUID);
+    const FileStart start = startOf(mapping.bytes());
+    const exchange::Encoding encoding{start.arrival.sopClassUid, start.arrival.transferSyntax};
     const auto context = association.contextFor(encoding);
     if (!context && association.isClassRefused(encoding.sopClassUid))
         throw Error(ErrorCode::unusable, because::serverLacksTheService);
-    if (!context)
-        throw Error(ErrorCode::unusable, because::serverDoesNotTakeTheEncoding(std::string(
-                                             DcmXfer(dataset.getOriginalXfer()).getXferName())));
-    T_DIMSE_Message request{};
-    request.CommandField = DIMSE_C_STORE_RQ;
-    T_DIMSE_C_StoreRQ &store = request.msg.CStoreRQ;
-    store.MessageID = association.get()->nextMsgID++;
-    OFStandard::strlcpy(store.AffectedSOPClassUID, encoding.sopClassUid.c_str(),
-                        sizeof store.AffectedSOPClassUID);
-    OFStandard::strlcpy(store.AffectedSOPInstanceUID, uid.c_str(),
-                        sizeof store.AffectedSOPInstanceUID);
-    store.Priority = DIMSE_PRIORITY_MEDIUM;
-    store.DataSetType = DIMSE_DATASET_PRESENT;
-    send(association, *context, request, &dataset, control);
+    if (!context) {
+        const char *const name = dcmFindNameOfUID(encoding.transferSyntax.c_str());
+        throw Error(ErrorCode::unusable, because::serverDoesNotTakeTheEncoding(
+                                             name != nullptr ? name : encoding.transferSyntax));
+    }
+    const std::string request = storeCommand(association.get()->nextMsgID++, encoding.sopClassUid,
+                                             start.arrival.sopInstanceUid);
+    sendFragments(association, *context, Fragments::ofCommand, std::as_bytes(std::span(request)),
+                  control);
+    sendFragments(association, *context, Fragments::ofDataSet,
+                  mapping.bytes().subspan(start.dataSet), control);
     const std::optional<Command> answer = nextCommand(association, control);
     if (!answer) {
         association.abort();
@@ -361,9 +384,11 @@ void store(Association &association, int file, std::uint64_t bytes, Control &con
     if (answer->message->CommandField != DIMSE_C_STORE_RSP)
         throw Lost{because::serverSendsTheUnexpected};
     const std::uint16_t status = answer->message->msg.CStoreRSP.DimseStatus;
-    // A coerced attribute or a discarded private element: the object is stored.
-    if (status != 0 && !isWarning(status))
+    if (isWarning(status))
+        return changeReason(status);
+    if (status != 0)
         throw Error(ErrorCode::unusable, statusReason(status, answer->comment));
+    return std::nullopt;
 }
 
 } // namespace pellucid::network

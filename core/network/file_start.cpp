@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/network/file_start.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -12,7 +13,7 @@ namespace pellucid::network {
 namespace {
 
 constexpr std::size_t preamble = 132, longestMetaHeader = 64 << 10;
-constexpr const char *implicitSyntax = "1.2.840.10008.1.2",
+constexpr const char *implicitSyntax = "1.2.840.10008.1.2", *explicitSyntax = "1.2.840.10008.1.2.1",
                      *bigEndianSyntax = "1.2.840.10008.1.2.2",
                      *deflatedSyntax = "1.2.840.10008.1.2.1.99";
 
@@ -93,8 +94,8 @@ bool takeDatasetUids(std::span<const std::byte> bytes, std::size_t at, exchange:
 
 } // namespace
 
-std::optional<exchange::Arrival> arrivalOf(std::span<const std::byte> start, bool isWhole) {
-    const auto more = [&]() -> std::optional<exchange::Arrival> {
+std::optional<FileStart> readFileStart(std::span<const std::byte> start, bool isWhole) {
+    const auto more = [&]() -> std::optional<FileStart> {
         if (isWhole)
             fail();
         return std::nullopt;
@@ -126,12 +127,24 @@ std::optional<exchange::Arrival> arrivalOf(std::span<const std::byte> start, boo
             arrival.transferSyntax = textAt(start, element->begin, length);
         at = element->end;
     }
+    // Some writers label implicit value representations as explicit, which are two capitals.
+    const auto isCapital = [&](std::size_t n) {
+        const char c = char(start[n]);
+        return c >= 'A' && c <= 'Z';
+    };
+    if (arrival.transferSyntax == explicitSyntax && !(isCapital(at + 4) && isCapital(at + 5)))
+        arrival.transferSyntax = implicitSyntax;
     if (!takeDatasetUids(start, at, arrival) && !isWhole)
         return std::nullopt;
     if (!exchange::isUid(arrival.sopClassUid) || !exchange::isUid(arrival.sopInstanceUid) ||
         !exchange::isUid(arrival.transferSyntax))
         fail();
-    return arrival;
+    return FileStart{arrival, at};
+}
+
+FileStart startOf(std::span<const std::byte> file) {
+    constexpr std::size_t longest = 2 * longestMetaHeader;
+    return *readFileStart(file.first(std::min(file.size(), longest)), true);
 }
 
 } // namespace pellucid::network

@@ -9,10 +9,18 @@
 
 namespace pellucid::network {
 
-/// What the meta header of a DICOM file says (PS3.10, 7.1), from the first bytes of the file; but
-/// class and instance as the data set says, which may differ after de-identification. *Shape*:
-/// nothing while more bytes are needed; `isWhole`: no more bytes come. *Throws* Error{unusable} if
-/// it is not such a file.
-std::optional<exchange::Arrival> arrivalOf(std::span<const std::byte> start, bool isWhole = false);
+/// What the start of a DICOM file says (PS3.10, 7.1): of class and instance what the data set says,
+/// which may differ from the meta header after de-identification.
+struct FileStart {
+    exchange::Arrival arrival;
+    std::size_t dataSet = 0; ///< where it begins, in bytes
+};
+
+/// *Returns* nothing while more bytes are needed; `isWhole`: no more bytes come. *Throws*
+/// Error{unusable} if it is not such a file.
+std::optional<FileStart> readFileStart(std::span<const std::byte> start, bool isWhole = false);
+
+/// The same of a whole file. *Throws* the same.
+FileStart startOf(std::span<const std::byte> file);
 
 } // namespace pellucid::network

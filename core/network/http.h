@@ -43,7 +43,7 @@ public:
     };
     /// Receives the bytes of a successful answer as they come.
     using Take = std::function<void(const Answer &, std::span<const std::byte>)>;
-    /// Follows one redirection on the same server, and waits as long as a busy server asks for.
+    /// Follows redirections on the same server, and waits as long as a busy server asks for.
     /// *Throws* Lost if the connection fails, also when
     /// the server closes it between requests; Error{unusable} if the server points elsewhere or its
     /// answer is too long; what `take` throws; Disconnected; CancelledByProgram.

@@ -2,7 +2,6 @@
 #include "core/network/http.h"
 
 #include <algorithm>
-#include <arpa/inet.h>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -12,29 +11,17 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <netdb.h>
-#include <netinet/tcp.h>
 #include <poll.h>
 #include <strings.h>
-#include <sys/socket.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <curl/curl.h>
 
 #include "core/network/authorities.h"
 #include "core/network/confine.h"
+#include "core/network/connect.h"
 #include "core/network/tls_profile.h"
-
-// libcurl 7.88 connects even a socket that it is told is connected. In this process that call is
-// forbidden by then, so it is answered here: the linker puts this function in place of libc's.
-extern "C" int connect(int socket, const sockaddr *address, socklen_t size) {
-    sockaddr_storage peer{};
-    socklen_t peerSize = sizeof peer;
-    if (::getpeername(socket, reinterpret_cast<sockaddr *>(&peer), &peerSize) == 0)
-        return 0;
-    return int(::syscall(SYS_connect, socket, address, size));
-}
+#include "core/network/tls_reasons.h"
 
 namespace pellucid::network {
 
@@ -51,67 +38,6 @@ std::string fileText(const std::string &path) {
     if (!in)
         throw Error(ErrorCode::usage, because::isNoPemFile(std::strerror(errno)), path);
     return {std::istreambuf_iterator<char>(in), {}};
-}
-
-// Connects within the time; -1 with `errno`.
-int connectWithin(const addrinfo &address, double seconds) {
-    const int socket = ::socket(address.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (socket < 0)
-        return -1;
-    int error = 0;
-    if (::connect(socket, address.ai_addr, address.ai_addrlen) != 0) {
-        error = errno;
-        pollfd waiting{socket, POLLOUT, 0};
-        if (error == EINPROGRESS && ::poll(&waiting, 1, int(std::lround(seconds * 1000.0))) > 0) {
-            socklen_t size = sizeof error;
-            ::getsockopt(socket, SOL_SOCKET, SO_ERROR, &error, &size);
-        } else if (error == EINPROGRESS) {
-            error = ETIMEDOUT;
-        }
-    }
-    if (error == 0) {
-        const int on = 1;
-        ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-        return socket;
-    }
-    ::close(socket);
-    errno = error;
-    return -1;
-}
-
-struct Connected {
-    int socket = -1;
-    std::string address;
-};
-
-Connected connectTo(const Peer &peer, Control &control) {
-    addrinfo wanted{};
-    wanted.ai_socktype = SOCK_STREAM;
-    addrinfo *found = nullptr;
-    const std::string port = std::to_string(peer.port);
-    if (::getaddrinfo(peer.host.c_str(), port.c_str(), &wanted, &found) != 0)
-        throw Lost{because::hostIsUnknown(peer.host)};
-    Connected connected;
-    int error = 0;
-    for (const addrinfo *each = found; each != nullptr && connected.socket < 0;
-         each = each->ai_next) {
-        std::array<char, INET6_ADDRSTRLEN> text{};
-        ::getnameinfo(each->ai_addr, each->ai_addrlen, text.data(), text.size(), nullptr, 0,
-                      NI_NUMERICHOST);
-        if (connected.address.empty())
-            control.step(Step::name, text.data());
-        connected.address = text.data();
-        connected.socket = connectWithin(*each, peer.connectSeconds);
-        error = errno;
-    }
-    ::freeaddrinfo(found);
-    if (connected.socket >= 0)
-        return connected;
-    if (error == ECONNREFUSED)
-        throw Lost{because::connectionIsRefused};
-    if (error == ETIMEDOUT)
-        throw Lost{because::hostDoesNotAnswer};
-    throw Lost{because::cannotConnect(task::systemReason(error))};
 }
 
 } // namespace
@@ -138,13 +64,11 @@ public:
         const Connected connected = connectTo(peer, control);
         m_socket = connected.socket;
         control.step(Step::tcp, peer.host + ":" + std::to_string(peer.port));
-        m_origin =
-            (peer.usesTls ? "https://" : "http://") + peer.host + ":" + std::to_string(peer.port);
-        const bool isV6 = connected.address.find(':') != std::string::npos;
-        m_resolved = ::curl_slist_append(
-            nullptr, (peer.host + ":" + std::to_string(peer.port) + ":" +
-                      (isV6 ? "[" + connected.address + "]" : connected.address))
-                         .c_str());
+        m_origin = (peer.usesTls ? "https://" : "http://") + exchange::hostPart(peer.host) + ":" +
+                   std::to_string(peer.port);
+        m_resolved = ::curl_slist_append(nullptr, (peer.host + ":" + std::to_string(peer.port) +
+                                                   ":" + exchange::hostPart(connected.address))
+                                                      .c_str());
         confinement = confine();
     }
     ~Curl() {
@@ -163,9 +87,12 @@ public:
             answer = performOnce(request, take);
         }
         // Elsewhere on the same server only: a token must not go to another.
-        if (answer.status >= 300 && answer.status < 400 && !answer.location.empty()) {
-            Request moved = request;
-            moved.path = pathAt(answer.location);
+        Request moved = request;
+        for (int n = 0; answer.status >= 300 && answer.status < 400 && !answer.location.empty();
+             ++n) {
+            if (n == maxTries)
+                throw Error(ErrorCode::unusable, because::redirectsTooOften);
+            moved.path = pathAt(answer.location, moved.path);
             answer = performOnce(moved, take);
         }
         return answer;
@@ -202,18 +129,37 @@ private:
         }
     }
 
-    std::string pathAt(const std::string &location) const {
-        if (location.starts_with("/"))
-            return location;
-        // Servers leave out the port of their protocol; the case of hosts does not matter.
-        std::string withoutPort = m_origin;
-        for (const char *const port : {":443", ":80"})
-            if (withoutPort.ends_with(port) && withoutPort.starts_with("https") == (port[1] == '4'))
-                withoutPort.resize(withoutPort.size() - std::strlen(port));
-        for (const std::string &origin : {m_origin, withoutPort})
-            if (location.size() > origin.size() && location[origin.size()] == '/' &&
-                ::strncasecmp(location.c_str(), origin.c_str(), origin.size()) == 0)
-                return location.substr(origin.size());
+    // The path that a location names, which may be relative to that of the request (RFC 3986, 5).
+    std::string pathAt(const std::string &location, const std::string &requested) const {
+        const std::unique_ptr<CURLU, decltype(&::curl_url_cleanup)> url(::curl_url(),
+                                                                        &::curl_url_cleanup);
+        const auto part = [&](CURLUPart which, unsigned flags = 0) {
+            char *text = nullptr;
+            std::string found;
+            if (::curl_url_get(url.get(), which, &text, flags) == CURLUE_OK)
+                found = text;
+            ::curl_free(text);
+            return found;
+        };
+        const auto origin = [&] {
+            return part(CURLUPART_SCHEME) + "://" + part(CURLUPART_HOST) + ":" +
+                   part(CURLUPART_PORT, CURLU_DEFAULT_PORT);
+        };
+        ::curl_url_set(url.get(), CURLUPART_URL, (m_origin + requested).c_str(), 0);
+        const std::string here = origin(), host = part(CURLUPART_HOST);
+        if (::curl_url_set(url.get(), CURLUPART_URL, location.c_str(), 0) != CURLUE_OK)
+            throw Error(ErrorCode::unusable, because::serverPointsElsewhere);
+        if (::strcasecmp(origin().c_str(), here.c_str()) == 0) {
+            const std::string query = part(CURLUPART_QUERY);
+            return part(CURLUPART_PATH) + (query.empty() ? "" : "?" + query);
+        }
+        if (!m_peer.usesTls && part(CURLUPART_SCHEME) == "https" &&
+            ::strcasecmp(part(CURLUPART_HOST).c_str(), host.c_str()) == 0) {
+            const std::string port = part(CURLUPART_PORT);
+            throw Error(ErrorCode::unusable,
+                        because::serverWantsHttps("https://" + host +
+                                                  (port.empty() ? "" : ":" + port) + m_peer.path));
+        }
         throw Error(ErrorCode::unusable, because::serverPointsElsewhere);
     }
 
@@ -227,6 +173,8 @@ private:
         ::curl_easy_setopt(h, CURLOPT_PROXY, "");
         ::curl_easy_setopt(h, CURLOPT_RESOLVE, m_resolved);
         ::curl_easy_setopt(h, CURLOPT_HTTP_VERSION, CURL_HTTP_VERSION_1_1);
+        // Asked for as it is; what is compressed all the same is unpacked.
+        ::curl_easy_setopt(h, CURLOPT_ACCEPT_ENCODING, "identity");
         ::curl_easy_setopt(h, CURLOPT_PROTOCOLS_STR, "http,https");
         ::curl_easy_setopt(h, CURLOPT_DNS_CACHE_TIMEOUT, -1L);
         ::curl_easy_setopt(h, CURLOPT_OPENSOCKETFUNCTION, &Curl::openSocket);
@@ -304,16 +252,20 @@ private:
         case CURLE_OPERATION_TIMEDOUT:
             throw Lost{because::serverIsSilent(std::lround(m_peer.silenceSeconds))};
         case CURLE_PEER_FAILED_VERIFICATION:
-            throw Lost{because::certificateIsRefused(said)};
+            throw Lost{certificateReason(said)};
         case CURLE_SSL_CONNECT_ERROR:
         case CURLE_SSL_CERTPROBLEM:
         case CURLE_SSL_CACERT_BADFILE:
-            throw Lost{because::tlsFails(said)};
+            throw Lost{tlsReason(said)};
         case CURLE_COULDNT_CONNECT: // the only connection has been used up
         case CURLE_GOT_NOTHING:
         case CURLE_PARTIAL_FILE:
         case CURLE_RECV_ERROR:
         case CURLE_SEND_ERROR:
+            // TLS 1.3 reports it only after the handshake.
+            if (const task::Reason reason = tlsReason(said);
+                reason.is(because::serverNeedsACertificate))
+                throw Lost{reason};
             throw Lost{because::serverHungUp};
         default:
             throw Lost{because::connectionFails(said.empty() ? ::curl_easy_strerror(code) : said)};

@@ -2,6 +2,8 @@
 #include "core/network/multipart.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace pellucid::network {
 
@@ -23,9 +25,16 @@ std::span<const std::byte> bytesOf(const std::string &text, std::size_t count) {
 } // namespace
 
 std::string parameterOf(const std::string &field, const std::string &name) {
+    // The semicolons outside of quotes.
+    std::vector<std::size_t> starts;
+    for (std::size_t at = 0, isQuoted = 0; at < field.size(); ++at) {
+        isQuoted ^= field[at] == '"' ? 1 : 0;
+        if (field[at] == ';' && isQuoted == 0)
+            starts.push_back(at + 1);
+    }
     const std::string lower = lowered(field);
-    for (std::size_t at = lower.find(';'); at != std::string::npos; at = lower.find(';', at + 1)) {
-        std::size_t begin = lower.find_first_not_of(" \t", at + 1);
+    for (const std::size_t start : starts) {
+        std::size_t begin = lower.find_first_not_of(" \t", start);
         if (begin == std::string::npos || lower.compare(begin, name.size(), name) != 0)
             continue;
         begin = lower.find_first_not_of(" \t", begin + name.size());
@@ -48,8 +57,7 @@ MultipartReader::MultipartReader(const std::string &contentType, Sink sink)
     : m_sink(std::move(sink)) {
     const std::string boundary = parameterOf(contentType, "boundary");
     if (lowered(contentType).find("multipart/") == std::string::npos || boundary.empty()) {
-        m_state = State::single;
-        m_sink.begin();
+        m_state = State::untyped;
     } else {
         m_delimiter = "--" + boundary;
     }
@@ -71,6 +79,25 @@ bool MultipartReader::lineIsTooLong(std::size_t begin, std::size_t end) const {
 
 bool MultipartReader::step() {
     switch (m_state) {
+    case State::untyped: {
+        const std::string dashes = m_pending.substr(0, 2);
+        const std::size_t line = m_pending.find('\n');
+        const bool mayBegin =
+            dashes == std::string("--").substr(0, dashes.size()) && !lineIsTooLong(0, line);
+        if (mayBegin && line == std::string::npos)
+            return false;
+        if (!mayBegin) {
+            beginSingle();
+            return false;
+        }
+        m_delimiter = m_pending.substr(0, m_pending.find_last_not_of("\r \t", line - 1) + 1);
+        if (m_delimiter == "--") { // an empty one would be found anywhere
+            beginSingle();
+            return false;
+        }
+        m_state = State::preamble;
+        return true;
+    }
     case State::preamble: {
         // The first delimiter is at the start of a line.
         const std::size_t at = m_pending.find(m_delimiter);
@@ -100,19 +127,25 @@ bool MultipartReader::step() {
             if (!isEmpty)
                 continue;
             m_pending.erase(0, begin);
-            m_state = State::body;
-            m_sink.begin();
+            beginBody();
             return true;
         }
         if (m_pending.size() > longestHeaders) {
-            m_state = State::body;
-            m_sink.begin();
+            beginBody();
             return true;
         }
         return false;
     }
     case State::body: {
         const std::size_t at = m_pending.find("\n" + m_delimiter);
+        // A part may have no body, not even the line break before its delimiter.
+        if (m_isBodyBegin && m_pending.size() < m_delimiter.size() &&
+            m_delimiter.starts_with(m_pending))
+            return false;
+        if (std::exchange(m_isBodyBegin, false) && m_pending.starts_with(m_delimiter)) {
+            m_pending.insert(0, "\r\n");
+            return true;
+        }
         if (at == std::string::npos) {
             // The delimiter, or the line break before it, may be coming.
             const std::size_t kept = m_delimiter.size() + 2;
@@ -149,7 +182,22 @@ bool MultipartReader::step() {
     return false;
 }
 
+void MultipartReader::beginBody() {
+    m_state = State::body;
+    m_isBodyBegin = true;
+    m_sink.begin();
+}
+
+void MultipartReader::beginSingle() {
+    m_state = State::single;
+    m_sink.begin();
+    m_sink.take(bytesOf(m_pending, m_pending.size()));
+    m_pending.clear();
+}
+
 bool MultipartReader::finish() {
+    if (m_state == State::untyped)
+        beginSingle();
     if (m_state == State::single) {
         m_sink.end();
         return true;

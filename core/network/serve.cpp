@@ -32,8 +32,8 @@ struct DimseClient {
         return purpose == Purpose::move ? move(association, retrieval, control)
                                         : get(association, retrieval, control);
     }
-    void store(int file, std::uint64_t bytes, Control &control) {
-        network::store(association, file, bytes, control);
+    std::optional<task::Reason> store(int file, std::uint64_t bytes, Control &control) {
+        return network::store(association, file, bytes, control);
     }
 };
 
@@ -111,10 +111,12 @@ private:
             case Kind::retrieve:
                 m_control.done(exchange::pack(client.retrieve(retrievalOf(message), m_control)));
                 break;
-            case Kind::store:
-                client.store(packet->descriptor.get(), message.number, m_control);
-                m_control.done();
+            case Kind::store: {
+                const auto change =
+                    client.store(packet->descriptor.get(), message.number, m_control);
+                m_control.done(change ? change->encoded() : std::string());
                 break;
+            }
             case Kind::cancel: // came after the request had ended
                 break;
             default:

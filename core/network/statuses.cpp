@@ -47,10 +47,18 @@ task::Reason meaning(std::uint16_t status) {
     }
 }
 
+std::string numberOf(std::uint16_t status) {
+    return fmt::format("0x{:04X}", status);
+}
+
 } // namespace
 
+task::Reason changeReason(std::uint16_t status) {
+    return because::storedWithChanges(numberOf(status));
+}
+
 task::Reason statusReason(std::uint16_t status, const std::string &comment) {
-    const std::string number = fmt::format("0x{:04X}", status);
+    const std::string number = numberOf(status);
     return comment.empty() ? because::serverStatus(meaning(status), number)
                            : because::serverStatusWithComment(meaning(status), number, comment);
 }

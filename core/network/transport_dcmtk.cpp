@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <arpa/inet.h>
 #include <array>
+#include <cerrno>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <openssl/err.h>
@@ -23,6 +24,7 @@
 #include "core/network/authorities.h"
 #include "core/network/control.h"
 #include "core/network/tls_profile.h"
+#include "core/network/tls_reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::network {
@@ -79,22 +81,18 @@ std::string textOfLastError() {
     return text.c_str();
 }
 
-// Whether a handshake failed because the other side answers with something else, or hangs up. What
-// it says in TLS is repeated instead.
-bool speaksNoTls(const std::string &text) {
-    const std::array signs{"wrong version number", "packet length too long", "http request",
-                           "unexpected eof", "I/O error"};
-    return text.empty() || std::any_of(signs.begin(), signs.end(), [&](const char *sign) {
-               return text.find(sign) != std::string::npos;
-           });
+// Whether a host is named by its address.
+bool isAddress(const std::string &host) {
+    in6_addr address{};
+    return ::inet_pton(AF_INET, host.c_str(), &address) == 1 ||
+           ::inet_pton(AF_INET6, host.c_str(), &address) == 1;
 }
 
 // Whether a certificate has a host's name or address. Its common name counts only if it has no
 // other names (RFC 6125, 6.4.4).
 bool isCertificateOf(X509 *certificate, const std::string &host) {
     const bool hasNames = ::X509_get_ext_by_NID(certificate, NID_subject_alt_name, -1) >= 0;
-    in_addr address{};
-    if (::inet_pton(AF_INET, host.c_str(), &address) == 1 && hasNames)
+    if (isAddress(host) && hasNames)
         return ::X509_check_ip_asc(certificate, host.c_str(), 0) == 1;
     return ::X509_check_host(certificate, host.c_str(), host.size(),
                              hasNames ? X509_CHECK_FLAG_NEVER_CHECK_SUBJECT : 0, nullptr) == 1;
@@ -143,15 +141,32 @@ public:
     ssize_t read(void *to, size_t bytes) override {
         ::ERR_clear_error();
         const ssize_t got = DcmTLSConnection::read(to, bytes);
-        // TLS 1.3 reports a refused certificate of this program only with the first answer.
-        if (got < 0 && !m_state->refusal)
-            if (const std::string text = textOfLastError(); !text.empty())
-                m_state->refusal = because::tlsFails(text);
+        if (got < 0)
+            takeAlert();
         acknowledgeAtOnce(getSocket());
         return got;
     }
+    ssize_t write(void *from, size_t bytes) override {
+        ::ERR_clear_error();
+        const ssize_t sent = DcmTLSConnection::write(from, bytes);
+        const bool hasHungUp = errno == EPIPE || errno == ECONNRESET;
+        if (char next = 0; sent < 0 && hasHungUp) { // it may have said why before
+            ::SSL_peek(m_ssl, &next, 1);
+            takeAlert();
+        }
+        return sent;
+    }
 
 private:
+    // TLS 1.3 reports a refused certificate of this program only after the handshake.
+    void takeAlert() {
+        const std::string text = textOfLastError();
+        if (text.empty() || m_state->refusal)
+            return;
+        const task::Reason reason = tlsReason(text);
+        m_state->refusal = // it has spoken TLS before
+            reason.is(because::tlsIsNotAnswered) ? task::Reason(because::serverHungUp) : reason;
+    }
     // Of a client: not a byte that it sends is read if its certificate is another's.
     bool isExpected() const {
         if (m_clientHosts.empty())
@@ -176,8 +191,10 @@ private:
         }
         const long verified = ::SSL_get_verify_result(m_ssl);
         if (verified != X509_V_OK) {
-            m_state->refusal = because::certificateIsRefused(
-                std::string(::X509_verify_cert_error_string(verified)));
+            const std::string text = ::X509_verify_cert_error_string(verified);
+            m_state->refusal = ::SSL_is_server(m_ssl) == 1
+                                   ? task::Reason(because::certificateIsRefused(text))
+                                   : certificateReason(text);
         } else {
             // DCMTK has taken the error out of OpenSSL's queue, and repeats its text.
             std::string text = textOfLastError();
@@ -185,8 +202,7 @@ private:
                 text = shaken.text();
             if (constexpr std::string_view prefix = "TLS error: "; text.starts_with(prefix))
                 text.erase(0, prefix.size());
-            m_state->refusal = speaksNoTls(text) ? task::Reason(because::tlsIsNotAnswered)
-                                                 : because::tlsFails(text);
+            m_state->refusal = tlsReason(text);
         }
         return shaken;
     }
@@ -228,8 +244,7 @@ public:
         setCertificateVerification(DCV_requireCertificate);
         if (!m_host.empty()) {
             X509_VERIFY_PARAM *const verified = ::SSL_CTX_get0_param(getNativeHandle());
-            in_addr address{};
-            if (::inet_pton(AF_INET, m_host.c_str(), &address) == 1)
+            if (isAddress(m_host))
                 ::X509_VERIFY_PARAM_set1_ip_asc(verified, m_host.c_str());
             else
                 ::X509_VERIFY_PARAM_set1_host(verified, m_host.c_str(), m_host.size());
@@ -242,8 +257,7 @@ public:
         if (ssl == nullptr)
             return nullptr;
         ::SSL_set_fd(ssl, socket);
-        in_addr address{};
-        if (!m_host.empty() && ::inet_pton(AF_INET, m_host.c_str(), &address) != 1)
+        if (!m_host.empty() && !isAddress(m_host))
             ::SSL_set_tlsext_host_name(ssl, m_host.c_str()); // names only (RFC 6066, 3)
         m_state->socket = socket;
         m_state->events.connected(socket);

@@ -16,6 +16,7 @@
 #include "core/network/file_start.h"
 #include "core/network/multipart.h"
 #include "core/network/statuses.h"
+#include "core/system/utf8.h"
 
 namespace pellucid::network {
 
@@ -27,8 +28,6 @@ using exchange::Step;
 using task::Error;
 using task::ErrorCode;
 
-constexpr std::uint32_t pageSize = 200;
-
 std::string tagText(std::uint32_t tag) {
     return fmt::format("{:08X}", tag);
 }
@@ -36,8 +35,28 @@ std::string tagText(std::uint32_t tag) {
 // Plain in a value of a URL's query, unlike in libcurl: Orthanc 1.10 does not decode %5E.
 constexpr const char *plainInQueries = "-_.~^*?:,";
 
-// The reason of an answer with a status beyond 299.
-task::Reason httpReason(long status) {
+// What a server says about an error for people to read, in one line: a text, or the title of a
+// page.
+std::string remarkOf(const HttpClient::Answer &answer) {
+    constexpr std::size_t longest = 200;
+    std::string text = answer.text;
+    if (answer.contentType.starts_with("text/html")) {
+        const auto begin = text.find("<title>"), end = text.find("</title>");
+        text = begin < end && end != std::string::npos ? text.substr(begin + 7, end - begin - 7)
+                                                       : std::string();
+    } else if (!answer.contentType.starts_with("text/plain")) {
+        return {};
+    }
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return (unsigned char)(c) < 0x20; }, ' ');
+    text.erase(text.find_last_not_of(' ') + 1);
+    text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
+    return system::isUtf8(text) ? shortened(text, longest) : std::string();
+}
+
+// The reason of an answer that is not what was asked for.
+task::Reason httpReason(const HttpClient::Answer &answer) {
+    const long status = answer.status;
     switch (status) {
     case 401:
         return because::serverDoesNotAcceptTheLogin;
@@ -50,13 +69,32 @@ task::Reason httpReason(long status) {
     case 503:
         return because::serverIsBusy;
     case 413:
-        return because::serverIsOutOfResources;
+        return because::serverTakesNoSuchSize;
     case 502:
     case 504:
         return because::proxyHasNoServer(status);
     default:
-        return because::serverAnswersHttp(status);
+        break;
     }
+    // nginx answers so, with a page in which this is the only sign.
+    if (answer.text.find("SSL certificate was sent") != std::string::npos)
+        return because::serverNeedsACertificate;
+    if (status < 300) // of an answer that was to end with a delimiter
+        return because::answerEndsTooEarly;
+    const task::Reason reason = because::serverAnswersHttp(status);
+    const std::string remark = remarkOf(answer);
+    return remark.empty() ? reason : because::serverSays(reason, remark);
+}
+
+[[noreturn]] void fail(const HttpClient::Answer &answer) {
+    throw Error(ErrorCode::unusable, httpReason(answer));
+}
+
+// An object that was sent is not in the server's list of what it stored.
+[[noreturn]] void notConfirmed(const HttpClient::Answer &answer) {
+    if (answer.status >= 300)
+        fail(answer);
+    throw Error(ErrorCode::unusable, because::serverDoesNotConfirm);
 }
 
 } // namespace
@@ -97,17 +135,18 @@ public:
 private:
     // When its UIDs are known. `isWhole`: no more bytes come.
     void open(bool isWhole) {
-        std::optional<exchange::Arrival> arrival;
+        std::optional<FileStart> start;
         try {
-            arrival = arrivalOf(m_start, isWhole);
+            start = readFileStart(m_start, isWhole);
         } catch (const Error &) {
             m_isRefused = true; // an answer that is no object
             ++m_end.failed;
+            m_end.reason = task::Reason(because::serverSendsNoObject).encoded();
             return;
         }
-        if (!arrival)
+        if (!start)
             return;
-        m_storage.emplace(m_control, *arrival);
+        m_storage.emplace(m_control, start->arrival);
         if (m_storage->isWanted()) {
             m_storage->write(m_start);
         } else {
@@ -130,7 +169,7 @@ void WebClient::echo(Control &control) {
     const auto answer =
         m_http.perform({m_path + "/studies?limit=1", "application/dicom+json", {}, {}}, {});
     if (answer.status >= 300)
-        throw Error(ErrorCode::unusable, httpReason(answer.status));
+        fail(answer);
     readDicomJson(answer.text);
     control.step(Step::service, "QIDO-RS");
 }
@@ -162,19 +201,17 @@ exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &contro
         }
         terms += "&" + tagText(tag) + "=" + exchange::percentEncoded(value, plainInQueries);
     }
-    const std::uint32_t uidTag = query.level == Level::study    ? exchange::tag::studyUid
-                                 : query.level == Level::series ? exchange::tag::seriesUid
-                                                                : exchange::tag::sopInstanceUid;
+    const std::uint32_t uidTag = exchange::uidOf(query.level);
     exchange::QueryEnd end;
     std::set<std::string> known;
     bool saysMore = false; // the server, of what follows a page
     for (std::uint32_t offset = query.skip;;) {
-        auto answer =
-            m_http.perform({fmt::format("{}?limit={}&offset={}{}", path, pageSize, offset, terms),
-                            "application/dicom+json",
-                            {},
-                            {}},
-                           {});
+        auto answer = m_http.perform(
+            {fmt::format("{}?limit={}&offset={}{}", path, exchange::matchesOfPage, offset, terms),
+             "application/dicom+json",
+             {},
+             {}},
+            {});
         // Some servers refuse attributes that they do not know, and list those that they have.
         if (answer.status == 400 && !m_asksPlainly && offset == query.skip &&
             terms.find("includefield") != terms.npos) {
@@ -186,8 +223,10 @@ exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &contro
             return end;
         }
         if (answer.status >= 300)
-            throw Error(ErrorCode::unusable, httpReason(answer.status));
-        if (!answer.warning.empty() && end.warnings.empty())
+            fail(answer);
+        // Those of earlier pages have been answered by the next.
+        end.warnings.clear();
+        if (!answer.warning.empty())
             end.warnings.push_back(shortened(answer.warning, longestComment));
         bool hasNew = false;
         std::vector<exchange::Attributes> matches = readDicomJson(answer.text);
@@ -208,10 +247,10 @@ exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &contro
         }
         if (!hasNew) {
             // A full page again: the server knows no offsets, and what follows is not to be had.
-            end.mayBeIncomplete = saysMore || matches.size() == pageSize;
+            end.mayBeIncomplete = saysMore || matches.size() == exchange::matchesOfPage;
             return end;
         }
-        saysMore = !answer.warning.empty();
+        saysMore = !answer.warning.empty() || answer.status == 206;
         if (control.isCancelled())
             throw CancelledByProgram();
     }
@@ -232,19 +271,21 @@ exchange::RetrievalEnd WebClient::retrieve(const exchange::Retrieval &retrieval,
         const Fetched fetched = fetch(paths[n], objects);
         // Some servers send whole series only. What is not awaited of it, the program refuses.
         if (retrieval.level == Level::image && !m_sendsInstances &&
-            (fetched.status == 404 || fetched.status == 405))
+            (fetched.answer.status == 404 || fetched.answer.status == 405))
             if (const Fetched whole = fetch(series, objects); whole.isWhole)
                 return objects.result();
         if (fetched.isWhole) {
             m_sendsInstances = true;
             continue;
         }
-        if (retrieval.level == Level::image && fetched.status != 401 && fetched.status != 403 &&
+        const long status = fetched.answer.status;
+        if (retrieval.level == Level::image && status != 401 && status != 403 &&
             exchange::isUid(retrieval.instanceUids[n])) {
             ++objects.result().failed;
+            objects.result().reason = httpReason(fetched.answer).encoded();
             objects.result().failedInstances.push_back(retrieval.instanceUids[n]);
         } else {
-            throw Error(ErrorCode::unusable, httpReason(fetched.status));
+            fail(fetched.answer);
         }
     }
     return objects.result();
@@ -252,7 +293,7 @@ exchange::RetrievalEnd WebClient::retrieve(const exchange::Retrieval &retrieval,
 
 WebClient::Fetched WebClient::fetch(const std::string &path, Objects &objects) {
     std::optional<MultipartReader> reader;
-    const auto answer = m_http.perform(
+    HttpClient::Answer answer = m_http.perform(
         {path,
          std::string("multipart/related; type=\"application/dicom\"") +
              (m_namesAnySyntax ? "; transfer-syntax=*" : ""),
@@ -272,13 +313,14 @@ WebClient::Fetched WebClient::fetch(const std::string &path, Objects &objects) {
         m_namesAnySyntax = false;
         return fetch(path, objects);
     }
-    return {answer.status, answer.status < 300 && reader && reader->finish()};
+    if (answer.status == 206)
+        objects.result().reason = task::Reason(because::serverCouldNotSendAll).encoded();
+    return {answer, answer.status < 300 && reader && reader->finish()};
 }
 
-void WebClient::store(int file, std::uint64_t bytes, Control &) {
+std::optional<task::Reason> WebClient::store(int file, std::uint64_t bytes, Control &) {
     const decoder::Mapping mapping(file, bytes, decoder::Mapping::Access::read);
-    const auto arrival = arrivalOf(
-        mapping.bytes().first(std::min<std::size_t>(mapping.bytes().size(), 128 << 10)), true);
+    const std::string uid = startOf(mapping.bytes()).arrival.sopInstanceUid;
     // No data set contains it: 128 random bits.
     std::array<unsigned char, 16> random{};
     (void)!::getentropy(random.data(), random.size());
@@ -294,11 +336,10 @@ void WebClient::store(int file, std::uint64_t bytes, Control &) {
          {std::as_bytes(std::span(head)), mapping.bytes(), std::as_bytes(std::span(tail))}},
         {});
     if (answer.status == 401 || answer.status == 403) // often with a page, which is no list
-        throw Error(ErrorCode::unusable, httpReason(answer.status));
+        fail(answer);
     const bool hasList = answer.text.find('{') != std::string::npos;
     if (!hasList)
-        throw Error(ErrorCode::unusable, answer.status >= 300 ? httpReason(answer.status)
-                                                              : because::serverDoesNotConfirm);
+        notConfirmed(answer);
     // A status of success alone means nothing: only the list of what is stored does.
     const StoreAnswer stored = [&] {
         try {
@@ -306,16 +347,20 @@ void WebClient::store(int file, std::uint64_t bytes, Control &) {
         } catch (const Error &) { // a page, in which a brace says nothing
             if (answer.status < 300)
                 throw;
-            throw Error(ErrorCode::unusable, httpReason(answer.status));
+            fail(answer);
         }
     }();
-    for (const StoreAnswer::Failed &failed : stored.failed)
-        if (failed.uid == arrival->sopInstanceUid)
-            throw Error(ErrorCode::unusable, statusReason(std::uint16_t(failed.reason), {}));
-    if (std::find(stored.stored.begin(), stored.stored.end(), arrival->sopInstanceUid) ==
-        stored.stored.end())
-        throw Error(ErrorCode::unusable, answer.status >= 300 ? httpReason(answer.status)
-                                                              : because::serverDoesNotConfirm);
+    const auto at = [&](const std::vector<StoreAnswer::Item> &items) {
+        return std::find_if(items.begin(), items.end(),
+                            [&](const StoreAnswer::Item &one) { return one.uid == uid; });
+    };
+    if (const auto failed = at(stored.failed); failed != stored.failed.end())
+        throw Error(ErrorCode::unusable, statusReason(std::uint16_t(failed->reason), {}));
+    const auto confirmed = at(stored.stored);
+    if (confirmed == stored.stored.end())
+        notConfirmed(answer);
+    return confirmed->reason == 0 ? std::nullopt
+                                  : std::optional(changeReason(std::uint16_t(confirmed->reason)));
 }
 
 } // namespace pellucid::network

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/exchange/message.h"
@@ -22,13 +23,14 @@ public:
     void echo(Control &control);
     exchange::QueryEnd find(const exchange::Query &query, Control &control);
     exchange::RetrievalEnd retrieve(const exchange::Retrieval &retrieval, Control &control);
-    /// STOW-RS of an open file of this size.
-    void store(int file, std::uint64_t bytes, Control &control);
+    /// STOW-RS of an open file of this size. *Returns* how the server changed the object; nothing
+    /// if it stored it unchanged.
+    std::optional<task::Reason> store(int file, std::uint64_t bytes, Control &control);
 
 private:
     class Objects;
     struct Fetched {
-        long status;
+        HttpClient::Answer answer;
         bool isWhole;
     };
     /// Passes on the objects at a path.

@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtx/component_wise.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
@@ -34,12 +35,15 @@ constexpr double flatnessMm = 0.1;
 // A grid in the contours' plane: the rows and columns of the lattice's slices, or others.
 struct Frame {
     glm::dvec3 origin;
-    glm::dmat3 steps;    // of a column, of a row, and the unit normal
+    glm::dmat3 steps;    // of a column, of a row, and to the plane 1 mm along the normal
     glm::dmat3 toPixels; // and mm along the normal
 };
 
-Frame frameOf(const glm::dvec3 &origin, const glm::dvec3 &columnStep, const glm::dvec3 &rowStep) {
-    const glm::dmat3 steps(columnStep, rowStep, glm::normalize(glm::cross(columnStep, rowStep)));
+// `across`: from a plane to others; oblique for a tilted lattice.
+Frame frameOf(const glm::dvec3 &origin, const glm::dvec3 &columnStep, const glm::dvec3 &rowStep,
+              const glm::dvec3 &across) {
+    const glm::dvec3 normal = glm::normalize(glm::cross(columnStep, rowStep));
+    const glm::dmat3 steps(columnStep, rowStep, across / glm::dot(across, normal));
     return {origin, steps, glm::inverse(steps)};
 }
 
@@ -55,23 +59,24 @@ glm::dvec3 normalOf(std::span<const glm::dvec3> contour) {
 bool isInPlane(std::span<const glm::dvec3> contour, const Frame &frame) {
     double low = 1e30, high = -1e30;
     for (const glm::dvec3 &point : contour) {
-        const double at = glm::dot(point - frame.origin, frame.steps[2]);
+        const double at = (frame.toPixels * (point - frame.origin)).z;
         low = std::min(low, at);
         high = std::max(high, at);
     }
     return high - low <= 2.0 * flatnessMm;
 }
 
-// Along the lattice's slices if the contours are; else in the plane of the largest contour.
-Frame commonFrame(const std::vector<std::span<const glm::dvec3>> &contours,
-                  const Lattice &lattice) {
-    const auto fits = [&](const Frame &frame) {
-        return std::all_of(contours.begin(), contours.end(),
-                           [&](const auto &contour) { return isInPlane(contour, frame); });
-    };
-    const Frame slices = frameOf(lattice.origin().mm, lattice.step(0), lattice.step(1));
-    if (fits(slices))
-        return slices;
+Frame frameOfSlices(const Lattice &lattice) {
+    return frameOf(lattice.origin().mm, lattice.step(0), lattice.step(1), lattice.step(2));
+}
+
+bool areAlong(const std::vector<std::span<const glm::dvec3>> &contours, const Frame &frame) {
+    return std::all_of(contours.begin(), contours.end(),
+                       [&](const auto &contour) { return isInPlane(contour, frame); });
+}
+
+// In the plane of the largest contour.
+Frame ownFrame(const std::vector<std::span<const glm::dvec3>> &contours, const Lattice &lattice) {
     glm::dvec3 normal{0.0};
     for (const auto &contour : contours)
         if (const glm::dvec3 own = normalOf(contour); glm::length(own) > glm::length(normal))
@@ -82,8 +87,8 @@ Frame commonFrame(const std::vector<std::span<const glm::dvec3>> &contours,
     const glm::dvec3 aside = std::abs(normal.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const double step = lattice.shortestStepMm();
     const glm::dvec3 u = step * glm::normalize(glm::cross(normal, aside));
-    const Frame own = frameOf(contours.front().front(), u, glm::cross(normal, u));
-    if (!fits(own))
+    const Frame own = frameOf(contours.front().front(), u, glm::cross(normal, u), normal);
+    if (!areAlong(contours, own))
         fail(because::contoursNotPlanar);
     return own;
 }
@@ -118,6 +123,42 @@ std::vector<PolygonsOfPlane> byPlane(const std::vector<std::span<const glm::dvec
         planes.back().polygons.push_back(std::move(polygon));
     }
     return planes;
+}
+
+// Coordinates are decimal numbers: half of the last place that they use. Places below 0.001 mm do
+// not matter.
+double roundingMm(const std::vector<std::span<const glm::dvec3>> &contours) {
+    for (const double place : {0.1, 0.01, 0.001}) {
+        const auto uses = [&](const glm::dvec3 &point) {
+            const glm::dvec3 places = point / place;
+            return glm::compMax(glm::abs(places - glm::round(places))) < 1e-6;
+        };
+        if (std::all_of(contours.begin(), contours.end(), [&](const auto &contour) {
+                return std::all_of(contour.begin(), contour.end(), uses);
+            }))
+            return 0.5 * place;
+    }
+    return 0.0;
+}
+
+// Moves planes onto the slices from which only rounding separates them. Returns the largest
+// distance of the others within the volume from a slice.
+double moveOntoSlices(std::vector<PolygonsOfPlane> &planes, const Lattice &lattice,
+                      double roundedMm) {
+    // A slice may have a negative position along the columns' and rows' normal.
+    const double stepMm = glm::dot(lattice.step(2), lattice.sliceNormal());
+    constexpr double exactMm = 1e-6;
+    const double near = std::max(sampleTolerance * lattice.sliceDistanceMm(), roundedMm + exactMm);
+    double farthest = 0.0;
+    for (PolygonsOfPlane &plane : planes) {
+        const double slice = std::round(plane.atMm / stepMm);
+        const double off = std::abs(plane.atMm - slice * stepMm);
+        if (off <= near)
+            plane.atMm = slice * stepMm;
+        else if (slice >= 0.0 && slice < lattice.size().k)
+            farthest = std::max(farthest, off);
+    }
+    return farthest;
 }
 
 // Adds the length of [from, to] within each pixel of a row; pixel c reaches from c - 1/2 to c +
@@ -200,10 +241,14 @@ Extent extentOf(const std::vector<PolygonsOfPlane> &planes) {
 
 FilledContours filled(const std::vector<std::span<const glm::dvec3>> &contours,
                       const Lattice &lattice, const task::Progress &progress) {
-    const Frame frame = commonFrame(contours, lattice);
-    const std::vector<PolygonsOfPlane> planes = byPlane(contours, frame);
-    const Extent extent = extentOf(planes);
+    const Frame slices = frameOfSlices(lattice);
+    const bool areAlongSlices = areAlong(contours, slices);
+    const Frame frame = areAlongSlices ? slices : ownFrame(contours, lattice);
+    std::vector<PolygonsOfPlane> planes = byPlane(contours, frame);
     FilledContours result;
+    if (areAlongSlices)
+        result.betweenSlicesMm = moveOntoSlices(planes, lattice, roundingMm(contours));
+    const Extent extent = extentOf(planes);
     StoredMasks &masks = result.masks;
     masks.kind = StoredMasks::Pixels::fractions;
     masks.longestGap = 2.5; // some programs leave out a slice between drawn ones

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -65,10 +66,11 @@ class Collector {
 public:
     explicit Collector(const Volume &volume) : m_lattice(volume.lattice()) {}
 
-    void add(Segment segment, Coverage coverage) {
+    // Returns the name that the segment gets, or nothing if it is outside the volume.
+    std::optional<std::string> add(Segment segment, Coverage coverage) {
         if (coverage.isEmpty()) {
             m_outside.push_back(segment.name);
-            return;
+            return std::nullopt;
         }
         segment.name = system::uniqueName(segment.name, m_names);
         segment.volumeMm3 = coverage.total() * m_lattice.cellVolumeMm3();
@@ -76,11 +78,26 @@ public:
         segment.id = next++;
         segment.coverage = std::make_shared<const Coverage>(std::move(coverage));
         m_result.segments.push_back(std::move(segment));
+        return m_result.segments.back().name;
     }
-    void add(std::vector<Segment> segments, PlacedMasks masks) {
-        m_isResampled = m_isResampled || masks.isResampled;
+    // `farthestMm`: of the pixels from the volume's samples.
+    void addMasks(std::vector<Segment> segments, PlacedMasks placed, double farthestMm) {
+        if (farthestMm > 0.0)
+            warn(because::segmentsBetweenSamples(millimetres(farthestMm)));
+        else
+            m_isResampled = m_isResampled || placed.isResampled;
         for (std::size_t n = 0; n < segments.size(); ++n)
-            add(std::move(segments[n]), std::move(masks.coverages[n]));
+            add(std::move(segments[n]), std::move(placed.coverages[n]));
+    }
+    // `betweenSlicesMm`: see FilledContours.
+    void addContours(Segment segment, PlacedMasks placed, double betweenSlicesMm) {
+        const auto name = add(std::move(segment), std::move(placed.coverages.front()));
+        if (!name)
+            return;
+        m_isResampled = m_isResampled || (placed.isResampled && betweenSlicesMm == 0.0);
+        if (betweenSlicesMm > 0.0)
+            m_betweenSlices.push_back(*name);
+        m_betweenSlicesMm = std::max(m_betweenSlicesMm, betweenSlicesMm);
     }
     void warn(task::Reason warning) { m_result.warnings.push_back(std::move(warning)); }
 
@@ -90,7 +107,8 @@ public:
         m_result.title = std::move(title);
         if (m_isResampled)
             warn(because::segmentsResampled);
-        constexpr std::size_t maxNamed = 5;
+        if (!m_betweenSlices.empty())
+            warn(because::contoursBetweenSlices(millimetres(m_betweenSlicesMm), namesBetween()));
         if (m_outside.size() > maxNamed)
             warn(because::segmentsNotInTheVolume(m_outside.size()));
         else
@@ -100,12 +118,32 @@ public:
     }
 
 private:
+    static constexpr std::size_t maxNamed = 5;
+
+    static std::string millimetres(double value) { return fmt::format("{:.3g}", value); }
+
+    std::string namesBetween() const {
+        std::string names;
+        for (std::size_t n = 0; n < std::min(maxNamed, m_betweenSlices.size()); ++n)
+            names += (n == 0 ? "" : ", ") + m_betweenSlices[n];
+        return m_betweenSlices.size() > maxNamed ? names + ", \u2026" : names;
+    }
+
     Lattice m_lattice;
     Segmentation m_result;
     std::set<std::string> m_names;
-    std::vector<std::string> m_outside;
+    std::vector<std::string> m_outside, m_betweenSlices;
+    double m_betweenSlicesMm = 0.0;
     bool m_isResampled = false;
 };
+
+void addPlaced(const StoredMasks &masks, std::vector<Segment> segments, const Lattice &lattice,
+               const task::Progress &progress, Collector &collector) {
+    PlacedMasks onLattice = placed(masks, lattice, progress);
+    const double farthestMm =
+        onLattice.isResampled ? farthestFromSamplesMm(masks, lattice, progress) : 0.0;
+    collector.addMasks(std::move(segments), std::move(onLattice), farthestMm);
+}
 
 Segmentation loadDicomSegmentation(const fs::path &path, const Volume &volume,
                                    const task::Progress &progress) {
@@ -138,7 +176,7 @@ Segmentation loadDicomSegmentation(const fs::path &path, const Volume &volume,
              *frame.columnAxis * frame.spacingMm->y,
              masks.kind == StoredMasks::Pixels::labels ? 0 : indices.at(frame.segment)});
     Collector collector(volume);
-    collector.add(std::move(segments), placed(masks, volume.lattice(), progress.part(0.4, 1.0)));
+    addPlaced(masks, std::move(segments), volume.lattice(), progress.part(0.4, 1.0), collector);
     return collector.take(header.seriesDescription.empty() ? path.stem().string()
                                                            : header.seriesDescription);
 }
@@ -166,7 +204,7 @@ Segmentation loadStructureSet(const fs::path &path, const Volume &volume,
         segment.type.meaning = structure.type;
         const FilledContours planes = filled(contours, volume.lattice(), progress);
         PlacedMasks masks = placed(planes.masks, volume.lattice(), progress.part(done, done));
-        collector.add({std::move(segment)}, std::move(masks));
+        collector.addContours(std::move(segment), std::move(masks), planes.betweenSlicesMm);
         done += 0.7 / double(file.header.structures.size());
         progress.report(done);
     }
@@ -231,8 +269,7 @@ Segmentation loadLabelVolume(const fs::path &path, const Volume &volume,
         Collector collector(volume);
         for (const task::Reason &warning : header.notes.warnings)
             collector.warn(warning);
-        collector.add(std::move(segments),
-                      placed(masks, volume.lattice(), progress.part(0.5, 1.0)));
+        addPlaced(masks, std::move(segments), volume.lattice(), progress.part(0.5, 1.0), collector);
         return collector.take(header.notes.title);
     });
 }

@@ -39,7 +39,8 @@ struct Segmentation {
 
 /// Reads a DICOM segmentation, an RT structure set, or a volume of labels (NRRD, NIfTI, MetaImage)
 /// and places its segments on a volume. Segments without a name are named after their code or
-/// number. Says in a warning that masks were resampled, and which segments are not in the volume.
+/// number. Says in a warning how far masks are from the volume's samples, which contours are
+/// between its slices, that masks were resampled, and which segments are not in the volume.
 /// *Throws* Error{unusable} naming the file, also if it belongs to another study or frame of
 /// reference, or if nothing of it is in the volume; Error{outOfMemory}; Cancelled.
 Segmentation loadSegmentation(const std::filesystem::path &path, const volume::Volume &volume,

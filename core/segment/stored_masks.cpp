@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 #include <optional>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 #include <glm/gtx/component_wise.hpp>
@@ -26,9 +27,6 @@ using volume::GridSize;
 using volume::Lattice;
 using volume::VoxelBox;
 using volume::VoxelIndex;
-
-// How far a pixel may lie from a sample that it belongs to.
-constexpr double tolerance = 0.05; // of a step
 
 void grow(VoxelBox &box, VoxelIndex n) {
     box = united(box, {n, {n.i + 1, n.j + 1, n.k + 1}});
@@ -58,7 +56,7 @@ std::optional<SampledPlane> onSamples(const MaskPlane &plane, const StoredMasks 
         return std::nullopt;
     const auto isNear = [&](double column, double row) {
         const glm::dvec3 meant = first + column * columnStep + row * rowStep;
-        return glm::compMax(glm::abs(voxel(column, row) - meant)) <= tolerance;
+        return glm::compMax(glm::abs(voxel(column, row) - meant)) <= sampleTolerance;
     };
     if (!isNear(0, 0) || !isNear(right, 0) || !isNear(0, down) ||
         glm::compMax(glm::abs(first)) > 1e6)
@@ -218,6 +216,42 @@ PlacedMasks placed(const StoredMasks &masks, const Lattice &lattice,
         }
         return result;
     });
+}
+
+double farthestFromSamplesMm(const StoredMasks &masks, const Lattice &lattice,
+                             const task::Progress &progress) {
+    // The planes of different segments often are at the same place.
+    std::vector<MaskPlane> planes = masks.planes;
+    const auto numbers = [](const MaskPlane &plane) {
+        const glm::dvec3 &o = plane.origin, &c = plane.columnStep, &r = plane.rowStep;
+        return std::tuple(o.x, o.y, o.z, c.x, c.y, c.z, r.x, r.y, r.z);
+    };
+    std::sort(planes.begin(), planes.end(),
+              [&](const MaskPlane &a, const MaskPlane &b) { return numbers(a) < numbers(b); });
+    planes.erase(std::unique(planes.begin(), planes.end(),
+                             [&](const MaskPlane &a, const MaskPlane &b) {
+                                 return numbers(a) == numbers(b);
+                             }),
+                 planes.end());
+    const glm::dmat3 steps(lattice.step(0), lattice.step(1), lattice.step(2));
+    const glm::dvec3 size(lattice.size().i, lattice.size().j, lattice.size().k);
+    std::vector<double> farthest(planes.size());
+    tbb::parallel_for(std::size_t(0), planes.size(), [&](std::size_t n) {
+        const MaskPlane &plane = planes[n];
+        for (int row = 0; row < masks.rows; ++row) {
+            progress.check();
+            const glm::dvec3 first = lattice.voxel({plane.origin + double(row) * plane.rowStep}).v,
+                             step = lattice.voxel({lattice.origin().mm + plane.columnStep}).v;
+            for (int column = 0; column < masks.columns; ++column) {
+                const glm::dvec3 at = first + double(column) * step, nearest = glm::round(at);
+                const bool isInside =
+                    glm::compMin(nearest) >= 0.0 && glm::compMin(size - nearest) >= 1.0;
+                if (isInside && glm::compMax(glm::abs(at - nearest)) > sampleTolerance)
+                    farthest[n] = std::max(farthest[n], glm::length(steps * (at - nearest)));
+            }
+        }
+    });
+    return *std::max_element(farthest.begin(), farthest.end());
 }
 
 } // namespace pellucid::segment

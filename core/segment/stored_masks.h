@@ -13,6 +13,9 @@
 
 namespace pellucid::segment {
 
+/// How far a pixel may lie from the sample that it belongs to, in steps of the lattice.
+inline constexpr double sampleTolerance = 0.05;
+
 /// A plane of pixels in patient space: pixel (c, r) is at origin + c columnStep + r rowStep.
 struct MaskPlane {
     glm::dvec3 origin, columnStep, rowStep; ///< mm
@@ -46,12 +49,17 @@ struct PlacedMasks {
     bool isResampled = false; ///< the pixels do not lie on the lattice's samples
 };
 
-/// Places masks by their geometry. Where every pixel lies on a sample, within a twentieth of a
-/// step, the sample gets its value, whatever the order and direction of rows, columns and planes.
+/// Places masks by their geometry. Where every pixel lies on a sample, within `sampleTolerance`,
+/// the sample gets its value, whatever the order and direction of rows, columns and planes.
 /// Otherwise the masks are interpolated linearly, but not across gaps; they end half a thickness
 /// beyond the outermost planes. *Throws* Error{unusable} if the
 /// planes are not parallel, Error{outOfMemory}, Cancelled.
 PlacedMasks placed(const StoredMasks &masks, const volume::Lattice &lattice,
                    const task::Progress &progress = {});
+
+/// The largest distance of a pixel within the lattice from the nearest sample, mm. 0 if every one
+/// lies on a sample, within `sampleTolerance`. *Throws* Cancelled.
+double farthestFromSamplesMm(const StoredMasks &masks, const volume::Lattice &lattice,
+                             const task::Progress &progress = {});
 
 } // namespace pellucid::segment

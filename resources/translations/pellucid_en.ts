@@ -90,6 +90,28 @@
     </message>
 </context>
 <context>
+    <name>pellucid::ui::ServerCommands</name>
+    <message numerus="yes">
+        <source>The server has corrected data of this study since %n of its images were received:
+
+%1
+
+Retrieve these images again, and replace those that are here?</source>
+        <translation>
+            <numerusform>The server has corrected data of this study since %n of its images was received:
+
+%1
+
+Retrieve this image again, and replace the one that is here?</numerusform>
+            <numerusform>The server has corrected data of this study since %n of its images were received:
+
+%1
+
+Retrieve these images again, and replace those that are here?</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>pellucid::ui::StudyList</name>
     <message numerus="yes">
         <source>%1: %n images</source>

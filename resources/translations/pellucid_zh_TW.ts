@@ -2586,10 +2586,6 @@
         <translation>沒有任何分割區在此體積之內</translation>
     </message>
     <message>
-        <source>the segments are not on the volume&apos;s samples; they were interpolated</source>
-        <translation>分割區不在此體積的取樣點上，已經內插</translation>
-    </message>
-    <message>
         <source>open contours and points, which enclose nothing: %1</source>
         <translation>未圍住任何範圍的開放輪廓與點：%1</translation>
     </message>
@@ -3422,10 +3418,6 @@
         <translation>若要以 TLS 接收，本程式需要簽發傳送端憑證之憑證機構的憑證（命令列：--authorities）</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is not an IPv4 address of this computer to receive on</source>
-        <translation>「%1」不是本電腦可用於接收的 IPv4 位址</translation>
-    </message>
-    <message>
         <source>only the last %1 MB of the disk are free, which are kept in reserve</source>
         <translation>磁碟僅剩最後 %1 MB 可用空間，此空間予以保留</translation>
     </message>
@@ -3450,14 +3442,6 @@
         <translation>%1；%2 僅在給定 --allow-unprotected 時繼續執行</translation>
     </message>
     <message>
-        <source>the server has %1 objects of it, but lists only %2</source>
-        <translation>伺服器有 %1 個物件，但只列出 %2 個</translation>
-    </message>
-    <message>
-        <source>objects whose UID is invalid, and which cannot be retrieved: %1</source>
-        <translation>UID 無效而無法取回的物件：%1</translation>
-    </message>
-    <message>
         <source>the server did not list it</source>
         <translation>伺服器未列出</translation>
     </message>
@@ -3468,10 +3452,6 @@
     <message>
         <source>entries without a valid UID, which cannot be opened: %1</source>
         <translation>沒有有效 UID 而無法開啟的項目：%1</translation>
-    </message>
-    <message>
-        <source>%1: stored, but the server changed or dropped attributes</source>
-        <translation>%1：已儲存，但伺服器變更或捨棄了屬性</translation>
     </message>
     <message>
         <source>the server behind the proxy does not answer (HTTP status %1)</source>
@@ -3604,6 +3584,114 @@
     <message>
         <source>%1 ms</source>
         <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>the server sends something other than DICOM objects</source>
+        <translation>伺服器傳送的不是 DICOM 物件</translation>
+    </message>
+    <message>
+        <source>the server wants https: change its address to %1</source>
+        <translation>伺服器要求 https：請將位址改為 %1</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is neither the name nor the address of a host</source>
+        <translation>「%1」既非主機名稱，也非位址</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not an address of this computer to receive on</source>
+        <translation>「%1」不是本電腦可用於接收的位址</translation>
+    </message>
+    <message>
+        <source>stored, but the server changed or left out attributes (%1)</source>
+        <translation>已儲存，但伺服器變更或略去了屬性（%1）</translation>
+    </message>
+    <message>
+        <source>the login server %1: %2</source>
+        <translation>登入伺服器 %1：%2</translation>
+    </message>
+    <message>
+        <source>the server offers neither C-GET nor C-MOVE</source>
+        <translation>伺服器既不提供 C-GET，也不提供 C-MOVE</translation>
+    </message>
+    <message>
+        <source>kinds of objects or encodings that this program does not take: %1</source>
+        <translation>本程式不接受的物件種類或編碼：%1</translation>
+    </message>
+    <message>
+        <source>the patient&apos;s name is &apos;%1&apos; here, and &apos;%2&apos; at the server</source>
+        <translation>病人姓名在本機為「%1」，在伺服器為「%2」</translation>
+    </message>
+    <message>
+        <source>the patient&apos;s ID is &apos;%1&apos; here, and &apos;%2&apos; at the server</source>
+        <translation>病歷號在本機為「%1」，在伺服器為「%2」</translation>
+    </message>
+    <message>
+        <source>the birth date is &apos;%1&apos; here, and &apos;%2&apos; at the server</source>
+        <translation>出生日期在本機為「%1」，在伺服器為「%2」</translation>
+    </message>
+    <message>
+        <source>the study date is &apos;%1&apos; here, and &apos;%2&apos; at the server</source>
+        <translation>檢查日期在本機為「%1」，在伺服器為「%2」</translation>
+    </message>
+    <message>
+        <source>the server has corrected data of %1 objects since they were received; get with --replace retrieves them again</source>
+        <translation>伺服器在接收後更正了 %1 個物件的資料；get 加上 --replace 可重新取回</translation>
+    </message>
+    <message>
+        <source>the segments are coarser than the volume, or lie across its slices; they were interpolated</source>
+        <translation>分割比體積粗，或橫跨其切片；已內插</translation>
+    </message>
+    <message>
+        <source>at %1 mm right</source>
+        <translation>右側 %1 mm 處</translation>
+    </message>
+    <message>
+        <source>at %1 mm left</source>
+        <translation>左側 %1 mm 處</translation>
+    </message>
+    <message>
+        <source>at %1 mm anterior</source>
+        <translation>前方 %1 mm 處</translation>
+    </message>
+    <message>
+        <source>at %1 mm posterior</source>
+        <translation>後方 %1 mm 處</translation>
+    </message>
+    <message>
+        <source>at %1 mm towards the feet</source>
+        <translation>足側 %1 mm 處</translation>
+    </message>
+    <message>
+        <source>at %1 mm towards the head</source>
+        <translation>頭側 %1 mm 處</translation>
+    </message>
+    <message>
+        <source>the other side&apos;s certificate is not accepted: %1; if you trust it, add its CA certificates (in the window: Authorities; on the command line: server add with --authorities)</source>
+        <translation>不接受對方的憑證：%1；若您信任此伺服器，請加入其憑證機構的憑證（視窗中：憑證機構；命令列：server add 加上 --authorities）</translation>
+    </message>
+    <message>
+        <source>the server ends the connection without accepting an association; perhaps it expects TLS</source>
+        <translation>伺服器未接受關聯即結束連線；可能需要 TLS</translation>
+    </message>
+    <message>
+        <source>the server does not accept objects of this size</source>
+        <translation>伺服器不接受此大小的物件</translation>
+    </message>
+    <message>
+        <source>the server&apos;s answer is incomplete</source>
+        <translation>伺服器的回應不完整</translation>
+    </message>
+    <message>
+        <source>the server redirects too often</source>
+        <translation>伺服器重新導向次數過多</translation>
+    </message>
+    <message>
+        <source>%1; the server reports: %2</source>
+        <translation>%1；伺服器訊息：%2</translation>
+    </message>
+    <message>
+        <source>a sender at %1 was refused: it is not an address of the server; if the server sends from there, add it (in the window: Sends from; on the command line: server add with --sends-from)</source>
+        <translation>已拒絕 %1 的傳送者：並非伺服器的位址；若伺服器由該處傳送，請加入（視窗中：傳送來源；命令列：server add 加上 --sends-from）</translation>
     </message>
 </context>
 <context>
@@ -6467,6 +6555,28 @@ The study is in the library. Open it?</source>
         <source>Open</source>
         <translation>開啟</translation>
     </message>
+    <message>
+        <source>Corrected data</source>
+        <translation>已更正的資料</translation>
+    </message>
+    <message numerus="yes">
+        <source>The server has corrected data of this study since %n of its images were received:
+
+%1
+
+Retrieve these images again, and replace those that are here?</source>
+        <translation>
+            <numerusform>此檢查的 %n 張影像接收後，伺服器更正了資料：
+
+%1
+
+是否重新取回這些影像，並取代本機的影像？</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Replace</source>
+        <translation>取代</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::ServerSearch</name>
@@ -6551,10 +6661,6 @@ The study is in the library. Open it?</source>
     <message>
         <source>Automatic</source>
         <translation>自動</translation>
-    </message>
-    <message>
-        <source>Connections at the same time while retrieving</source>
-        <translation>取回時的同時連線數</translation>
     </message>
     <message>
         <source>Most answers to a search; 0: no limit</source>
@@ -6763,6 +6869,18 @@ The study is in the library. Open it?</source>
     <message>
         <source>Send without TLS</source>
         <translation>在未使用 TLS 下傳送</translation>
+    </message>
+    <message>
+        <source>Other hosts from which it sends with C-MOVE, such as the nodes of a cluster, separated by commas; usually empty</source>
+        <translation>以 C-MOVE 傳送的其他主機，例如叢集的節點，以逗號分隔；通常留空</translation>
+    </message>
+    <message>
+        <source>Most connections at the same time while retrieving; fewer are used where more would not save time</source>
+        <translation>取回時同時連線的最大數目；更多連線並不省時之處則較少</translation>
+    </message>
+    <message>
+        <source>Sends from</source>
+        <translation>傳送來源</translation>
     </message>
 </context>
 <context>
@@ -7251,6 +7369,10 @@ The study is in the library. Open it?</source>
     <message>
         <source>Send to</source>
         <translation>傳送至</translation>
+    </message>
+    <message>
+        <source>Log in to %1</source>
+        <translation>登入 %1</translation>
     </message>
 </context>
 <context>

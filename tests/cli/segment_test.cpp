@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/classify/shown_fields.h"
@@ -18,6 +19,7 @@
 #include "core/scene/scene.h"
 #include "core/segment/segment_set.h"
 #include "core/subtraction/difference.h"
+#include "core/volume/nrrd.h"
 
 namespace pellucid {
 
@@ -128,6 +130,30 @@ TEST_F(Cli, InfoListsSegmentationsOfTheStudy) {
     // It is a file that is read.
     expectOneLine(cli("render " + quoted(series) + " -o " + quoted(series / "organs.dcm")), 2,
                   "is one of the files that are read");
+}
+
+// Labels beside the volume's samples: a line of the log, and of the report, says how far.
+TEST_F(Cli, SaysHowFarSegmentsAreFromTheSamples) {
+    const fs::path series = phantomFolder("--kind sphere --size 24x24x24"),
+                   labels = folder / "labels.nrrd", out = folder / "image.png";
+    const volume::Lattice lattice = volumeIn(series).lattice();
+    for (const double part : {0.0, 0.25}) { // of a column
+        const auto moved =
+            volume::Lattice::make(lattice.size(), {lattice.origin().mm + part * lattice.step(0)},
+                                  {lattice.step(0), lattice.step(1), lattice.step(2)});
+        volume::writeNrrd(
+            labels, volume::Volume(moved, std::vector<std::int16_t>(lattice.size().count(), 1),
+                                   volume::ValueUnit::none));
+        const auto r = cli("render " + quoted(series) + " -o " + quoted(out) + " --json" +
+                           " --segmentation " + quoted(labels));
+        ASSERT_EQ(r.exitCode, 0) << r.error;
+        const json warnings = json::parse(r.out)["segmentations"][0]["warnings"];
+        const std::string expected = task::because::segmentsBetweenSamples(
+                                         fmt::format("{:.3g}", 0.25 * lattice.spacingMm(0)))
+                                         .english();
+        EXPECT_EQ(warnings, part > 0.0 ? json::array({expected}) : json::array());
+        EXPECT_EQ(r.error.find(expected) != std::string::npos, part > 0.0) << r.error;
+    }
 }
 
 TEST_F(Cli, GrowsARegionAndWritesIt) {

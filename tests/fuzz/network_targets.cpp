@@ -252,15 +252,17 @@ void dicomJson(Bytes bytes) {
 
 void fileStart(Bytes bytes) {
     refusing([&] {
-        const auto whole = network::arrivalOf(bytes);
+        const auto whole = network::readFileStart(bytes);
         if (!whole)
             return;
-        check(exchange::isUid(whole->sopClassUid) && exchange::isUid(whole->sopInstanceUid) &&
-              exchange::isUid(whole->transferSyntax));
+        check(exchange::isUid(whole->arrival.sopClassUid) &&
+              exchange::isUid(whole->arrival.sopInstanceUid) &&
+              exchange::isUid(whole->arrival.transferSyntax));
+        check(whole->dataSet <= bytes.size());
         // The start of such a file is not yet enough, or enough for the same answer.
         for (std::size_t length = 0; length < std::min<std::size_t>(bytes.size(), 1024); ++length) {
-            const auto part = network::arrivalOf(bytes.first(length));
-            check(!part || part->sopInstanceUid == whole->sopInstanceUid);
+            const auto part = network::readFileStart(bytes.first(length));
+            check(!part || part->arrival.sopInstanceUid == whole->arrival.sopInstanceUid);
         }
     });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <arpa/inet.h>
 #include <cstdint>
 #include <functional>
 #include <netinet/in.h>
@@ -16,16 +17,16 @@
 
 namespace pellucid::test {
 
-/// A socket that listens on 127.0.0.1. `port`: 0: a free one, which is written there. *Throws* if
-/// the port is in use.
-inline int listenOn(int &port) {
+/// A socket that listens on an address of this computer. `port`: 0: a free one, which is written
+/// there. *Throws* if the port is in use.
+inline int listenOn(int &port, const char *address = "127.0.0.1") {
     const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     const int on = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     sockaddr_in at{};
     at.sin_family = AF_INET;
     at.sin_port = htons(std::uint16_t(port));
-    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    at.sin_addr.s_addr = ::inet_addr(address);
     if (::bind(socket, reinterpret_cast<sockaddr *>(&at), sizeof at) != 0 ||
         ::listen(socket, 64) != 0) {
         ::close(socket);
@@ -37,14 +38,14 @@ inline int listenOn(int &port) {
     return socket;
 }
 
-/// Listens on a free port of 127.0.0.1, and serves each connection in a thread of its own. The end
+/// Listens on a free port, and serves each connection in a thread of its own. The end
 /// shuts all connections down, and waits for the threads.
 class Acceptor {
 public:
     /// `serve`: gets the socket of a connection, which is shut down when it returns. It returns
     /// soon after the other side has closed the connection.
-    explicit Acceptor(std::function<void(int client)> serve)
-        : m_serve(std::move(serve)), m_socket(listenOn(m_port)),
+    explicit Acceptor(std::function<void(int client)> serve, const char *address = "127.0.0.1")
+        : m_serve(std::move(serve)), m_socket(listenOn(m_port, address)),
           m_thread([this](const std::stop_token &stop) { acceptAll(stop); }) {}
     ~Acceptor() {
         m_thread.request_stop();

@@ -8,6 +8,7 @@
 #include <future>
 #include <map>
 #include <mutex>
+#include <sstream>
 #include <string>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -32,12 +33,20 @@ struct HttpRequest {
     }
 };
 
+/// How an answer shows where its body ends.
+enum class Framing { byLength, inChunks, byTheEnd };
+
 struct HttpAnswer {
     int status = 200;
     std::string type = "application/json", body, location;
     std::shared_future<void> after{}; ///< the answer waits for it, and others do not
     std::string header{};             ///< one more: "Name: value"
     bool isLast = false;              ///< of its connection, without saying so
+    Framing framing = Framing::byLength;
+    std::string version = "HTTP/1.1";
+    /// Bytes of the body, after which the connection breaks.
+    std::size_t cutAt = std::string::npos;
+    std::size_t pieceBytes = 0; ///< the body comes slowly in such pieces; 0: at once
 };
 
 inline std::string urlDecoded(const std::string &text) {
@@ -133,15 +142,46 @@ private:
             }
             if (answer.after.valid())
                 answer.after.wait();
-            sendAll(client, "HTTP/1.1 " + std::to_string(answer.status) +
-                                " Answer\r\nContent-Type: " + answer.type +
-                                "\r\nContent-Length: " + std::to_string(answer.body.size()) +
-                                (answer.location.empty() ? "" : "\r\nLocation: ") +
-                                answer.location + (answer.header.empty() ? "" : "\r\n") +
-                                answer.header + "\r\n\r\n" + answer.body);
+            if (!sendAnswer(client, answer))
+                return;
             if (answer.isLast)
                 return;
         }
+    }
+    // Returns false if no more can follow on this connection.
+    static bool sendAnswer(int client, const HttpAnswer &answer) {
+        const bool hasChunks = answer.framing == Framing::inChunks && !answer.body.empty();
+        std::string head = answer.version + " " + std::to_string(answer.status) + " Answer\r\n";
+        const auto add = [&](const std::string &line) { head += line + "\r\n"; };
+        if (!answer.type.empty())
+            add("Content-Type: " + answer.type);
+        if (hasChunks)
+            add("Transfer-Encoding: chunked");
+        else if (answer.framing != Framing::byTheEnd)
+            add("Content-Length: " + std::to_string(answer.body.size()));
+        if (!answer.location.empty())
+            add("Location: " + answer.location);
+        if (!answer.header.empty())
+            add(answer.header);
+        sendAll(client, head + "\r\n" + (answer.pieceBytes > 0 ? "" : bodyOf(answer, hasChunks)));
+        for (std::size_t at = 0; answer.pieceBytes > 0 && at < answer.body.size();
+             at += answer.pieceBytes) {
+            ::usleep(1000);
+            sendAll(client, answer.body.substr(at, answer.pieceBytes));
+        }
+        return answer.framing != Framing::byTheEnd && answer.cutAt >= answer.body.size();
+    }
+    static std::string bodyOf(const HttpAnswer &answer, bool hasChunks) {
+        constexpr std::size_t chunk = 777;
+        const std::string body = answer.body.substr(0, answer.cutAt);
+        if (!hasChunks)
+            return body;
+        std::ostringstream chunks;
+        for (std::size_t at = 0; at < body.size(); at += chunk) {
+            const std::string part = body.substr(at, chunk);
+            chunks << std::hex << part.size() << "\r\n" << part << "\r\n";
+        }
+        return chunks.str() + "0\r\n\r\n";
     }
     static HttpRequest headOf(const std::string &head) {
         HttpRequest request;

@@ -25,12 +25,15 @@
 
 #include "core/archive/listener.h"
 #include "core/archive/receiving.h"
+#include "core/archive/sending.h"
 #include "core/exchange/link.h"
 #include "core/task/error.h"
 #include "tests/network/pacs.h"
 #include "tests/network/processes.h"
 #include "tests/network/scripted_server.h"
 #include "tests/support/command.h"
+#include "tests/support/dicom_writer.h"
+#include "tests/support/files.h"
 
 namespace pellucid {
 
@@ -108,20 +111,8 @@ void flood(Clients &clients, int count, int port, const std::string &from) {
         ::usleep(10000);
 }
 
-// PS3.8, 9.3.2
 std::string associationRequest(const std::string &callingAe) {
-    const auto item = [](int type, const std::string &body) {
-        return std::string{char(type), '\0'} + ScriptedAssociation::big(body.size(), 2) + body;
-    };
-    const auto title = [](const std::string &text) {
-        return text + std::string(16 - text.size(), ' ');
-    };
-    return ScriptedAssociation::pdu(
-        1, std::string("\0\1\0\0", 4) + title("PELLUCID") + title(callingAe) +
-               std::string(32, '\0') + item(0x10, uid::application) +
-               item(0x20, std::string("\1\0\0\0", 4) + item(0x30, uid::capture) +
-                              item(0x40, uid::explicitLittle)) +
-               item(0x50, item(0x51, ScriptedAssociation::big(16384, 4)) + item(0x52, "1.2.3.4")));
+    return ScriptedAssociation::associationRequest({"PELLUCID", callingAe, {uid::capture}});
 }
 
 // A folder on a file system of its own.
@@ -292,7 +283,7 @@ TEST_F(PacsListener, ItListensOnOneAddressOnly) {
     EXPECT_TRUE(Client(port(), "127.0.0.1", "127.0.0.3").isConnected());
     EXPECT_FALSE(Client(port(), "127.0.0.1", "127.0.0.1").isConnected());
     EXPECT_TRUE(echoSeconds("127.0.0.3").has_value());
-    for (const char *const none : {"192.0.2.1", "nowhere", "127.0.0.256"}) {
+    for (const char *const none : {"192.0.2.1", "nowhere", "127.0.0.256", "255.255.255.255"}) {
         m_options.address = none;
         try {
             start();
@@ -302,6 +293,77 @@ TEST_F(PacsListener, ItListensOnOneAddressOnly) {
             EXPECT_TRUE(error.reason().is(because::isNoListeningAddress));
         }
     }
+}
+
+TEST_F(PacsListener, ItListensOnIpv6) {
+    m_options.senders = {{"KNOWN", "::1"}};
+    start();
+    archive::Server us = serverAt(port(), "PELLUCID");
+    us.peer = archive::dicomPeer("PELLUCID@[::1]:" + std::to_string(port()));
+    us.peer.callingAe = "KNOWN";
+    const fs::path sent = series("six", 3);
+    const auto report = archive::send(us, {sent});
+    EXPECT_EQ(report.state.sent, 3U)
+        << (report.notSent.empty() ? "" : report.notSent[0].reason.english());
+    EXPECT_EQ(dataSetsIn(m_objects.folder()), dataSetsIn(sent));
+    // A sender of IPv4 is another one.
+    EXPECT_FALSE(echoSeconds().has_value());
+}
+
+// Kinds of objects that a maker defines, or that are newer than this program;
+// and each data set byte for byte, with what a library would tidy up.
+TEST_F(PacsListener, EveryObjectIsSentAndStoredAsItIs) {
+    m_options.senders = {{"KNOWN", "127.0.0.1"}};
+    start();
+    archive::Server us = serverAt(port(), "PELLUCID");
+    us.peer.callingAe = "KNOWN";
+    fs::create_directories(m_folder / "odd");
+    int number = 0;
+    for (const auto &[sopClass, syntax] :
+         {std::pair("1.2.3.4.5.6", "1.2.840.10008.1.2.1"),
+          std::pair("1.2.840.10008.5.1.4.1.1.999.1", "1.2.840.10008.1.2"),
+          std::pair("1.2.840.10008.5.1.4.1.1.2", "1.2.840.10008.1.2.4.201"),
+          std::pair("1.2.840.10008.5.1.4.1.1.2", "1.2.840.10008.1.2.4.203")}) {
+        DicomWriter w = sliceOf({}, number);
+        w.put({0x0008, 0x0000}, "UL", DicomWriter::number(std::uint32_t(12345))); // a group length
+        w.put({0x0008, 0x0016}, "UI", sopClass);
+        w.put({0x0010, 0x1010}, "UN", "042Y"); // Patient's Age
+        w.put({0x0010, 0x4000}, "LT", "blanks at its end      ");
+        DicomWriter::Form form;
+        form.syntax = syntax;
+        form.isImplicit = form.syntax == "1.2.840.10008.1.2";
+        if (form.syntax.find(".4.20") != std::string::npos)
+            w.putFragments({std::string("\xff\x4f\xff\x51", 4) + std::string(60, 'x')});
+        writeText(m_folder / "odd" / (std::to_string(number++) + ".dcm"), w.file(form));
+    }
+    const auto report = archive::send(us, {m_folder / "odd"});
+    // High-Throughput JPEG 2000 costs itself only, and the reason names a way.
+    EXPECT_EQ(report.state.sent, 2U);
+    ASSERT_EQ(report.notSent.size(), 2U);
+    for (const dicom::Skipped &file : report.notSent) {
+        EXPECT_TRUE(file.reason.is(because::mayBeUncompressed)) << file.reason.english();
+        fs::remove(file.path);
+    }
+    EXPECT_EQ(dataSetsIn(m_objects.folder()), dataSetsIn(m_folder / "odd"));
+}
+
+// Whoever proposes what is no object learns it, and the user learns what was refused.
+TEST_F(PacsListener, RefusedKindsAreNamed) {
+    m_options.senders = {{"KNOWN", "127.0.0.1"}};
+    start();
+    const std::string film = "1.2.840.10008.5.1.1.9";
+    {
+        const Client client(port());
+        client.send(
+            ScriptedAssociation::associationRequest({"PELLUCID", "KNOWN", {uid::capture, film}}));
+        EXPECT_EQ(client.receive()[0], '\2');
+    }
+    m_listener.reset();
+    ASSERT_EQ(m_ends.size(), 1U);
+    ASSERT_TRUE(m_ends[0].refused);
+    EXPECT_EQ(m_ends[0].refused->english(),
+              "kinds of objects or encodings that this program does not take: "
+              "BasicGrayscalePrintManagementMetaSOPClass in LittleEndianExplicit");
 }
 
 // Objects are refused while there is still room, before they are received.

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +14,7 @@
 #include "core/archive/sending.h"
 #include "core/task/error.h"
 #include "tests/network/http_server.h"
+#include "tests/network/odd_web_server.h"
 #include "tests/network/pacs.h"
 #include "tests/network/scripted_server.h"
 #include "tests/network/servers.h"
@@ -27,149 +28,6 @@ namespace because = task::because;
 using namespace test;
 
 constexpr int objectCount = 64;
-const std::string study = "1.2.5", seriesUid = "1.2.5.1";
-
-std::string instance(int n) {
-    return seriesUid + "." + std::to_string(n + 1);
-}
-
-// What a server does differently.
-struct Quirks {
-    int cap = 0;               ///< objects that it lists at most
-    bool countsObjects = true; ///< Number of Series Related Instances
-    bool knowsOffsets = true;
-    bool sendsSeries = true, sendsInstances = true, listsInstances = true, listsSeries = true;
-    bool knowsAsterisk = true, takesIncludefield = true;
-    int answersOnAConnection = 0; ///< 0: any number
-    int busyEvery = 0;
-    bool saysThereIsMore = false; ///< in a warning
-    bool hasInvalidUid = false;   ///< in the list, of the first object
-    bool differsInMeta = false;   ///< the UID of the meta header
-};
-
-// A DICOMweb server with one series.
-class OddWebServer {
-public:
-    explicit OddWebServer(Quirks quirks)
-        : m_quirks(quirks), m_http([this](const HttpRequest &request) { return answer(request); }) {
-    }
-    archive::Server server() const {
-        archive::Server server = serverAt(0, "");
-        server.peer = archive::webPeer(m_http.url());
-        server.name = "odd";
-        server.connections = 2;
-        return server;
-    }
-    std::set<std::string> stored; ///< by STOW
-
-    static std::string object(int n, bool differsInMeta) {
-        SeriesKnobs knobs;
-        knobs.slices = objectCount;
-        DicomWriter w = sliceOf(knobs, n);
-        w.put({0x0020, 0x000d}, "UI", study);
-        w.put({0x0020, 0x000e}, "UI", seriesUid);
-        w.put({0x0008, 0x0018}, "UI", instance(n));
-        std::string file = w.file(DicomWriter::Form());
-        if (differsInMeta) { // of the same length
-            std::string other = instance(n);
-            other[0] = '2';
-            file.replace(file.find(instance(n)), other.size(), other);
-        }
-        return file;
-    }
-
-private:
-    static std::string element(const char *tag, const char *vr, const std::string &value) {
-        return "\"" + std::string(tag) + "\": {\"vr\": \"" + vr + "\", \"Value\": [" + value + "]}";
-    }
-    static std::string uidElement(const char *tag, const std::string &uid) {
-        return element(tag, "UI", "\"" + uid + "\"");
-    }
-    HttpAnswer answer(const HttpRequest &request) {
-        HttpAnswer answer = answerTo(request);
-        ++m_count;
-        if (m_quirks.busyEvery > 0 && m_count % m_quirks.busyEvery == 0)
-            answer = {503, "text/plain", "busy", ""}, answer.header = "Retry-After: 0";
-        answer.isLast =
-            m_quirks.answersOnAConnection > 0 && m_count % m_quirks.answersOnAConnection == 0;
-        return answer;
-    }
-    HttpAnswer answerTo(const HttpRequest &request) {
-        const std::string path = request.path(), all = "/studies/" + study,
-                          series = all + "/series/" + seriesUid;
-        if (request.method == "POST")
-            return store(request.body);
-        Fields terms = fieldsOf(request.target.substr(request.target.find('?') + 1));
-        if (!m_quirks.takesIncludefield && terms.contains("includefield"))
-            return {400, "text/plain", "unknown attribute", ""};
-        if (request.header("accept").find("multipart") != std::string::npos)
-            return retrieve(request, path == all ? series : path, series);
-        std::vector<std::string> list;
-        if (path == "/studies")
-            list = {"{" + uidElement("0020000D", study) + "}"};
-        else if (path == all + "/series" && m_quirks.listsSeries)
-            list = {"{" + uidElement("0020000E", seriesUid) +
-                    (m_quirks.countsObjects
-                         ? ", " + element("00201209", "IS", std::to_string(objectCount))
-                         : "") +
-                    "}"};
-        else if (path == series + "/instances" && m_quirks.listsInstances)
-            for (int n = 0; n < objectCount; ++n)
-                list.push_back("{" +
-                               uidElement("00080018", n == 0 && m_quirks.hasInvalidUid
-                                                          ? instance(n) + "_A"
-                                                          : instance(n)) +
-                               "}");
-        else
-            return {404, "text/plain", "", ""};
-        const std::size_t offset = m_quirks.knowsOffsets ? std::stoul(terms["offset"]) : 0;
-        if (m_quirks.cap > 0 && list.size() > std::size_t(m_quirks.cap))
-            list.resize(std::size_t(m_quirks.cap));
-        if (offset >= list.size())
-            return {204, "application/dicom+json", "", ""};
-        std::string text;
-        for (std::size_t n = offset; n < list.size(); ++n)
-            text += (text.empty() ? "[" : ", ") + list[n];
-        HttpAnswer answer{200, "application/dicom+json", text + "]", ""};
-        if (m_quirks.saysThereIsMore && path == series + "/instances")
-            answer.header = "Warning: 299 odd: there is more";
-        return answer;
-    }
-    HttpAnswer retrieve(const HttpRequest &request, const std::string &path,
-                        const std::string &series) const {
-        if (!m_quirks.knowsAsterisk && request.header("accept").find('*') != std::string::npos)
-            return {406, "text/plain", "", ""};
-        std::string body;
-        for (int n = 0; n < objectCount; ++n)
-            if ((path == series && m_quirks.sendsSeries) ||
-                (path == series + "/instances/" + instance(n) && m_quirks.sendsInstances))
-                body += "--part\r\nContent-Type: application/dicom\r\n\r\n" +
-                        object(n, m_quirks.differsInMeta) + "\r\n";
-        if (body.empty())
-            return {404, "text/plain", "", ""};
-        return {200, "multipart/related; type=\"application/dicom\"; boundary=part",
-                body + "--part--\r\n", ""};
-    }
-    HttpAnswer store(const std::string &body) {
-        for (int n = 0; n < objectCount; ++n)
-            // As the data set says.
-            if (const std::string end = instance(n) + (instance(n).size() % 2 ? '\0' : '\x08');
-                body.find(end) != std::string::npos) {
-                stored.insert(instance(n));
-                return {
-                    200, "application/dicom+json",
-                    "{" +
-                        element("00081199", "SQ", "{" + uidElement("00081155", instance(n)) + "}") +
-                        "}",
-                    ""};
-            }
-        return {409, "text/plain", "", ""};
-    }
-
-    Quirks m_quirks;
-    int m_count = 0;
-    HttpServer m_http;
-};
 
 // Ends a search after three studies in its own way.
 class LimitedServer {
@@ -195,7 +53,7 @@ class PacsOdd : public PacsScripted {
 protected:
     archive::RetrievalReport retrieved(const Quirks &quirks, const std::string &to) {
         const OddWebServer web(quirks);
-        return get(web.server(), study, to);
+        return get(web.server(), OddWebServer::study, to);
     }
 };
 
@@ -329,6 +187,52 @@ TEST_F(Pacs, ALimitedOrthancSendsAllOfASeries) {
         EXPECT_EQ(report.state.received, 64U);
         EXPECT_EQ(report.state.wanted, 64U);
     }
+}
+
+// An archive corrects a name after the study was received: that is noticed, and replacing brings
+// the corrected objects.
+TEST_F(PacsScripted, ACorrectionIsNoticedAndReplaced) {
+    std::string name = OddWebServer::name;
+    Quirks quirks;
+    quirks.objects = 3;
+    quirks.change = [&](const HttpRequest &, HttpAnswer &answer) {
+        const std::string former = OddWebServer::name;
+        for (std::size_t at = 0; (at = answer.body.find(former, at)) != std::string::npos;
+             at += name.size())
+            answer.body.replace(at, former.size(), name);
+    };
+    const OddWebServer web(quirks);
+    const archive::ObjectFolder folder(m_folder / "got",
+                                       archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const auto retrieve = [&](archive::Existing existing) {
+        return archive::retrieve(web.server(),
+                                 {.studyUid = OddWebServer::study, .existing = existing}, folder);
+    };
+    const auto namesHere = [&] {
+        std::set<std::string> names;
+        for (int n = 0; n < 3; ++n)
+            names.insert(
+                folder.find(OddWebServer::study, OddWebServer::series, OddWebServer::instance(n))
+                    .value()
+                    .patient.name);
+        return names;
+    };
+    EXPECT_EQ(retrieve(archive::Existing::stays).corrected, 0U);
+    name = "M\xc3\xbcller^Ava"; // of the same length
+    const auto noticed = retrieve(archive::Existing::stays);
+    EXPECT_EQ(noticed.state.present, 3U);
+    EXPECT_EQ(noticed.corrected, 3U);
+    ASSERT_EQ(noticed.corrections.size(), 1U);
+    EXPECT_EQ(archive::reasonOf(noticed.corrections[0]).english(),
+              "the patient's name is 'M\u00FCller^Eva' here, and 'M\u00FCller^Ava' at the server");
+    EXPECT_EQ(namesHere(), std::set<std::string>{OddWebServer::name});
+    const auto replaced = retrieve(archive::Existing::isReplaced);
+    EXPECT_TRUE(replaced.isComplete());
+    EXPECT_EQ(replaced.state.received, 3U);
+    EXPECT_EQ(replaced.corrected, 0U);
+    EXPECT_EQ(namesHere(), std::set<std::string>{name});
+    EXPECT_EQ(retrieve(archive::Existing::isReplaced).state.received,
+              0U); // nothing is left to replace
 }
 
 } // namespace pellucid

@@ -204,4 +204,37 @@ TEST_F(PacsScripted, TheFirstRowWaitsForNoOtherServer) {
     EXPECT_EQ(events, (std::vector<std::string>{"row 0", "row 9999", "many", "hangs"}));
 }
 
+// Some servers compare the letters of ASCII only, and list whoever has these.
+TEST_F(PacsScripted, LettersThatAServerIgnoresAreCompared) {
+    const std::vector<std::string> names{
+        "Wang^XiaoDong=\u738B^\u5C0F\u6771",
+        "Yamada^Tarou=\u5C71\u7530^\u592A\u90CE=\u3084\u307E\u3060^\u305F\u308D\u3046",
+        "M\u00FCller^Eva", "MULLER^EVA"};
+    const ScriptedServer server(
+        [&](ScriptedAssociation &association, const ScriptedRequest &request) {
+            for (std::size_t n = 0; n < names.size(); ++n) {
+                DicomWriter row;
+                row.put({0x0008, 0x0005}, "CS", "ISO_IR 192");
+                row.put({0x0010, 0x0010}, "PN", names[n]);
+                row.put({0x0020, 0x000d}, "UI", studyOf(int(n)));
+                association.answer(request, 0xff00, row);
+            }
+            association.answer(request, 0);
+        });
+    const auto found = [&](const std::string &name) {
+        std::vector<std::string> answers;
+        for (const archive::FoundEntry &entry :
+             archive::search({serverAt(server.port(), "ALL")}, {.patientName = name}).entries)
+            answers.push_back(entry.text(tag::patientName));
+        return answers;
+    };
+    EXPECT_EQ(found("*\u5C71\u7530*"), (std::vector<std::string>{names[1], names[3]}));
+    EXPECT_EQ(found("*\u5C71?\u592A*"), (std::vector<std::string>{names[1], names[3]}));
+    EXPECT_EQ(found("*\u738B*"), (std::vector<std::string>{names[0], names[3]}));
+    // What a server may have folded is left to it: cases, accents, kana; and names without such
+    // letters.
+    EXPECT_EQ(found("*\u30E4\u30DE\u30C0*"), names);
+    EXPECT_EQ(found("m\u00FCller*"), names);
+}
+
 } // namespace pellucid

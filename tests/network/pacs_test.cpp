@@ -37,13 +37,18 @@ namespace because = task::because;
 using archive::ObjectFolder;
 using archive::RetrievalReport;
 
-TEST_F(Pacs, EveryServiceOfBothServers) {
+TEST_F(Pacs, EveryServiceOfEachServer) {
     test::Dcmqrscp dcmqrscp;
     std::vector<archive::Server> servers{serverAt(dcmqrscp.port(), "COMMON")};
     std::unique_ptr<test::Orthanc> orthanc;
     if (test::isInstalled("Orthanc")) {
         orthanc = std::make_unique<test::Orthanc>();
         servers.push_back(serverAt(orthanc->port(), "ORTHANC"));
+    }
+    std::unique_ptr<test::PixelMed> pixelMed;
+    if (test::PixelMed::isInstalled()) {
+        pixelMed = std::make_unique<test::PixelMed>();
+        servers.push_back(serverAt(pixelMed->port(), "PIXELMED"));
     }
     const fs::path sent = series("A", 24);
     const std::string study = studyIn(sent);
@@ -53,7 +58,10 @@ TEST_F(Pacs, EveryServiceOfBothServers) {
         link.echo({}, [&](exchange::Step, const std::string &found) { offers = found; });
         EXPECT_EQ(offers, "C-FIND, C-GET, C-MOVE, C-STORE");
         put(server, sent);
-        const auto found = archive::search({server}, {.patientName = "Test^*"});
+        auto found = archive::search({server}, {.patientName = "Test^*"});
+        // PixelMed lists an object a moment after it has confirmed it.
+        for (int n = 0; n < 100 && found.entries.empty(); ++n, ::usleep(100000))
+            found = archive::search({server}, {.patientName = "Test^*"});
         ASSERT_EQ(found.entries.size(), 1U);
         EXPECT_EQ(found.entries[0].text(exchange::tag::studyUid), study);
         EXPECT_EQ(found.entries[0].text(exchange::tag::patientName), "Test^A");

@@ -226,13 +226,13 @@ TEST_F(PacsTls, WrongServersAreRefusedAndNamed) {
         const auto storescp = server("good");
         archive::Server stranger = client(storescp->port());
         stranger.peer.authorities = at("ca2.pem");
-        EXPECT_THAT(echo(stranger), HasSubstr("certificate"));
+        EXPECT_THAT(echo(stranger), HasSubstr("--authorities"));
         stranger.peer.authorities = at("missing.pem");
         EXPECT_THROW(exchange::Link(exchange::Connection{stranger.peer, exchange::Purpose::echo}),
                      task::Error);
         // A client that speaks no TLS.
         archive::Server plain = serverAt(storescp->port(), "COMMON");
-        EXPECT_NE(echo(plain), "nothing failed");
+        EXPECT_THAT(echo(plain), HasSubstr("perhaps it expects TLS"));
     }
     {
         const auto storescp = server("good", true);
@@ -249,7 +249,22 @@ TEST_F(PacsTls, WrongServersAreRefusedAndNamed) {
         test::Dcmqrscp plain;
         archive::Server secure = client(plain.port());
         secure.peer.silenceSeconds = 3.0;
-        EXPECT_NE(echo(secure), "nothing failed");
+        EXPECT_THAT(echo(secure), HasSubstr("does not speak TLS"));
+    }
+    for (const bool demands : {false, true}) {
+        const int port = test::freePort();
+        std::vector<std::string> command{
+            "openssl", "s_server",     "-accept", "127.0.0.1:" + std::to_string(port),
+            "-cert",   at("good.pem"), "-key",    at("good.key"),
+            "-www"};
+        if (demands)
+            command.insert(command.end(), {"-Verify", "1", "-CAfile", at("ca.pem")});
+        const test::Server openssl(command, port);
+        archive::Server program = client(port);
+        program.peer.protocol = exchange::Protocol::web;
+        if (!demands)
+            program.peer.authorities = at("ca2.pem");
+        EXPECT_THAT(echo(program), HasSubstr(demands ? "demands a certificate" : "--authorities"));
     }
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
 #include <poll.h>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <sys/socket.h>
@@ -21,7 +23,9 @@ namespace pellucid::test {
 
 namespace uid {
 inline const std::string find = "1.2.840.10008.5.1.4.1.2.2.1", get = "1.2.840.10008.5.1.4.1.2.2.3",
-                         capture = "1.2.840.10008.5.1.4.1.1.7",
+                         move = "1.2.840.10008.5.1.4.1.2.2.2",
+                         capture = "1.2.840.10008.5.1.4.1.1.7", ct = "1.2.840.10008.5.1.4.1.1.2",
+                         implicitLittle = "1.2.840.10008.1.2",
                          explicitLittle = "1.2.840.10008.1.2.1",
                          application = "1.2.840.10008.3.1.1.1";
 } // namespace uid
@@ -29,7 +33,8 @@ inline const std::string find = "1.2.840.10008.5.1.4.1.2.2.1", get = "1.2.840.10
 /// The fields of commands (PS3.7, annex E).
 namespace command {
 inline constexpr std::uint16_t storeRequest = 0x0001, getRequest = 0x0010, findRequest = 0x0020,
-                               echoRequest = 0x0030, cancel = 0x0fff, response = 0x8000;
+                               moveRequest = 0x0021, echoRequest = 0x0030, cancel = 0x0fff,
+                               response = 0x8000;
 inline constexpr int noDataset = 0x0101;
 } // namespace command
 
@@ -40,40 +45,77 @@ struct ProgramHasGone {};
 struct ScriptedRequest {
     std::uint16_t field = 0, id = 0, status = 0;
     std::uint8_t context = 0;
-    std::map<std::uint32_t, std::string> dataset; ///< by tag, without padding
-    std::string text(std::uint32_t tag) const {
-        const auto at = dataset.find(tag);
-        return at == dataset.end() ? std::string() : at->second;
+    std::map<std::uint32_t, std::string> fields, dataset; ///< by tag
+    std::string bytes;                                    ///< of the data set
+    /// Without padding.
+    std::string text(std::uint32_t tag) const { return textIn(dataset, tag); }
+    /// The same of the command.
+    std::string fieldText(std::uint32_t tag) const { return textIn(fields, tag); }
+
+private:
+    static std::string textIn(const std::map<std::uint32_t, std::string> &elements,
+                              std::uint32_t tag) {
+        const auto at = elements.find(tag);
+        std::string text = at == elements.end() ? std::string() : at->second;
+        while (!text.empty() && (text.back() == ' ' || text.back() == '\0'))
+            text.pop_back();
+        return text;
     }
+};
+
+/// How a server answers the request for an association (PS3.8, 9.3).
+struct ScriptedNegotiation {
+    /// The result for a transfer syntax of a presentation context that the program proposes (PS3.8,
+    /// table 9-18). The first that is accepted is chosen.
+    using Results = std::function<int(const std::string &sopClass, const std::string &syntax)>;
+    Results results{}; ///< empty: all are accepted
+    bool grantsRoles = true;
+    std::size_t pduBytes = 16384; ///< of the longest message that it takes
+    std::string items{};          ///< of the user information, also such as nobody asked for
+    std::string login{};          ///< USER:PASSWORD, the only one that it accepts; empty: anybody
+    /// Result, source and reason of a rejection (PS3.8, table 9-21).
+    std::optional<std::array<int, 3>> rejection{};
+};
+
+/// What a server proposes that sends objects: each kind in one transfer syntax.
+struct ScriptedProposal {
+    std::string calledAe, callingAe;
+    std::vector<std::string> sopClasses;
+    std::string syntax = uid::explicitLittle;
 };
 
 /// One association. Sending and waiting *throw* ProgramHasGone.
 class ScriptedAssociation {
 public:
-    /// The result for each presentation context that the program proposes (PS3.8, table 9-18): by
-    /// its kind of object and its first transfer syntax.
-    using Results = std::function<int(const std::string &sopClass, const std::string &syntax)>;
-    /// `results`: empty: all are accepted.
-    explicit ScriptedAssociation(int socket, const Results &results = {}) : m_socket(socket) {
-        accept(results);
+    /// The program asks for it.
+    explicit ScriptedAssociation(int socket, const ScriptedNegotiation &negotiation = {})
+        : m_socket(socket), m_pduBytes(negotiation.pduBytes), m_hasRoles(negotiation.grantsRoles) {
+        accept(negotiation);
     }
+    /// The program is asked for it.
+    ScriptedAssociation(int socket, const ScriptedProposal &proposal) : m_socket(socket) {
+        propose(proposal);
+    }
+    int socket() const { return m_socket; }
 
     /// The next command; nothing when the program has released the association.
     std::optional<ScriptedRequest> next() {
-        std::string commandBytes, dataBytes;
+        std::string commandBytes;
         ScriptedRequest request;
         while (!receive(commandBytes, request.context, 1))
             if (m_isReleased)
                 return std::nullopt;
-        const auto fields = elements(commandBytes, Encoding::implicitLittle);
-        request.field = number(fields, 0x00000100);
-        request.id = number(fields, 0x00000110);
-        request.status = number(fields, 0x00000900);
-        if (number(fields, 0x00000800) != command::noDataset) {
-            while (!receive(dataBytes, request.context, 0))
+        request.fields = elements(commandBytes, Encoding::implicitLittle);
+        request.field = number(request.fields, 0x00000100);
+        request.id = number(request.fields, 0x00000110);
+        request.status = number(request.fields, 0x00000900);
+        if (number(request.fields, 0x00000800) != command::noDataset) {
+            while (!receive(request.bytes, request.context, 0))
                 if (m_isReleased)
                     throw ProgramHasGone();
-            request.dataset = elements(dataBytes, Encoding::explicitLittle);
+            request.dataset =
+                elements(request.bytes, isImplicit(request.context) ? Encoding::implicitLittle
+                                                                    : Encoding::explicitLittle);
         }
         return request;
     }
@@ -81,6 +123,17 @@ public:
     bool isWaiting() const {
         pollfd waiting{m_socket, POLLIN, 0};
         return ::poll(&waiting, 1, 0) > 0;
+    }
+    /// Says nothing until the program has closed the connection.
+    void awaitEnd() const {
+        for (std::array<char, 256> bytes{}; ::recv(m_socket, bytes.data(), bytes.size(), 0) > 0;) {
+        }
+    }
+    /// Ends an association that the program was asked for.
+    void release() {
+        send(pdu(5, std::string(4, '\0')));
+        if (receivePdu().first != 6)
+            throw ProgramHasGone();
     }
 
     /// Answers a request. `fields`: beside those that each answer has.
@@ -92,7 +145,8 @@ public:
         fields.putShort({0x0000, 0x0800}, dataset ? 1 : command::noDataset);
         std::string bytes = commandPdu(request.context, fields);
         if (dataset)
-            bytes += dataPdus(request.context, dataset->dataset({}));
+            bytes += dataPdus(request.context,
+                              dataset->dataset({.isImplicit = isImplicit(request.context)}));
         send(bytes);
     }
     /// The last answer to a C-GET.
@@ -106,7 +160,8 @@ public:
     }
 
     /// The command that announces an object.
-    std::string storeCommand(const std::string &sopClass, const std::string &sopInstance) {
+    std::string storeCommand(const std::string &sopClass, const std::string &sopInstance,
+                             const std::string &syntax = uid::explicitLittle) {
         DicomWriter fields;
         fields.put({0x0000, 0x0002}, "UI", sopClass);
         fields.putShort({0x0000, 0x0100}, command::storeRequest);
@@ -114,24 +169,31 @@ public:
         fields.putShort({0x0000, 0x0700}, 0);
         fields.putShort({0x0000, 0x0800}, 1);
         fields.put({0x0000, 0x1000}, "UI", sopInstance);
-        return commandPdu(contextOf(sopClass), fields);
+        return commandPdu(contextOf(sopClass, syntax), fields);
     }
     /// Sends an object as it is announced. *Shape*: the status that the program answers with.
     std::uint16_t store(const std::string &sopClass, const std::string &sopInstance,
-                        const std::string &dataset) {
-        send(storeCommand(sopClass, sopInstance) + dataPdus(contextOf(sopClass), dataset));
+                        const std::string &dataset,
+                        const std::string &syntax = uid::explicitLittle) {
+        send(storeCommand(sopClass, sopInstance, syntax) +
+             dataPdus(contextOf(sopClass, syntax), dataset));
         const auto answered = next();
         if (!answered || answered->field != (command::storeRequest | command::response))
             throw ProgramHasGone();
         return answered->status;
     }
 
-    /// The context that was accepted for a kind of object in explicit VR little endian.
-    std::uint8_t contextOf(const std::string &sopClass) const {
-        const auto at = m_contexts.find(sopClass);
+    /// The context that was accepted for a kind of object.
+    std::uint8_t contextOf(const std::string &sopClass,
+                           const std::string &syntax = uid::explicitLittle) const {
+        const auto at = m_contexts.find({sopClass, syntax});
         if (at == m_contexts.end())
             throw ProgramHasGone();
         return at->second;
+    }
+    /// Whether this side may send objects of this kind: it has the context, and the role for it.
+    bool maySend(const std::string &sopClass, const std::string &syntax) const {
+        return m_hasRoles && m_contexts.contains({sopClass, syntax});
     }
 
     /// Any bytes.
@@ -146,6 +208,24 @@ public:
     }
     static std::string pdu(int type, const std::string &body) {
         return std::string{char(type), '\0'} + big(body.size(), 4) + body;
+    }
+    static std::string item(int type, const std::string &body) {
+        return std::string{char(type), '\0'} + big(body.size(), 2) + body;
+    }
+    /// PS3.8, 9.3.2
+    static std::string associationRequest(const ScriptedProposal &proposal) {
+        const auto title = [](const std::string &text) {
+            return text + std::string(16 - text.size(), ' ');
+        };
+        std::string contexts;
+        for (std::size_t n = 0; n < proposal.sopClasses.size(); ++n)
+            contexts +=
+                item(0x20, std::string{char(2 * n + 1), '\0', '\0', '\0'} +
+                               item(0x30, proposal.sopClasses[n]) + item(0x40, proposal.syntax));
+        return pdu(1, std::string("\0\1\0\0", 4) + title(proposal.calledAe) +
+                          title(proposal.callingAe) + std::string(32, '\0') +
+                          item(0x10, uid::application) + contexts +
+                          item(0x50, item(0x51, big(16384, 4)) + item(0x52, "1.2.3.4")));
     }
     /// A part of a message. `control`: 1: of a command, 2: the last, or both.
     static std::string value(std::uint8_t context, int control, const std::string &bytes) {
@@ -201,7 +281,10 @@ private:
     }
     std::pair<int, std::string> receivePdu() const {
         const std::string head = receiveBytes(6);
-        return {head[0], receiveBytes(bigAt(head, 2, 4))};
+        const std::size_t length = bigAt(head, 2, 4);
+        if (head[0] == 4 && length > m_pduBytes)
+            throw ProgramHasGone();
+        return {head[0], receiveBytes(length)};
     }
 
     // Adds what comes to a message. True when it is complete.
@@ -245,12 +328,8 @@ private:
                                        : isLong   ? littleAt(bytes, at + 8, 4)
                                                   : littleAt(bytes, at + 6, 2);
             at += !isImplicit && isLong ? 12 : 8;
-            std::string text = bytes.substr(at, length);
+            found[tag] = bytes.substr(at, length);
             at += length;
-            // Numbers of commands keep their zeros.
-            while (!isImplicit && !text.empty() && (text.back() == ' ' || text.back() == '\0'))
-                text.pop_back();
-            found[tag] = text;
         }
         return found;
     }
@@ -262,9 +341,6 @@ private:
                    : std::uint16_t(littleAt(at->second, 0, 2));
     }
 
-    static std::string item(int type, const std::string &body) {
-        return std::string{char(type), '\0'} + big(body.size(), 2) + body;
-    }
     // The items of an association request or within one of its items, in order.
     static std::vector<std::pair<int, std::string>> itemsOf(const std::string &bytes) {
         std::vector<std::pair<int, std::string>> items;
@@ -275,57 +351,103 @@ private:
         }
         return items;
     }
-    // Accepts contexts with the first transfer syntax of their lists, and each role.
-    void accept(const Results &results) {
+    void accept(const ScriptedNegotiation &negotiation) {
         const auto [type, request] = receivePdu();
         if (type != 1 || request.size() < 68)
             throw ProgramHasGone();
+        const auto items = itemsOf(request.substr(68));
+        if (negotiation.rejection)
+            reject(*negotiation.rejection);
+        if (!negotiation.login.empty() && negotiation.login != loginIn(items))
+            reject({2, 1, 1});
         std::string answer = request.substr(0, 68) + item(0x10, uid::application);
-        std::string user = item(0x51, big(16384, 4)) + item(0x52, "1.2.826.0.1.3680043.8.498.1") +
-                           item(0x55, "SCRIPTED");
-        for (const auto &[kind, body] : itemsOf(request.substr(68))) {
-            if (kind == 0x20) {
-                std::string sopClass, syntax;
-                for (const auto &[part, text] : itemsOf(body.substr(4))) {
-                    if (part == 0x30)
-                        sopClass = text;
-                    else if (part == 0x40 && syntax.empty())
-                        syntax = text;
-                }
-                const int result = results ? results(sopClass, syntax) : 0;
-                answer +=
-                    item(0x21, body.substr(0, 1) + '\0' + char(result) + '\0' + item(0x40, syntax));
-                if (result == 0 && syntax == uid::explicitLittle)
-                    m_contexts.emplace(sopClass, std::uint8_t(body[0]));
-            } else if (kind == 0x50) {
-                for (const auto &[part, text] : itemsOf(body))
-                    if (part == 0x54)
-                        user += item(0x54, text);
-            }
-        }
+        std::string user = item(0x51, big(m_pduBytes, 4)) +
+                           item(0x52, "1.2.826.0.1.3680043.8.498.1") + item(0x55, "SCRIPTED") +
+                           negotiation.items;
+        for (const auto &[kind, body] : items)
+            if (kind == 0x20)
+                answer += item(0x21, answerToContext(body, negotiation.results));
+            else if (kind == 0x50 && m_hasRoles)
+                user += rolesIn(body);
         send(pdu(2, answer + item(0x50, user)));
     }
+    void reject(const std::array<int, 3> &why) const {
+        send(pdu(3, std::string{'\0', char(why[0]), char(why[1]), char(why[2])}));
+        throw ProgramHasGone();
+    }
+    // The user and the password of the items of a request (PS3.7, table D.3-14).
+    static std::string loginIn(const std::vector<std::pair<int, std::string>> &items) {
+        for (const auto &[kind, body] : items)
+            if (kind == 0x50)
+                for (const auto &[part, text] : itemsOf(body))
+                    if (part == 0x58) {
+                        const std::size_t length = bigAt(text, 2, 2);
+                        return text.substr(4, length) + ":" + text.substr(6 + length);
+                    }
+        return {};
+    }
+    static std::string rolesIn(const std::string &userInformation) {
+        std::string roles;
+        for (const auto &[part, text] : itemsOf(userInformation))
+            if (part == 0x54)
+                roles += item(0x54, text);
+        return roles;
+    }
+    std::string answerToContext(const std::string &body,
+                                const ScriptedNegotiation::Results &results) {
+        std::string sopClass, syntax;
+        int result = 0;
+        for (const auto &[part, text] : itemsOf(body.substr(4))) {
+            if (part == 0x30)
+                sopClass = text;
+            if (part != 0x40 || (!syntax.empty() && result == 0))
+                continue;
+            syntax = text;
+            result = results ? results(sopClass, syntax) : 0;
+        }
+        if (result == 0)
+            note(std::uint8_t(body[0]), sopClass, syntax);
+        return body.substr(0, 1) + '\0' + char(result) + '\0' + item(0x40, syntax);
+    }
+    void propose(const ScriptedProposal &proposal) {
+        send(associationRequest(proposal));
+        const auto [type, answer] = receivePdu();
+        if (type != 2 || answer.size() < 68)
+            throw ProgramHasGone();
+        for (const auto &[kind, body] : itemsOf(answer.substr(68)))
+            if (kind == 0x21 && body.at(2) == 0)
+                note(std::uint8_t(body[0]), proposal.sopClasses.at(std::size_t(body[0] / 2)),
+                     proposal.syntax);
+    }
+    void note(std::uint8_t context, const std::string &sopClass, const std::string &syntax) {
+        m_contexts.emplace(std::pair(sopClass, syntax), context);
+        if (syntax == uid::implicitLittle)
+            m_implicit.insert(context);
+    }
+    bool isImplicit(std::uint8_t context) const { return m_implicit.contains(context); }
 
     int m_socket;
-    bool m_isReleased = false;
+    std::size_t m_pduBytes = 16384;
+    bool m_hasRoles = true, m_isReleased = false;
     std::uint16_t m_lastId = 0;
-    std::string m_waiting; // of the last PDU
-    std::map<std::string, std::uint8_t> m_contexts;
+    std::string m_waiting;                                                  // of the last PDU
+    std::map<std::pair<std::string, std::string>, std::uint8_t> m_contexts; // accepted ones
+    std::set<std::uint8_t> m_implicit;                                      // of them
 };
 
 /// Runs a script for each request, in a thread of each association. C-ECHO is answered.
 class ScriptedServer {
 public:
     using Script = std::function<void(ScriptedAssociation &, const ScriptedRequest &)>;
-    explicit ScriptedServer(Script script, ScriptedAssociation::Results results = {})
-        : m_script(std::move(script)), m_results(std::move(results)),
+    explicit ScriptedServer(Script script, ScriptedNegotiation::Results results = {})
+        : m_script(std::move(script)), m_negotiation{.results = std::move(results)},
           m_acceptor([this](int client) { serve(client); }) {}
     int port() const { return m_acceptor.port(); }
 
 private:
     void serve(int client) const {
         try {
-            ScriptedAssociation association(client, m_results);
+            ScriptedAssociation association(client, m_negotiation);
             while (const auto request = association.next()) {
                 if (request->field == command::echoRequest)
                     association.answer(*request, 0);
@@ -338,7 +460,7 @@ private:
     }
 
     Script m_script;
-    ScriptedAssociation::Results m_results;
+    ScriptedNegotiation m_negotiation;
     Acceptor m_acceptor; // last: its threads use the others
 };
 

@@ -28,10 +28,15 @@
 /// Real servers for tests, and what stands between them and the program.
 namespace pellucid::test {
 
-inline int connectTo(int port) {
+/// `from`: an address of this computer; null: any.
+inline int connectTo(int port, const char *from = nullptr) {
     const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in at{};
     at.sin_family = AF_INET;
+    if (from != nullptr) {
+        at.sin_addr.s_addr = ::inet_addr(from);
+        ::bind(socket, reinterpret_cast<sockaddr *>(&at), sizeof at);
+    }
     at.sin_port = htons(std::uint16_t(port));
     at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     if (::connect(socket, reinterpret_cast<sockaddr *>(&at), sizeof at) != 0) {
@@ -150,6 +155,44 @@ public:
 private:
     TemporaryFolder m_folder;
     int m_port, m_webPort;
+    std::unique_ptr<Server> m_server;
+};
+
+/// PixelMed's server in Java, with the AE title PIXELMED. It can send to PELLUCID at
+/// `destinationPort`, and takes no lists of objects.
+class PixelMed {
+public:
+    PixelMed() : destinationPort(freePort()), m_port(freePort()) {
+        std::filesystem::create_directories(m_folder / "images");
+        std::ofstream(m_folder / "properties")
+            << "Dicom.ListeningPort=" << m_port << "\nDicom.CalledAETitle=PIXELMED\n"
+            << "Dicom.CallingAETitle=PIXELMED\nDicom.PrimaryDeviceType=ARCHIVE\n"
+            << "Application.DatabaseFileName=" << (m_folder / "list").string() << "\n"
+            << "Application.SavedImagesFolderName=" << (m_folder / "images").string() << "\n"
+            << "Dicom.RemoteAEs=us\nDicom.RemoteAEs.us.CalledAETitle=PELLUCID\n"
+            << "Dicom.RemoteAEs.us.HostNameOrIPAddress=127.0.0.1\n"
+            << "Dicom.RemoteAEs.us.Port=" << destinationPort << "\n"
+            << "WebServer.ListeningPort=" << freePort() << "\n"
+            << "WebServer.RequestTypeFactory=com.pixelmed.web.AllRequestTypeFactory\n";
+        std::string path;
+        for (const char *const name : {"pixelmed", "hsqldb", "jaxb-api", "vecmath", "slf4j-api",
+                                       "slf4j-nop", "commons-codec", "commons-net"})
+            path += std::string(path.empty() ? "" : ":") + "/usr/share/java/" + name + ".jar";
+        m_server = std::make_unique<Server>(
+            std::vector<std::string>{"java", "-cp", path,
+                                     "com.pixelmed.server.DicomAndWebStorageServer",
+                                     (m_folder / "properties").string()},
+            m_port);
+    }
+    static bool isInstalled() {
+        return test::isInstalled("java") && std::filesystem::exists("/usr/share/java/pixelmed.jar");
+    }
+    int port() const { return m_port; }
+    const int destinationPort;
+
+private:
+    TemporaryFolder m_folder;
+    int m_port;
     std::unique_ptr<Server> m_server;
 };
 

@@ -12,7 +12,10 @@
 #include <QTimer>
 #include <QToolButton>
 
+#include <fmt/format.h>
+
 #include "core/segment/write_segmentation.h"
+#include "core/volume/nrrd.h"
 #include "ui/panels/class_group.h"
 #include "ui/panels/class_row.h"
 
@@ -118,6 +121,26 @@ private slots:
         QCOMPARE(document().problems().size(), std::size_t(1));
         QCOMPARE(document().problems().front().reason,
                  task::Reason(task::because::belongsToAnotherStudy));
+    }
+
+    // Labels beside the volume's samples are shown, and the list of problems says how far they are.
+    void segmentsBesideTheSamplesAreAProblemThatSaysHowFar() {
+        open(headPath());
+        const volume::Lattice lattice = document().volume()->lattice();
+        const auto moved =
+            volume::Lattice::make(lattice.size(), {lattice.origin().mm + 0.25 * lattice.step(0)},
+                                  {lattice.step(0), lattice.step(1), lattice.step(2)});
+        const auto path = m_folder / "labels.nrrd";
+        volume::writeNrrd(path, volume::Volume(moved,
+                                               std::vector<std::int16_t>(lattice.size().count(), 1),
+                                               volume::ValueUnit::none));
+        bench().study.segments.open({QString::fromStdString(path.string())});
+        settle();
+        QCOMPARE(document().scene().look.classes.size(), std::size_t(1));
+        QCOMPARE(document().problems().size(), std::size_t(1));
+        QCOMPARE(document().problems().front().reason,
+                 task::because::segmentsBetweenSamples(
+                     fmt::format("{:.3g}", 0.25 * lattice.spacingMm(0))));
     }
 
     void withoutImagesASegmentationIsAProblem() {

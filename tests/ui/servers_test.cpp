@@ -315,15 +315,18 @@ private slots:
         study.study.patientName = "Somebody^Else";
         study.study.patientId = "another";
         study.servers = {"archive"};
-        const auto retrieve = [&] {
-            emit find<ui::StudyPanel>("studyPanel")->retrieveRequested(study);
+        const auto awaitQuestion = [&](const char *name) {
             QMessageBox *question = nullptr;
             [&] {
-                QTRY_VERIFY_WITH_TIMEOUT((question = mainWindow().findChild<QMessageBox *>(
-                                              "anotherPatientQuestion")) != nullptr,
+                QTRY_VERIFY_WITH_TIMEOUT((question = mainWindow().findChild<QMessageBox *>(name)) !=
+                                             nullptr,
                                          patienceMs);
             }();
             return question;
+        };
+        const auto retrieve = [&](const char *name) {
+            emit find<ui::StudyPanel>("studyPanel")->retrieveRequested(study);
+            return awaitQuestion(name);
         };
         const auto press = [](QMessageBox &question, QMessageBox::ButtonRole role) {
             for (QAbstractButton *const button : question.buttons())
@@ -331,7 +334,7 @@ private slots:
                     QTest::mouseClick(button, Qt::LeftButton);
             QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
         };
-        QMessageBox *question = retrieve();
+        QMessageBox *question = retrieve("anotherPatientQuestion");
         QVERIFY(question != nullptr);
         QVERIFY(question->text().contains("Listed: Somebody Else, another"));
         QVERIFY(question->text().contains("Named: Secret Name"));
@@ -341,8 +344,11 @@ private slots:
         QTRY_COMPARE_WITH_TIMEOUT(rows(), QStringList{"Secret Name"}, patienceMs);
         press(*question, QMessageBox::RejectRole);
         QVERIFY(!document().volume());
-        // Nor if the images are here already.
-        question = retrieve();
+        // Nor if the images are here already: then the archive may have corrected the patient.
+        question = retrieve("correctedQuestion");
+        QVERIFY(question != nullptr);
+        press(*question, QMessageBox::RejectRole);
+        question = awaitQuestion("anotherPatientQuestion");
         QVERIFY(question != nullptr && !document().volume());
         press(*question, QMessageBox::AcceptRole);
         QTRY_VERIFY_WITH_TIMEOUT(document().volume() && !document().isPreview(), patienceMs);

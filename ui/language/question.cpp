@@ -8,7 +8,8 @@
 
 namespace pellucid::ui {
 
-void ask(QWidget *window, const Question &question, const std::function<void()> &agreed) {
+void ask(QWidget *window, const Question &question, const std::function<void()> &agreed,
+         const std::function<void()> &cancelled) {
     delete window->findChild<QMessageBox *>(question.name);
     auto *const box =
         new QMessageBox(QMessageBox::NoIcon, question.title, {}, QMessageBox::Cancel, window);
@@ -19,11 +20,12 @@ void ask(QWidget *window, const Question &question, const std::function<void()> 
     const QPushButton *const agree = box->addButton(question.agree, QMessageBox::AcceptRole);
     box->setDefaultButton(QMessageBox::Cancel);
     QObject::connect(box, &QMessageBox::buttonClicked, box,
-                     [box, agreed, agree](const QAbstractButton *button) {
-                         if (button != static_cast<const void *>(agree))
-                             return;
+                     [box, agreed, cancelled, agree](const QAbstractButton *button) {
                          box->setObjectName({}); // it has its answer, whatever is asked next
-                         agreed();
+                         if (button == static_cast<const void *>(agree))
+                             agreed();
+                         else if (cancelled)
+                             cancelled();
                      });
     box->open();
 }

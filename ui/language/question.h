@@ -16,8 +16,10 @@ struct Question {
     QString agree; ///< the button
 };
 
-/// Asks over a window, without blocking, and calls `agreed` if the user agrees. A question of the
+/// Asks over a window, without blocking, and calls `agreed` if the user agrees,
+/// `cancelled` if the user presses the other button. A question of the
 /// same name that is still open is withdrawn.
-void ask(QWidget *window, const Question &question, const std::function<void()> &agreed);
+void ask(QWidget *window, const Question &question, const std::function<void()> &agreed,
+         const std::function<void()> &cancelled = {});
 
 } // namespace pellucid::ui

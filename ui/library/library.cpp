@@ -189,6 +189,31 @@ void putSeries(const QSqlDatabase &list, qint64 study, const LibrarySeries &s) {
     }
 }
 
+// Removes a series from other studies if all its files are in this one: an archive has corrected
+// the patient or the study that they name. *Returns* these studies.
+std::vector<qint64> removeFormer(const QSqlDatabase &list, qint64 study, const QString &uid) {
+    ListQuery rows(
+        list,
+        "SELECT id, study FROM series WHERE uid = ? AND study <> ? AND EXISTS (SELECT 1 FROM "
+        "instances WHERE series = series.id) AND NOT EXISTS (SELECT 1 FROM instances WHERE "
+        "series = series.id AND path NOT IN (SELECT path FROM instances WHERE series = (SELECT "
+        "id FROM series WHERE uid = ? AND study = ?)))");
+    rows.bind(uid).bind(study).bind(uid).bind(study).run();
+    std::vector<qint64> series, studies;
+    while (rows.next()) {
+        series.push_back(rows.integer(0));
+        studies.push_back(rows.integer(1));
+    }
+    for (const qint64 id : series)
+        ListQuery(list, "DELETE FROM series WHERE id = ?").bind(id).run();
+    for (const qint64 id : studies)
+        ListQuery(list, "DELETE FROM studies WHERE id = ? AND NOT EXISTS (SELECT 1 FROM series "
+                        "WHERE study = studies.id)")
+            .bind(id)
+            .run();
+    return studies;
+}
+
 // Updates the modalities and the search text of a study, which depend on its series.
 void describeStudy(const QSqlDatabase &list, qint64 id) {
     ListQuery row(list, QString("SELECT %1 FROM studies WHERE id = ?").arg(studyColumns));
@@ -341,6 +366,14 @@ void Library::put(const std::vector<LibrarySeries> &series) {
         if (touched.empty() || touched.back() != study)
             touched.push_back(study);
     }
+    if (!touched.empty())
+        ListQuery(list, "CREATE INDEX IF NOT EXISTS series_by_uid ON series (uid)").run();
+    for (const LibrarySeries &s : series)
+        if (!s.volumes.empty())
+            for (const qint64 former :
+                 removeFormer(list, findStudy(list, s.study),
+                              notNull(seriesKey(s.volumes.front())).toString()))
+                touched.push_back(former);
     for (const qint64 study : touched)
         describeStudy(list, study);
     // From now on, earlier versions cannot read the list. Their rows stay unchanged.

@@ -2,10 +2,14 @@
 #include "ui/panels/study_list.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include <QMimeData>
 #include <QUrl>
 
+#include "core/archive/run_transfer.h"
+#include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/language/shown_text.h"
 #include "ui/studies/search_words.h"
@@ -15,6 +19,22 @@ namespace pellucid::ui {
 namespace {
 
 constexpr int pageSize = 200;
+
+// The objects of a study that servers have sent.
+int receivedObjects(const QString &studyUid) {
+    std::error_code none;
+    std::filesystem::path folder;
+    try {
+        folder = archive::libraryObjectFolder() / studyUid.toStdString();
+    } catch (const task::Error &) { // no folder for the user's data
+        return 0;
+    }
+    int count = 0;
+    for (std::filesystem::recursive_directory_iterator it(folder, none), end; !none && it != end;
+         it.increment(none))
+        count += it->path().extension() == ".dcm" ? 1 : 0;
+    return count;
+}
 
 } // namespace
 
@@ -75,6 +95,7 @@ void StudyList::addVolumes(Entry &entry, const std::vector<VolumeFacts> &volumes
 }
 
 void StudyList::rebuild() {
+    m_objectsHere.clear();
     beginResetModel();
     m_entries.clear();
     QHash<QString, std::size_t> rows; // by study
@@ -115,6 +136,13 @@ StudyList::Entry &StudyList::entryAt(int row) const {
     return at < m_entries.size() ? *m_entries[at] : *m_onlyRemote.at(at - m_entries.size());
 }
 
+int StudyList::objectsHere(const QString &studyUid) {
+    auto count = m_objectsHere.find(studyUid);
+    if (count == m_objectsHere.end())
+        count = m_objectsHere.insert(studyUid, receivedObjects(studyUid));
+    return *count;
+}
+
 void StudyList::setRemote(const std::vector<RemoteStudy> &remote) {
     beginResetModel();
     m_remote = remote;
@@ -142,6 +170,8 @@ void StudyList::placeRemote() {
                     counted << volume.seriesUid;
                     entry->instancesHere += volume.files;
                 }
+            // Objects that are no images are in no volume.
+            entry->instancesHere = std::max(entry->instancesHere, objectsHere(remote.study.uid));
             continue;
         }
         auto entry = std::make_unique<Entry>();

@@ -82,6 +82,7 @@ private:
     };
     Entry &entryAt(int row) const;
     void placeRemote();
+    int objectsHere(const QString &studyUid);
     void rebuild();
     void append(StudyFacts study, bool isRead);
     static void addVolumes(Entry &entry, const std::vector<VolumeFacts> &volumes);
@@ -92,6 +93,7 @@ private:
     QString m_search;
     StudyOrder m_order = StudyOrder::newestFirst;
     std::vector<std::unique_ptr<Entry>> m_entries;
+    QHash<QString, int> m_objectsHere; ///< from servers, by study
     std::vector<RemoteStudy> m_remote;
     std::vector<std::unique_ptr<Entry>> m_onlyRemote; ///< after `m_entries`
     int m_openCount = 0, m_libraryCount = 0;

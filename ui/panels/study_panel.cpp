@@ -46,7 +46,8 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, ServerSearch &
                        const Theme &theme, QWidget *parent)
     : QWidget(parent), m_document(document), m_library(library), m_list(document, library),
       m_search(new QLineEdit), m_tree(new QTreeView), m_corner(new QPushButton(tr("Import"))),
-      m_empty(new PlainLabel), m_servers(servers), m_serverStates(new PlainLabel) {
+      m_empty(new PlainLabel), m_servers(servers), m_serverStates(new PlainLabel),
+      m_logins(new QWidget) {
     setObjectName("studyPanel");
     setAttribute(Qt::WA_StyledBackground);
     setAcceptDrops(true);
@@ -73,6 +74,8 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, ServerSearch &
     m_serverStates->setProperty("role", "muted");
     m_serverStates->setWordWrap(true);
     m_serverStates->hide();
+    (new QVBoxLayout(m_logins))->setContentsMargins({});
+    m_logins->hide();
     m_tree->setObjectName("seriesTree");
     m_tree->setAccessibleName(tr("Studies"));
     m_tree->setHeaderHidden(true);
@@ -95,6 +98,7 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, ServerSearch &
     layout->setSpacing(6);
     layout->addLayout(top);
     layout->addWidget(m_serverStates);
+    layout->addWidget(m_logins);
     layout->addWidget(m_empty, 0, Qt::AlignTop);
     layout->addWidget(m_tree, 1);
     layout->addWidget(new JobStrip(library.jobs(), "import"));
@@ -186,6 +190,7 @@ void StudyPanel::searchServers(QWidget *asking) {
 void StudyPanel::showServers() {
     m_list.setRemote(m_servers.found());
     QStringList texts, tips;
+    QStringList locked;
     for (const auto &[name, state] : m_servers.states()) {
         switch (state.kind) {
         case ServerState::Kind::searching:
@@ -198,12 +203,43 @@ void StudyPanel::showServers() {
             texts << QString::fromUtf8("\u26A0 ") + name;
             tips << name + ": " + translated(*state.reason);
             break;
+        case ServerState::Kind::locked:
+            locked << name;
+            break;
         }
     }
     m_serverStates->setText(texts.join(QString::fromUtf8(" \u00B7 ")));
     m_serverStates->setToolTip(plainToolTip(tips.join("\n")));
     m_serverStates->setVisible(!texts.isEmpty());
+    showLogins(locked);
     showEmpty();
+}
+
+// The rows of servers that await a login. Those that stay keep the keyboard.
+void StudyPanel::showLogins(const QStringList &locked) {
+    for (auto it = m_loginButtons.begin(); it != m_loginButtons.end();) {
+        if (locked.contains(it.key())) {
+            ++it;
+            continue;
+        }
+        it.value()->hide();
+        it.value()->deleteLater(); // it may have been clicked
+        it = m_loginButtons.erase(it);
+    }
+    for (const QString &name : locked)
+        if (!m_loginButtons.contains(name))
+            addLogin(name);
+    m_logins->setVisible(!locked.isEmpty());
+}
+
+void StudyPanel::addLogin(const QString &server) {
+    auto *button = new QPushButton(tr("Log in to %1").arg(menuText(server)));
+    button->setObjectName("loginButton");
+    button->setFlat(true);
+    m_logins->layout()->addWidget(button);
+    m_loginButtons[server] = button;
+    connect(button, &QPushButton::clicked, this,
+            [this, server] { m_servers.unlock(server, window()); });
 }
 
 void StudyPanel::focusSearch() {

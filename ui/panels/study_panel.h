@@ -64,6 +64,8 @@ private:
     QMenu *orderMenu();
     void searchServers(QWidget *asking);
     void showServers();
+    void showLogins(const QStringList &locked);
+    void addLogin(const QString &server);
     void addServersTo(QMenu &menu, const QModelIndex &index);
 
     Document &m_document;
@@ -76,6 +78,8 @@ private:
     PlainLabel *m_empty;
     ServerSearch &m_servers;
     PlainLabel *m_serverStates; ///< how the servers fare
+    QWidget *m_logins;          ///< a button for each server that awaits one
+    QMap<QString, QPushButton *> m_loginButtons;
     QTimer m_typing, m_resting;
 };
 

@@ -7,11 +7,13 @@
 #include <utility>
 
 #include <QCoreApplication>
+#include <QFileInfo>
 #include <QInputDialog>
 #include <QPointer>
 
 #include <qt6keychain/keychain.h>
 
+#include "core/files/user_folders.h"
 #include "core/task/error.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/language/shown_text.h"
@@ -84,6 +86,32 @@ struct ServerBook::Pending {
 
 ServerBook::ServerBook(QObject *parent) : QObject(parent) {
     load();
+    watch();
+}
+
+void ServerBook::watch() {
+    // The folder: each change makes a new file.
+    const auto folder = files::userDataFolder();
+    if (!folder)
+        return;
+    m_watcher.addPath(QString::fromStdString(folder->string()));
+    const QString file = QString::fromStdString((*folder / "servers.json").string());
+    m_changed = QFileInfo(file).lastModified();
+    connect(&m_watcher, &QFileSystemWatcher::directoryChanged, this, [this, file] {
+        // Other files of the folder change more often.
+        const QDateTime written = QFileInfo(file).lastModified();
+        if (std::exchange(m_changed, written) == written)
+            return;
+        const std::vector<archive::Server> former = m_servers;
+        load();
+        if (m_servers == former)
+            return;
+        for (const archive::Server &before : former)
+            for (const archive::Server &now : m_servers)
+                if (before.name == now.name && hasLogin(before))
+                    replaceLogin(before, now);
+        emit changed();
+    });
 }
 
 void ServerBook::load() {

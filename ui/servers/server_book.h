@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include <QDateTime>
+#include <QFileSystemWatcher>
 #include <QHash>
 #include <QObject>
 #include <QPointer>
@@ -55,6 +57,8 @@ signals:
 private:
     struct Pending;
     void load();
+    /// Notices what other programs change in the list on disk.
+    void watch();
     void fetchNext(const std::shared_ptr<Pending> &pending);
     void ask(const std::shared_ptr<Pending> &pending, const QString &key, const QString &question);
     void keep(const QString &key, const QString &secret);
@@ -69,6 +73,8 @@ private:
     void whenEnded(QDialog *dialog, const std::function<void(bool isAccepted)> &then);
 
     std::vector<archive::Server> m_servers;
+    QFileSystemWatcher m_watcher;
+    QDateTime m_changed;             ///< the list on disk
     QHash<QString, QString> m_known; ///< secrets, by their key in the keychain
     /// By the keys of their refresh tokens.
     QHash<QString, std::shared_ptr<archive::Login>> m_logins;

@@ -103,7 +103,8 @@ archive::ListenerOptions StudyReceiver::options() const {
     }
     for (const archive::Server &server : m_book.servers())
         if (server.peer.protocol == exchange::Protocol::dicom)
-            options.senders.push_back({server.peer.calledAe, server.peer.host});
+            for (const std::string &host : archive::hostsOf(server))
+                options.senders.push_back({server.peer.calledAe, host});
     return options;
 }
 
@@ -147,6 +148,8 @@ void StudyReceiver::start() {
                 if (end.reason && !end.reason->is(because::wasCancelled) &&
                     m_refused.isNew(end.address, *end.reason))
                     tell(*end.reason, end.sender);
+                if (end.refused && m_refused.isNew(end.address, *end.refused))
+                    tell(*end.refused, end.sender);
                 if (const auto summary = m_refused.summary())
                     system::log(summary->english());
                 QMetaObject::invokeMethod(

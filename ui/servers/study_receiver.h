@@ -20,7 +20,7 @@ class ServerBook;
 /// How this program receives what servers send, stored in the user's settings. Off at first.
 struct ReceiverSettings {
     bool isOn = false;
-    QString address; ///< of this computer, IPv4; empty: all
+    QString address; ///< of this computer, IPv4 or IPv6; empty: all
     int port = archive::defaultListenerPort;
     QString ae = "PELLUCID"; ///< AE title of this program
     bool usesTls = false;

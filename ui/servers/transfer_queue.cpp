@@ -148,6 +148,18 @@ void TransferQueue::retry(qint64 id, QWidget *asking) {
     startNext(asking);
 }
 
+void TransferQueue::replace(const QString &studyUid, QWidget *asking) {
+    const auto known =
+        std::find_if(m_transfers.rbegin(), m_transfers.rend(), [&](const Transfer &one) {
+            return one.wanted.studyUid == studyUid.toStdString() &&
+                   one.folder == archive::libraryObjectFolder();
+        });
+    if (known == m_transfers.rend())
+        return;
+    m_replaced.insert(studyUid);
+    retry(known->id, asking);
+}
+
 void TransferQueue::cancel(qint64 id) {
     attempt([&] {
         TransferLog(TransferLog::fileOfUser()).cancel(id);
@@ -199,6 +211,7 @@ void TransferQueue::startNext(QWidget *asking) {
                                run(transfer, servers.front());
                                return;
                            }
+                           m_replaced.remove(QString::fromStdString(transfer.wanted.studyUid));
                            // The server has been removed, or its password is not known.
                            attempt([&] {
                                TransferLog(TransferLog::fileOfUser()).cancel(transfer.id);
@@ -225,6 +238,7 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
         tr("Retrieving %1").arg(QString::fromStdString(transfer.title)),
         [this, transfer, server, show, report,
          listed = m_listed.value(QString::fromStdString(transfer.wanted.studyUid)),
+         replaces = m_replaced.remove(QString::fromStdString(transfer.wanted.studyUid)),
          destination = m_receiver.destinationFor(server)](const Job &job) {
             archive::RetrievalObserver observer;
             auto shown = std::chrono::steady_clock::now();
@@ -248,8 +262,9 @@ void TransferQueue::run(const Transfer &transfer, const archive::Server &server)
                          begun = std::exchange(series, nullptr)] { emit arriving(uid, begun); });
             };
             TransferLog log(TransferLog::fileOfUser());
-            *report = archive::runTransfer(log, transfer.id, server, observer, job.progress(),
-                                           destination, listed);
+            *report = archive::runTransfer(
+                log, transfer.id, server, observer, job.progress(), destination, listed,
+                replaces ? archive::Existing::isReplaced : archive::Existing::stays);
         },
         [this, transfer, report](const Outcome &outcome) {
             m_running = 0;

@@ -11,6 +11,7 @@
 #include <QObject>
 #include <QPair>
 #include <QPointer>
+#include <QSet>
 #include <QTimer>
 
 #include "core/archive/run_transfer.h"
@@ -44,6 +45,8 @@ public:
     enum class Urgency { now, later };
     void add(const RemoteStudy &study, QWidget *asking, Urgency urgency = Urgency::now);
     void retry(qint64 id, QWidget *asking);
+    /// Retrieves objects of a study again of which the server lists corrected data.
+    void replace(const QString &studyUid, QWidget *asking);
     void cancel(qint64 id);
     void clearFinished();
 
@@ -83,6 +86,7 @@ private:
     QPair<QDateTime, QDateTime> m_logTimes; ///< when the log was last written
     std::size_t m_arrivalsSeen = 0;
     QHash<QString, archive::Patient> m_listed; ///< with which patient a study was asked for, by UID
+    QSet<QString> m_replaced;                  ///< studies that are retrieved again, by UID
     QPointer<QWidget> m_asking;                ///< windows come and go
     JobRunner m_jobs;
 };

@@ -21,20 +21,28 @@ QString portPath() {
 } // namespace
 
 LinkPort::LinkPort(QObject *parent) : QObject(parent), m_server(new QLocalServer(this)) {
+    m_server->setSocketOptions(QLocalServer::UserAccessOption);
+    connect(m_server, &QLocalServer::newConnection, this, &LinkPort::takeAll);
+    listen();
+}
+
+void LinkPort::listen() {
     const QString path = portPath();
     if (path.isEmpty())
         return;
-    m_server->setSocketOptions(QLocalServer::UserAccessOption);
-    connect(m_server, &QLocalServer::newConnection, this, &LinkPort::takeAll);
-    if (m_server->listen(path))
+    // First, because listening would take the port from another program that has it.
+    auto *const other = new QLocalSocket(this);
+    other->connectToServer(path);
+    if (other->waitForConnected(waitMs)) { // the connection stays until that one ends
+        connect(other, &QLocalSocket::disconnected, this, [this, other] {
+            other->deleteLater();
+            listen();
+        });
         return;
-    // Left by a program that was killed, unless another one answers there.
-    QLocalSocket other;
-    other.connectToServer(path);
-    if (!other.waitForConnected(waitMs)) {
-        QLocalServer::removeServer(path);
-        m_server->listen(path);
     }
+    delete other;
+    QLocalServer::removeServer(path); // left by a program that was killed
+    m_server->listen(path);
 }
 
 bool LinkPort::handOver(const QString &link) {

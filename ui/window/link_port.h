@@ -7,8 +7,9 @@ class QLocalServer;
 
 namespace pellucid::ui {
 
-/// Where the running program takes links from a second one that was started with them. Only the
-/// same user can reach it.
+/// Where the running program takes links from a second one that was started with them. Of several
+/// programs, the oldest has the port; when it ends, another one takes it. Only the same user can
+/// reach it.
 class LinkPort : public QObject {
     Q_OBJECT
 public:
@@ -21,6 +22,7 @@ signals:
     void linkReceived(const QString &link);
 
 private:
+    void listen();
     void takeAll();
 
     QLocalServer *m_server;

@@ -12,6 +12,7 @@
 
 #include "core/archive/sending.h"
 #include "ui/language/question.h"
+#include "ui/language/reasons.h"
 #include "ui/panels/earlier_panel.h"
 #include "ui/panels/study_panel.h"
 #include "ui/panels/transfers_panel.h"
@@ -60,12 +61,20 @@ void ServerCommands::connectTransfers() {
     connect(&m_bench.transfers, &TransferQueue::completed, this,
             [this](const QString &folder, bool isAwaited, const archive::RetrievalReport &report) {
                 const QString uid = QFileInfo(folder).fileName();
+                const auto askForOther = [this, folder, report] {
+                    if (report.ofAnotherPatient > 0)
+                        askForAnotherPatient(report.listed, report.named,
+                                             [this, folder] { emit studyArrived(folder); });
+                };
+                const bool isCorrected =
+                    isAwaited && report.corrected > 0 && !m_askedToReplace.contains(uid);
+                if (isCorrected)
+                    askToReplace(uid, report, askForOther);
                 if (report.ofAnotherPatient > 0) {
                     if (m_besideAwaited && m_besideAwaited->study.uid == uid)
                         m_besideAwaited.reset();
-                    if (isAwaited)
-                        askForAnotherPatient(report.listed, report.named,
-                                             [this, folder] { emit studyArrived(folder); });
+                    if (isAwaited && !isCorrected)
+                        askForOther();
                     return;
                 }
                 const bool isIdle =
@@ -80,6 +89,24 @@ void ServerCommands::connectTransfers() {
                 else
                     emit messageShown(tr("A study has arrived"));
             });
+}
+
+void ServerCommands::askToReplace(const QString &studyUid, const archive::RetrievalReport &report,
+                                  const std::function<void()> &cancelled) {
+    // Some archives correct their lists alone.
+    m_askedToReplace.insert(studyUid);
+    QStringList corrections;
+    for (const archive::Correction &correction : report.corrections)
+        corrections << translated(archive::reasonOf(correction));
+    ask(
+        &m_window,
+        {"correctedQuestion", tr("Corrected data"),
+         tr("The server has corrected data of this study since %n of its images were received:\n\n"
+            "%1\n\nRetrieve these images again, and replace those that are here?",
+            "", int(report.corrected))
+             .arg(corrections.join("\n")),
+         tr("Replace")},
+        [this, studyUid] { m_bench.transfers.replace(studyUid, &m_window); }, cancelled);
 }
 
 void ServerCommands::askForAnotherPatient(const archive::Patient &listed,
@@ -278,8 +305,10 @@ void ServerCommands::send(const QStringList &files, const QString &server) {
                 [this, paths, target = servers.front(), name](const Job &job) {
                     const auto report = archive::send(target, paths, {}, job.progress());
                     job.deliver([this, report, name] {
-                        for (const dicom::Skipped &file : report.notSent)
-                            emit failed(file.reason, QString::fromStdString(file.path.string()));
+                        for (const auto *const files : {&report.notSent, &report.withChanges})
+                            for (const dicom::Skipped &file : *files)
+                                emit failed(file.reason,
+                                            QString::fromStdString(file.path.string()));
                         emit messageShown(tr("%1 of %2 sent to %3")
                                               .arg(QString::number(report.state.sent),
                                                    QString::number(report.state.files), name));

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <QObject>
+#include <QSet>
 #include <QStringList>
 
 #include "core/archive/retrieval.h"
@@ -43,6 +44,9 @@ signals:
 
 private:
     void connectTransfers();
+    /// Offers to replace what the archive has corrected, once for each study.
+    void askToReplace(const QString &studyUid, const archive::RetrievalReport &report,
+                      const std::function<void()> &cancelled);
     /// A server may send anybody's images: they are not shown as those of the patient listed.
     void askForAnotherPatient(const archive::Patient &listed, const archive::Patient &named,
                               const std::function<void()> &open);
@@ -60,6 +64,7 @@ private:
     Workbench &m_bench;
     StudyDocks &m_docks;
     /// The study that was asked for last, unless another one has been opened since.
+    QSet<QString> m_askedToReplace; ///< studies, by UID
     std::optional<RemoteStudy> m_awaited;
     /// The study that was opened last while it arrived: it is not opened again at its end.
     QString m_seen;

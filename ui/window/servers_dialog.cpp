@@ -59,6 +59,27 @@ QString shown(const std::string &text) {
     return QString::fromStdString(text);
 }
 
+std::string withoutBrackets(const std::string &host) {
+    const bool hasBrackets = host.starts_with('[') && host.ends_with(']');
+    return hasBrackets ? host.substr(1, host.size() - 2) : host;
+}
+
+// Between commas.
+std::vector<std::string> hostsIn(const QLineEdit *edit) {
+    std::vector<std::string> hosts;
+    for (const QString &host : edit->text().split(',', Qt::SkipEmptyParts))
+        if (!host.trimmed().isEmpty())
+            hosts.push_back(host.trimmed().toStdString());
+    return hosts;
+}
+
+QString joined(const std::vector<std::string> &hosts) {
+    QStringList texts;
+    for (const std::string &host : hosts)
+        texts << shown(host);
+    return texts.join(", ");
+}
+
 } // namespace
 
 ServersDialog::ServersDialog(ServerBook &book, StudyReceiver &receiver, QWidget *parent)
@@ -154,8 +175,12 @@ QWidget *ServersDialog::makeForm() {
     m_retrieve->setToolTip(tr("C-GET brings images on the same connection. With C-MOVE, the server "
                               "sends them to this program's port 11112"));
     m_retrieve->addItems({tr("Automatic"), "C-GET", "C-MOVE"});
+    m_sendsFrom = lineEdit("sendsFromEdit",
+                           tr("Other hosts from which it sends with C-MOVE, such as the nodes of a "
+                              "cluster, separated by commas; usually empty"));
     m_connections = spinBox("connectionsBox", 1, archive::maxConnections,
-                            tr("Connections at the same time while retrieving"));
+                            tr("Most connections at the same time while retrieving; fewer are "
+                               "used where more would not save time"));
     m_limit = spinBox("limitBox", 0, 100000, tr("Most answers to a search; 0: no limit"));
     m_characterSet = lineEdit("characterSetEdit",
                               tr("Character set of answers that name none, such as ISO_IR 100"));
@@ -193,6 +218,7 @@ QWidget *ServersDialog::makeForm() {
     m_form->addRow(tr("URL"), m_url);
     m_form->addRow(tr("AE title of this program"), m_callingAe);
     m_form->addRow(tr("Retrieve"), m_retrieve);
+    m_form->addRow(tr("Sends from"), m_sendsFrom);
     m_form->addRow(tr("Connections"), m_connections);
     m_form->addRow(tr("Answers"), m_limit);
     m_form->addRow(tr("Character set"), m_characterSet);
@@ -231,8 +257,9 @@ void ServersDialog::enableFields() {
         QWidget *const parent = field->parentWidget();
         m_form->setRowVisible(parent == m_form->parentWidget() ? field : parent, isShown);
     };
-    for (QWidget *field : std::initializer_list<QWidget *>{
-             m_ae, m_host, m_port, m_callingAe, m_retrieve, m_characterSet, m_uncompress, m_tls})
+    for (QWidget *field :
+         std::initializer_list<QWidget *>{m_ae, m_host, m_port, m_callingAe, m_retrieve,
+                                          m_sendsFrom, m_characterSet, m_uncompress, m_tls})
         place(field, !isWeb);
     place(m_url, isWeb);
     for (QWidget *field :
@@ -265,6 +292,7 @@ void ServersDialog::showServer(const Server &server, bool isNew) {
     m_url->setText(isWeb ? shown(archive::addressOf(peer)) : QString());
     m_callingAe->setText(shown(peer.callingAe));
     m_retrieve->setCurrentIndex(int(server.retrieve));
+    m_sendsFrom->setText(joined(server.sendsFrom));
     m_connections->setValue(server.connections);
     m_limit->setValue(int(server.limit));
     m_characterSet->setText(shown(peer.characterSet));
@@ -295,7 +323,8 @@ Server ServersDialog::entered() const {
     if (m_protocol->currentIndex() == 1)
         server.peer = archive::webPeer(textOf(m_url));
     else
-        server.peer = archive::dicomPeer(textOf(m_ae) + "@" + textOf(m_host) + ":" +
+        server.peer = archive::dicomPeer(textOf(m_ae) + "@" +
+                                         exchange::hostPart(withoutBrackets(textOf(m_host))) + ":" +
                                          std::to_string(m_port->value()));
     exchange::Peer &peer = server.peer;
     if (peer.protocol == Protocol::dicom) {
@@ -326,6 +355,8 @@ Server ServersDialog::entered() const {
         login.scope = textOf(m_scope);
     }
     server.retrieve = RetrieveMethod(m_retrieve->currentIndex());
+    if (peer.protocol == Protocol::dicom)
+        server.sendsFrom = hostsIn(m_sendsFrom);
     server.connections = m_connections->value();
     server.limit = std::uint32_t(m_limit->value());
     server.mayUncompress = !m_uncompress->isHidden() && m_uncompress->isChecked();

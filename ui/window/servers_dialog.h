@@ -50,6 +50,7 @@ private:
     QLineEdit *m_issuer, *m_authorizationUrl, *m_tokenUrl, *m_clientId, *m_scope;
     QLineEdit *m_authorities, *m_certificate, *m_key, *m_keyPassword;
     QComboBox *m_protocol, *m_retrieve, *m_authentication;
+    QLineEdit *m_sendsFrom;
     QSpinBox *m_port, *m_connections, *m_limit;
     QCheckBox *m_tls, *m_uncompress;
     PlainLabel *m_message;

@@ -212,6 +212,72 @@ TEST(Repeats, PackagesOfOneStackStayTogether) {
     EXPECT_EQ(loaded.volume.lattice().size().k, 40);
 }
 
+// Fields of view beside each other, such as two knees, whose images share their depths.
+TEST(Repeats, PlacesWithinThePlaneTellThemApart) {
+    // The middle of ten columns of 1 mm is 4.5 mm from the first.
+    const auto at = [](DicomWriter &w, double middle, int place) {
+        w.putNumbers({0x0020, 0x0032}, {middle - 4.5, 0.0, 2.0 * place});
+    };
+    const auto knees = [&](DicomWriter &w, int repeat, int place) {
+        at(w, repeat == 0 ? -100.0 : 100.0, place);
+    };
+    const std::vector<std::string> sides{"at 100 mm right", "at 100 mm left"};
+    expectRepeats(volumesOf(2, knees), sides);
+    // Whatever else differs: here a number that means nothing.
+    expectRepeats(volumesOf(2,
+                            [&](DicomWriter &w, int repeat, int place) {
+                                knees(w, repeat, place);
+                                w.put({0x0020, 0x0012}, "IS", std::to_string(place % 2));
+                            }),
+                  sides);
+    // A missing slice; the other knee has it.
+    const auto missing = volumesOf(2, knees, Numbers::random, {4});
+    ASSERT_EQ(missing.size(), 2U);
+    for (int n = 0; n < 2; ++n) {
+        EXPECT_EQ(missing[std::size_t(n)].label, sides[std::size_t(n)]);
+        EXPECT_EQ(missing[std::size_t(n)].repeat, n);
+        EXPECT_EQ(missing[std::size_t(n)].warnings.size(), n == 0 ? 1U : 0U);
+    }
+    // An attribute tells apart what is at one place.
+    expectRepeats(
+        volumesOf(4,
+                  [&](DicomWriter &w, int repeat, int place) {
+                      knees(w, repeat / 2, place);
+                      w.put({0x0018, 0x0060}, "DS", std::string(repeat % 2 == 0 ? "80" : "140"));
+                  }),
+        {"at 100 mm right, 80 kVp", "at 100 mm right, 140 kVp", "at 100 mm left, 80 kVp",
+         "at 100 mm left, 140 kVp"});
+    // Places that drift with the depth: the label is that of the middle slice.
+    const auto slanted = volumesOf(2, [&](DicomWriter &w, int repeat, int place) {
+        at(w, (repeat == 0 ? -100.0 : 100.0) + 0.9 * place, place);
+    });
+    ASSERT_EQ(slanted.size(), 2U);
+    for (int n = 0; n < 2; ++n) {
+        EXPECT_EQ(slanted[std::size_t(n)].label, n == 0 ? "at 95.5 mm right" : "at 104.5 mm left");
+        EXPECT_EQ(slanted[std::size_t(n)].repeat, n);
+    }
+}
+
+// A part of a pixel is no other place, and where most of the field of view is shared, an attribute
+// says more.
+TEST(Repeats, SmallShiftsWithinThePlaneAreTheLastThatTells) {
+    const auto shifted = [](double mm) {
+        return [mm](DicomWriter &w, int repeat, int place) {
+            w.putNumbers({0x0020, 0x0032}, {mm * repeat - 3.5, 0.0, 2.0 * place});
+        };
+    };
+    const auto rounded = volumesOf(2, shifted(0.1));
+    ASSERT_EQ(rounded.size(), 1U);
+    EXPECT_FALSE(rounded.front().isPlaced);
+    expectRepeats(volumesOf(2, shifted(3.0)), {"at 1 mm left", "at 4 mm left"});
+    expectRepeats(volumesOf(2,
+                            [&](DicomWriter &w, int repeat, int place) {
+                                shifted(3.0)(w, repeat, place);
+                                w.put({0x0018, 0x0050}, "DS", std::string(repeat == 0 ? "1" : "5"));
+                            }),
+                  {"Slice Thickness 1", "Slice Thickness 5"});
+}
+
 // Random numbers are no reason to mix the repeats.
 TEST(Repeats, NoiseTellsNothing) {
     std::mt19937 random(3);

@@ -92,10 +92,14 @@ TEST(DicomJson, AnswersAreRead) {
 
 TEST(DicomJson, StoredAndFailedObjectsAreToldApart) {
     const auto answer = readStoreAnswer(
-        R"({"00081199": {"vr": "SQ", "Value": [{"00081155": {"vr": "UI", "Value": ["1.2"]}}]},
+        R"({"00081199": {"vr": "SQ", "Value": [{"00081155": {"vr": "UI", "Value": ["1.2"]},
+                                                "00081196": {"vr": "US", "Value": [45056]}}]},
             "00081198": {"vr": "SQ", "Value": [{"00081155": {"vr": "UI", "Value": ["1.3"]},
                                                 "00081197": {"vr": "US", "Value": [42752]}}]}})");
-    EXPECT_EQ(answer.stored, std::vector<std::string>{"1.2"});
+    ASSERT_EQ(answer.stored.size(), 1U);
+    EXPECT_EQ(answer.stored[0].uid, "1.2");
+    EXPECT_EQ(changeReason(std::uint16_t(answer.stored[0].reason)).english(),
+              "stored, but the server changed or left out attributes (0xB000)");
     ASSERT_EQ(answer.failed.size(), 1U);
     EXPECT_EQ(answer.failed[0].uid, "1.3");
     EXPECT_EQ(statusReason(std::uint16_t(answer.failed[0].reason), "disk").english(),
@@ -116,15 +120,16 @@ TEST(FileStart, TheMetaHeaderNamesTheObject) {
                              std::string("\x08\0\x05\0CS\x0a\0ISO_IR 100", 18);
     const auto bytes = std::as_bytes(std::span(file));
     for (std::size_t length = 0; length < file.size() - 8; ++length)
-        EXPECT_FALSE(arrivalOf(bytes.first(length))) << length;
-    EXPECT_FALSE(arrivalOf(bytes)); // the data set may name another object
-    const auto arrival = arrivalOf(bytes, true);
-    ASSERT_TRUE(arrival);
-    EXPECT_EQ(arrival->sopClassUid, "1.2.3");
-    EXPECT_EQ(arrival->sopInstanceUid, "1.2.3.4");
-    EXPECT_EQ(arrival->transferSyntax, "1.2.840.10008.1.2.1");
+        EXPECT_FALSE(readFileStart(bytes.first(length))) << length;
+    EXPECT_FALSE(readFileStart(bytes)); // the data set may name another object
+    const auto start = readFileStart(bytes, true);
+    ASSERT_TRUE(start);
+    const exchange::Arrival &arrival = start->arrival;
+    EXPECT_EQ(arrival.sopClassUid, "1.2.3");
+    EXPECT_EQ(arrival.sopInstanceUid, "1.2.3.4");
+    EXPECT_EQ(arrival.transferSyntax, "1.2.840.10008.1.2.1");
     const std::string page = std::string(200, '<');
-    EXPECT_THROW(arrivalOf(std::as_bytes(std::span(page))), task::Error);
+    EXPECT_THROW(readFileStart(std::as_bytes(std::span(page))), task::Error);
 }
 
 // De-identification often changes the UIDs of the data set alone.
@@ -141,10 +146,28 @@ TEST(FileStart, TheUidsOfTheDataSetCount) {
         ASSERT_LT(meta, file.rfind("1.2.3.4"));
         file.replace(meta, 7, "9.8.7.6");
         const auto bytes = std::as_bytes(std::span(file));
-        const auto arrival = arrivalOf(bytes);
-        ASSERT_TRUE(arrival);
-        EXPECT_EQ(arrival->sopClassUid, "1.2.3");
-        EXPECT_EQ(arrival->sopInstanceUid, "1.2.3.4");
+        const auto start = readFileStart(bytes);
+        ASSERT_TRUE(start);
+        EXPECT_EQ(file.substr(start->dataSet, 4), std::string("\x08\0\x05\0", 4));
+        const exchange::Arrival &arrival = start->arrival;
+        EXPECT_EQ(arrival.sopClassUid, "1.2.3");
+        EXPECT_EQ(arrival.sopInstanceUid, "1.2.3.4");
+    }
+}
+
+// The context of an association says what is sent: a label that is wrong would make it unreadable.
+TEST(FileStart, AMislabelledEncodingIsFound) {
+    test::DicomWriter w;
+    w.put({0x0008, 0x0016}, "UI", std::string("1.2.3"));
+    w.put({0x0008, 0x0018}, "UI", std::string("1.2.3.4"));
+    w.put({0x0008, 0x0020}, "DA", std::string("20200101"));
+    for (const bool isImplicit : {false, true}) {
+        const std::string file =
+            w.file({.syntax = "1.2.840.10008.1.2.1", .isImplicit = isImplicit});
+        const FileStart start = startOf(std::as_bytes(std::span(file)));
+        EXPECT_EQ(start.arrival.transferSyntax,
+                  isImplicit ? "1.2.840.10008.1.2" : "1.2.840.10008.1.2.1");
+        EXPECT_EQ(start.arrival.sopInstanceUid, "1.2.3.4");
     }
 }
 

@@ -7,6 +7,9 @@
 #include <random>
 #include <set>
 
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/segment/segment_set.h"
@@ -103,8 +106,40 @@ TEST_F(SegmentationFiles, OtherLatticesAreSaid) {
         Lattice::make({40, 40, 40}, {glm::dvec3(-12.0, 18.0, 26.0)},
                       {glm::dvec3(0.3, 0, 0), glm::dvec3(0, 0.3, 0), glm::dvec3(0, 0, 0.5)}));
     const Segmentation loaded = segment::loadSegmentation(write(knobs), finer);
+    double farthest = 0.0;
+    for (int k = 0; k < 5; ++k)
+        for (int j = 0; j < 9; ++j)
+            for (int i = 0; i < 11; ++i) {
+                const glm::dvec3 at = lattice.patient(VoxelIndex{i, j, k}).mm;
+                const glm::dvec3 nearest = glm::round(finer.lattice().voxel({at}).v);
+                const VoxelIndex n{int(nearest.x), int(nearest.y), int(nearest.z)};
+                if (finer.lattice().contains(n))
+                    farthest = std::max(farthest, glm::distance(at, finer.lattice().patient(n).mm));
+            }
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_EQ(loaded.warnings[0], because::segmentsResampled);
+    EXPECT_EQ(loaded.warnings[0], because::segmentsBetweenSamples(fmt::format("{:.3g}", farthest)));
+    // The same samples, beside those of the volume by 3 mm along and 4 mm across the slices.
+    const auto moved = [](glm::dvec3 byMm) {
+        return Lattice::make({8, 8, 8}, {byMm},
+                             {glm::dvec3(10, 0, 0), glm::dvec3(0, 10, 0), glm::dvec3(0, 0, 10)});
+    };
+    const test::SegmentationKnobs beside{
+        "BINARY", {"liver"}, moved({3.0, 0.0, 4.0}), [](int, int, int, int) { return 1; }, {}};
+    EXPECT_EQ(segment::loadSegmentation(write(beside), volumeOn(moved({0, 0, 0}))).warnings,
+              std::vector<task::Reason>{because::segmentsBetweenSamples("5")});
+    // Samples with slices of twice the thickness coincide with every second one.
+    const test::SegmentationKnobs thick{
+        "BINARY",
+        {"liver"},
+        Lattice::make({8, 8, 4}, {glm::dvec3(0.0)},
+                      {glm::dvec3(10, 0, 0), glm::dvec3(0, 10, 0), glm::dvec3(0, 0, 20)}),
+        [](int, int, int, int) { return 1; },
+        {}};
+    EXPECT_EQ(segment::loadSegmentation(write(thick), volumeOn(moved({0, 0, 0}))).warnings,
+              std::vector<task::Reason>{because::segmentsResampled});
+    // By less than a twentieth of a step: the samples get the values of their pixels.
+    EXPECT_TRUE(segment::loadSegmentation(write(beside), volumeOn(moved({3.4, 0.4, 3.6})))
+                    .warnings.empty());
 }
 
 TEST_F(SegmentationFiles, WhatDoesNotBelongIsRefusedWithItsReason) {
@@ -208,6 +243,75 @@ TEST_F(SegmentationFiles, StructureSetsAreFilledOnTheVolumesSamples) {
     test::structureSetFile({{"circle", {many}}}).write(file, implicit);
     EXPECT_NEAR(segment::loadSegmentation(file, volumeOn(lattice)).segments.at(0).volumeMm3,
                 3.14159265 * 36.0 * 2.0, 0.3);
+}
+
+// A structure of squares around the axis, at these slices of a lattice.
+test::StructureKnobs squares(const std::string &name, const Lattice &lattice,
+                             const std::vector<double> &slices) {
+    test::StructureKnobs structure{name, {}};
+    for (const double slice : slices) {
+        std::vector<glm::dvec3> &square = structure.contours.emplace_back();
+        for (const auto &[i, j] : {std::pair(4.5, 4.5), {14.5, 4.5}, {14.5, 14.5}, {4.5, 14.5}})
+            square.push_back(lattice.patient(volume::VoxelPoint{{i, j, slice}}).mm);
+    }
+    return structure;
+}
+
+TEST_F(SegmentationFiles, ContoursBetweenTheSlicesAreSaid) {
+    const Lattice lattice = Lattice::centred({20, 20, 6}, {1.0, 1.0, 2.0});
+    const fs::path file = m_folder / "rt.dcm";
+    const auto warningsOf = [&](const std::vector<test::StructureKnobs> &structures,
+                                const Lattice &on) {
+        test::structureSetFile(structures).write(file);
+        return segment::loadSegmentation(file, volumeOn(on)).warnings;
+    };
+    using Reasons = std::vector<task::Reason>;
+    const auto between = [](const char *mm, const std::string &names) {
+        return Reasons{because::contoursBetweenSlices(mm, names)};
+    };
+    // 0.04 of a slice is 0.08 mm: the contours are on the slices.
+    EXPECT_EQ(
+        warningsOf({squares("on", lattice, {1, 2, 3}), squares("half", lattice, {1.5, 2.5, 3.5}),
+                    squares("near", lattice, {1.04, 2.04, 3.04}),
+                    squares("between", lattice, {1.25, 2.25, 3.25})},
+                   lattice),
+        between("1", "half, between"));
+    EXPECT_TRUE(warningsOf({squares("near", lattice, {1.04, 2.04, 3.04})}, lattice).empty());
+    // Many names are cut short. Contours outside the volume do not count.
+    std::vector<test::StructureKnobs> many;
+    std::string names;
+    for (int n = 0; n < 7; ++n) {
+        many.push_back(squares("part " + std::to_string(n), lattice, {1.5, 2.5, 3.25}));
+        if (n < 5)
+            names += "part " + std::to_string(n) + ", ";
+    }
+    names += "\u2026";
+    many.push_back(squares("outside", lattice, {20.5, 21.5}));
+    Reasons expected = between("1", names);
+    expected.push_back(because::segmentNotInTheVolume("outside"));
+    EXPECT_EQ(warningsOf(many, lattice), expected);
+    // Slices of 0.5 mm at odd hundredths, and contours with one decimal: only rounding.
+    const Lattice thin = Lattice::centred({20, 20, 6}, {1.0, 1.0, 0.5});
+    const auto rounded = squares("rounded", thin, {1.1, 2.1, 3.1});
+    EXPECT_TRUE(warningsOf({rounded}, thin).empty());
+    // The same with more decimals is an offset.
+    auto exact = rounded;
+    exact.contours.front().front().x += 0.0023;
+    EXPECT_EQ(warningsOf({exact}, thin), between("0.05", "rounded"));
+    // The slices of a tilted scan are beside each other.
+    const Lattice slanted = tilted({20, 20, 6});
+    EXPECT_TRUE(warningsOf({squares("on", slanted, {1, 2, 3})}, slanted).empty());
+    const segment::Segmentation loaded = segment::loadSegmentation(file, volumeOn(slanted));
+    for (int k = 0; k < 6; ++k)
+        for (int j = 0; j < 20; ++j)
+            for (int i = 0; i < 20; ++i) {
+                const bool isInside = k >= 1 && k <= 3 && std::min(i, j) > 4 && std::max(i, j) < 15;
+                // Ten digits of the coordinates are kept.
+                EXPECT_NEAR(loaded.segments.at(0).coverage->at({i, j, k}), isInside ? 255 : 0, 1);
+            }
+    // Half of 2 mm along the normal of slices that are tilted by atan(0.45 / 0.6).
+    EXPECT_EQ(warningsOf({squares("half", slanted, {1.5, 2.5, 3.5})}, slanted),
+              between("1", "half"));
 }
 
 TEST_F(SegmentationFiles, LabelVolumesHaveNamesAndColorsOfSlicer) {
