@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,11 +63,8 @@ public:
 private:
     void negotiate(const exchange::Connection &connection);
     [[noreturn]] void failRequest(const std::string &text, bool usesTls) const;
-    /// Notes what each accepted context is for.
-    void noteContexts();
-    /// Accepts objects of all kinds.
-    void acceptContexts();
-    void reportRefused(Control &control) const;
+    /// Accepts objects of all kinds, and reports what is refused.
+    void acceptContexts(Control &control);
 
     std::string m_characterSet, m_callingAe;
     double m_silenceSeconds;
@@ -77,7 +73,6 @@ private:
     T_ASC_Network *m_network = nullptr;
     T_ASC_Parameters *m_parameters = nullptr;
     T_ASC_Association *m_association = nullptr;
-    std::map<unsigned char, exchange::Encoding> m_contexts; ///< those accepted
 };
 
 } // namespace pellucid::network

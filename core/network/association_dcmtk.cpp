@@ -17,7 +17,6 @@
 #include <dcmtk/dcmnet/dcmtrans.h>
 #include <dcmtk/dcmnet/dimse.h>
 #include <dcmtk/dcmnet/diutil.h>
-#include <dcmtk/dcmnet/lst.h>
 #include <dcmtk/dcmtls/tlslayer.h>
 
 #include "core/network/confine.h"
@@ -81,6 +80,15 @@ struct Proposal {
 const std::vector<std::string> plainSyntaxes{UID_LittleEndianExplicitTransferSyntax,
                                              UID_LittleEndianImplicitTransferSyntax};
 
+// Servers that convert choose any encoding that they are offered. These two are hardly ever stored,
+// and what is stored in them is asked for by itself when it has not come.
+std::vector<std::string> usualSyntaxes() {
+    std::vector<std::string> syntaxes = exchange::transferSyntaxes();
+    std::erase(syntaxes, UID_DeflatedExplicitVRLittleEndianTransferSyntax);
+    std::erase(syntaxes, UID_BigEndianExplicitTransferSyntax);
+    return syntaxes;
+}
+
 // High-Throughput JPEG 2000: DCMTK 3.6.7 answers no message in a context of it.
 bool isHighThroughput(const std::string &syntax) {
     return syntax.starts_with("1.2.840.10008.1.2.4.20");
@@ -114,11 +122,10 @@ std::vector<Proposal> proposalsFor(const exchange::Connection &connection) {
         break;
     case Purpose::get:
         proposals.push_back({UID_GETStudyRootQueryRetrieveInformationModel, plainSyntaxes});
-        proposeEach(proposals,
-                    connection.sopClasses.empty() ? exchange::commonClasses()
-                                                  : connection.sopClasses,
-                    connection.transferSyntaxes.empty() ? exchange::transferSyntaxes()
-                                                        : connection.transferSyntaxes);
+        proposeEach(
+            proposals,
+            connection.sopClasses.empty() ? exchange::commonClasses() : connection.sopClasses,
+            connection.transferSyntaxes.empty() ? usualSyntaxes() : connection.transferSyntaxes);
         break;
     case Purpose::store:
         for (const exchange::Encoding &encoding : connection.encodings)
@@ -189,7 +196,6 @@ void Association::negotiate(const exchange::Connection &connection) {
         }
         failRequest(requested.text(), peer.usesTls);
     }
-    noteContexts();
     // Whether a kind of object or only its encodings are refused, each object tells.
     if (connection.purpose != Purpose::store &&
         ASC_countAcceptedPresentationContexts(m_parameters) == 0)
@@ -257,15 +263,13 @@ Association::Association(const exchange::Acceptance &acceptance, int socket, Con
             acceptance.callingAes.end())
         reject(ASC_REASON_SU_CALLINGAETITLENOTRECOGNIZED, because::senderIsUnknown(m_callingAe));
 
-    acceptContexts();
+    acceptContexts(control);
     if (ASC_acknowledgeAssociation(m_association).bad())
         throw Lost{because::serverHungUp};
     control.step(Step::association, m_callingAe);
-    noteContexts(); // what the client has been told by now
-    reportRefused(control);
 }
 
-void Association::acceptContexts() {
+void Association::acceptContexts(Control &control) {
     const auto accept = [&](const std::vector<std::string> &classes,
                             const std::vector<std::string> &syntaxes) {
         const auto pointers = [](const std::vector<std::string> &texts) {
@@ -288,6 +292,13 @@ void Association::acceptContexts() {
     }
     accept({UID_VerificationSOPClass}, plainSyntaxes);
     accept(objects, exchange::transferSyntaxes());
+    std::string refused;
+    for (const T_ASC_PresentationContext &context : contexts)
+        if (syntaxOf(context.presentationContextID).empty())
+            refused += (refused.empty() ? "" : ", ") + nameOf(context.abstractSyntax) + " in " +
+                       nameOf(context.proposedTransferSyntaxes[0]);
+    if (!refused.empty())
+        control.step(Step::refused, refused);
 }
 
 Association::~Association() {
@@ -309,42 +320,19 @@ unsigned char Association::contextFor(const std::string &sopClassUid) const {
     return id;
 }
 
-void Association::reportRefused(Control &control) const {
-    std::string refused;
-    for (int n = 0; n < ASC_countPresentationContexts(m_parameters); ++n) {
-        T_ASC_PresentationContext context{};
-        ASC_getPresentationContext(m_parameters, n, &context);
-        if (!m_contexts.contains(context.presentationContextID))
-            refused += (refused.empty() ? "" : ", ") + nameOf(context.abstractSyntax) + " in " +
-                       nameOf(context.proposedTransferSyntaxes[0]);
-    }
-    if (!refused.empty())
-        control.step(Step::refused, refused);
-}
-
 std::optional<unsigned char> Association::contextFor(const exchange::Encoding &encoding) const {
-    for (const auto &[id, accepted] : m_contexts)
-        if (accepted == encoding)
-            return id;
-    return std::nullopt;
+    const T_ASC_PresentationContextID id = ASC_findAcceptedPresentationContextID(
+        m_association, encoding.sopClassUid.c_str(), encoding.transferSyntax.c_str());
+    if (id == 0 || syntaxOf(id) != encoding.transferSyntax)
+        return std::nullopt;
+    return id;
 }
 
 std::string Association::syntaxOf(unsigned char context) const {
-    const auto accepted = m_contexts.find(context);
-    return accepted == m_contexts.end() ? std::string() : accepted->second.transferSyntax;
-}
-
-void Association::noteContexts() {
-    LST_HEAD **const list = &m_parameters->DULparams.acceptedPresentationContext;
-    auto *each = static_cast<DUL_PRESENTATIONCONTEXT *>(LST_Head(list));
-    if (each != nullptr)
-        LST_Position(list, reinterpret_cast<LST_NODE *>(each));
-    for (; each != nullptr; each = static_cast<DUL_PRESENTATIONCONTEXT *>(LST_Next(list))) {
-        if (each->result != ASC_P_ACCEPTANCE)
-            continue;
-        m_contexts[each->presentationContextID] = {each->abstractSyntax,
-                                                   each->acceptedTransferSyntax};
-    }
+    T_ASC_PresentationContext found{};
+    if (ASC_findAcceptedPresentationContext(m_parameters, context, &found).bad())
+        return {};
+    return found.acceptedTransferSyntax;
 }
 
 bool Association::isClassRefused(const std::string &sopClassUid) const {

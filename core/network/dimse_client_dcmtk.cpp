@@ -80,6 +80,36 @@ void send(Association &association, unsigned char context, T_DIMSE_Message &mess
         association.fail(sent.text());
 }
 
+// A number in little endian.
+std::string numberText(std::uint32_t value, int bytes) {
+    std::string text;
+    for (; bytes > 0; --bytes, value >>= 8)
+        text += char(value & 0xff);
+    return text;
+}
+
+// A command set, whose elements are in implicit VR little endian (PS3.7, 6.3.1). DCMTK sends none
+// before a data set that it has not parsed.
+class CommandSet {
+public:
+    void put(std::uint16_t element, std::string value) {
+        if (value.size() % 2 != 0)
+            value += '\0';
+        m_elements += numberText(0, 2) + numberText(element, 2) +
+                      numberText(std::uint32_t(value.size()), 4) + value;
+    }
+    void put(std::uint16_t element, std::uint16_t value) { put(element, numberText(value, 2)); }
+    // With the length of the group.
+    std::string bytes() const {
+        CommandSet length;
+        length.put(0, numberText(std::uint32_t(m_elements.size()), 4));
+        return length.m_elements + m_elements;
+    }
+
+private:
+    std::string m_elements;
+};
+
 std::string storeCommand(std::uint16_t id, const std::string &sopClass,
                          const std::string &instance) {
     CommandSet command;
@@ -90,6 +120,32 @@ std::string storeCommand(std::uint16_t id, const std::string &sopClass,
     command.put(0x0800, std::uint16_t(DIMSE_DATASET_PRESENT));
     command.put(0x1000, instance);
     return command.bytes();
+}
+
+// In fragments as long as the other side takes, which have an even length (PS3.8, annex E).
+void sendFragments(Association &association, unsigned char context, DUL_DATAPDV kind,
+                   std::span<const std::byte> bytes, Control &control) {
+    const std::size_t longest = association.get()->sendPDVLength;
+    std::vector<std::byte> padded;
+    do {
+        const std::size_t now = std::min(longest, bytes.size());
+        std::span<const std::byte> part = bytes.first(now);
+        if (now % 2 != 0) { // of a file that lacks its padding
+            padded.assign(part.begin(), part.end());
+            padded.push_back(std::byte(0));
+            part = padded;
+        }
+        DUL_PDV fragment{(unsigned long)(part.size()), context, kind, OFBool(now == bytes.size()),
+                         const_cast<std::byte *>(part.data())};
+        DUL_PDVLIST list{};
+        list.count = 1;
+        list.pdv = &fragment;
+        if (const OFCondition sent = DUL_WritePDVs(&association.get()->DULassociation, &list);
+            sent.bad())
+            association.fail(sent.text());
+        bytes = bytes.subspan(now);
+        control.heartbeat();
+    } while (!bytes.empty());
 }
 
 // Sends the cancel, and gives the server time to end the request.
@@ -372,10 +428,10 @@ std::optional<task::Reason> store(Association &association, int file, std::uint6
     }
     const std::string request = storeCommand(association.get()->nextMsgID++, encoding.sopClassUid,
                                              start.arrival.sopInstanceUid);
-    sendFragments(association, *context, Fragments::ofCommand, std::as_bytes(std::span(request)),
+    sendFragments(association, *context, DUL_COMMANDPDV, std::as_bytes(std::span(request)),
                   control);
-    sendFragments(association, *context, Fragments::ofDataSet,
-                  mapping.bytes().subspan(start.dataSet), control);
+    sendFragments(association, *context, DUL_DATASETPDV, mapping.bytes().subspan(start.dataSet),
+                  control);
     const std::optional<Command> answer = nextCommand(association, control);
     if (!answer) {
         association.abort();

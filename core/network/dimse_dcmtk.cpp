@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/network/dimse_dcmtk.h"
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <dcmtk/config/osconfig.h>
 
@@ -69,34 +67,6 @@ void requireContext(T_ASC_PresentationContextID got, unsigned char wanted) {
         throw Lost{task::because::dataComeInAnotherContext};
 }
 
-// Receives a data set in any encoding, also in one that DCMTK does not know.
-void receiveBytes(Association &association, unsigned char context, Storage &storage) {
-    DUL_ASSOCIATIONKEY **const link = &association.get()->DULassociation;
-    for (;;) {
-        DUL_PDV part{};
-        if (DUL_NextPDV(link, &part).bad()) {
-            const OFCondition read =
-                DUL_ReadPDVs(link, nullptr, DUL_NOBLOCK, patienceOf(association));
-            if (read != DUL_PDATAPDUARRIVED)
-                association.fail(read.text());
-            continue;
-        }
-        if (part.pdvType != DUL_DATASETPDV)
-            throw Lost{task::because::serverSendsTheUnexpected};
-        requireContext(part.presentationContextID, context);
-        storage.write({static_cast<const std::byte *>(part.data), part.fragmentLength});
-        if (part.lastPDV)
-            return;
-    }
-}
-
-std::string numberText(std::uint32_t value, int bytes) {
-    std::string text;
-    for (; bytes > 0; --bytes, value >>= 8)
-        text += char(value & 0xff);
-    return text;
-}
-
 } // namespace
 
 Command::Command() : message(std::make_unique<T_DIMSE_Message>()) {}
@@ -140,49 +110,6 @@ std::unique_ptr<DcmDataset> receiveDataset(Association &association, unsigned ch
     return owned;
 }
 
-void CommandSet::put(std::uint16_t element, std::string value) {
-    if (value.size() % 2 != 0)
-        value += '\0';
-    m_elements += numberText(0, 2) + numberText(element, 2) +
-                  numberText(std::uint32_t(value.size()), 4) + value;
-}
-
-void CommandSet::put(std::uint16_t element, std::uint16_t value) {
-    put(element, numberText(value, 2));
-}
-
-std::string CommandSet::bytes() const {
-    CommandSet length;
-    length.put(0, numberText(std::uint32_t(m_elements.size()), 4));
-    return length.m_elements + m_elements;
-}
-
-void sendFragments(Association &association, unsigned char context, Fragments kind,
-                   std::span<const std::byte> bytes, Control &control) {
-    const std::size_t longest = association.get()->sendPDVLength;
-    std::vector<std::byte> padded;
-    do {
-        const std::size_t now = std::min(longest, bytes.size());
-        std::span<const std::byte> part = bytes.first(now);
-        if (now % 2 != 0) { // of a file that lacks its padding
-            padded.assign(part.begin(), part.end());
-            padded.push_back(std::byte(0));
-            part = padded;
-        }
-        DUL_PDV fragment{(unsigned long)(part.size()), context,
-                         kind == Fragments::ofCommand ? DUL_COMMANDPDV : DUL_DATASETPDV,
-                         OFBool(now == bytes.size()), const_cast<std::byte *>(part.data())};
-        DUL_PDVLIST list{};
-        list.count = 1;
-        list.pdv = &fragment;
-        if (const OFCondition sent = DUL_WritePDVs(&association.get()->DULassociation, &list);
-            sent.bad())
-            association.fail(sent.text());
-        bytes = bytes.subspan(now);
-        control.heartbeat();
-    } while (!bytes.empty());
-}
-
 void receiveObject(Association &association, unsigned char context,
                    const T_DIMSE_C_StoreRQ &request, Control &control) {
     const auto ignore = [&] {
@@ -204,19 +131,28 @@ void receiveObject(Association &association, unsigned char context,
     } else {
         ObjectStream stream(storage);
         writeMetaHeader(stream, arrival);
-        receiveBytes(association, context, storage);
+        T_ASC_PresentationContextID got = context;
+        const OFCondition received =
+            DIMSE_receiveDataSetInFile(association.get(), DIMSE_NONBLOCKING,
+                                       patienceOf(association), &got, &stream, nullptr, nullptr);
+        if (received.bad())
+            association.fail(received.text());
+        requireContext(got, context);
         status = storage.finish();
     }
-    CommandSet response;
-    response.put(0x0002, arrival.sopClassUid);
-    response.put(0x0100, std::uint16_t(DIMSE_C_STORE_RSP));
-    response.put(0x0120, request.MessageID);
-    response.put(0x0800, std::uint16_t(DIMSE_DATASET_NULL));
-    response.put(0x0900, status);
-    response.put(0x1000, arrival.sopInstanceUid);
-    const std::string bytes = response.bytes();
-    sendFragments(association, context, Fragments::ofCommand, std::as_bytes(std::span(bytes)),
-                  control);
+    T_DIMSE_C_StoreRSP response{};
+    response.MessageIDBeingRespondedTo = request.MessageID;
+    OFStandard::strlcpy(response.AffectedSOPClassUID, request.AffectedSOPClassUID,
+                        sizeof response.AffectedSOPClassUID);
+    OFStandard::strlcpy(response.AffectedSOPInstanceUID, request.AffectedSOPInstanceUID,
+                        sizeof response.AffectedSOPInstanceUID);
+    response.DataSetType = DIMSE_DATASET_NULL;
+    response.DimseStatus = status;
+    response.opts = O_STORE_AFFECTEDSOPCLASSUID | O_STORE_AFFECTEDSOPINSTANCEUID;
+    const OFCondition sent =
+        DIMSE_sendStoreResponse(association.get(), context, &request, &response, nullptr);
+    if (sent.bad())
+        association.fail(sent.text());
 }
 
 } // namespace pellucid::network

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
 
 #include "core/network/association.h"
@@ -41,25 +37,5 @@ void receiveObject(Association &association, unsigned char context,
                    const T_DIMSE_C_StoreRQ &request, Control &control);
 
 int patienceOf(const Association &association);
-
-/// A command set, whose elements are in implicit VR little endian (PS3.7, 6.3.1), before bytes that
-/// DCMTK does not touch.
-class CommandSet {
-public:
-    /// *Requires*: rising elements of group 0000.
-    void put(std::uint16_t element, std::string value);
-    void put(std::uint16_t element, std::uint16_t value);
-    /// With the length of the group.
-    std::string bytes() const;
-
-private:
-    std::string m_elements;
-};
-
-/// Sends a command set or a data set, in fragments as long as the other side takes (PS3.8, annex
-/// E). *Throws* Lost, Disconnected.
-enum class Fragments { ofCommand, ofDataSet };
-void sendFragments(Association &association, unsigned char context, Fragments kind,
-                   std::span<const std::byte> bytes, Control &control);
 
 } // namespace pellucid::network
