@@ -37,7 +37,7 @@ struct StoredObject {
     std::string studyDate{};
 };
 
-/// What an archive has corrected since an object was received: what it lists, and what is here.
+/// A value that an archive has corrected since it sent an object: as it is here, and as listed now.
 struct Correction {
     enum class Kind { name, id, birthDate, studyDate };
     Kind kind = Kind::name;
@@ -58,7 +58,7 @@ struct RefusedObject {
     task::Reason reason;
 };
 
-/// What becomes of an object that is here when another one with its UID comes.
+/// Whether a new object replaces an existing one with the same UID.
 enum class Existing { stays, isReplaced };
 
 /// Where received objects are stored: FOLDER/STUDY/SERIES/INSTANCE.dcm, named by their UIDs. A file

@@ -361,7 +361,7 @@ void runWorkers(const Server &server, Purpose purpose, const std::vector<std::st
                 throw *worker->failure();
 }
 
-// Who tried to send from an address that the server is not known to have.
+// Senders that were refused because the server is not known to have their address.
 class Strangers {
 public:
     ListenerObserver observer() {

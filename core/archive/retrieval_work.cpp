@@ -163,7 +163,7 @@ std::optional<Batch> RetrievalWork::next() {
         // Some have come with others.
         const bool isWhole = batch.uids.empty();
         std::erase_if(batch.uids, [&](const std::string &uid) { return !m_missing.contains(uid); });
-        if (m_asksOneByOne && batch.uids.size() > 1) {
+        if (m_form == Form::single && batch.uids.size() > 1) {
             Batch rest = batch;
             rest.uids.erase(rest.uids.begin());
             m_queue.push_front(std::move(rest));
@@ -201,7 +201,7 @@ void RetrievalWork::stored(const StoredObject &object) {
         ++m_state.received;
     else if (!takeUnlisted(object))
         return;
-    m_hasSentOne = m_asksOneByOne;
+    m_sendsSingle = m_sendsSingle || m_form == Form::single;
     m_reasons.erase(object.sopInstanceUid);
     m_received.notify_all();
     if (m_observer.stored)
@@ -289,16 +289,15 @@ void RetrievalWork::moved(std::int64_t bytes) {
 
 bool RetrievalWork::askDifferently(const Batch &batch) {
     const std::lock_guard lock(m_mutex);
-    if (batch.uids.size() > 1 && (m_asksOneByOne || !m_hasRefusedLists)) {
-        m_hasRefusedLists = m_asksOneByOne = true;
+    if (batch.uids.size() > 1 && m_form != Form::series) {
+        m_form = Form::single;
         m_queue.push_front(batch);
         return true;
     }
-    if (batch.uids.size() == 1 && m_asksOneByOne && !m_hasSentOne) {
-        m_asksOneByOne = false;
-        m_asksWholeSeries = true;
-    }
-    if (batch.uids.empty() || !m_asksWholeSeries || !m_askedWhole.insert(batch.seriesUid).second)
+    if (batch.uids.size() == 1 && m_form == Form::single && !m_sendsSingle)
+        m_form = Form::series;
+    if (batch.uids.empty() || m_form != Form::series ||
+        !m_askedWhole.insert(batch.seriesUid).second)
         return false;
     m_queue.push_front({batch.studyUid, batch.seriesUid, {}});
     return true;

@@ -45,8 +45,8 @@ public:
     /// Waits until connection `index` (from 0) would save time: the open ones leave the line idle
     /// between objects, or one has given up. *Returns* false if nothing is left to do.
     bool awaitNeed(std::size_t index);
-    /// What a connection did with an object, in seconds: it waited for the first byte, then
-    /// received and kept the object.
+    /// Adds the times that a connection spent on an object, in seconds: waiting for its first byte,
+    /// and receiving and storing it.
     void worked(double waited, double received);
 
     /// Batches in the queue that ask for a whole series or study.
@@ -72,11 +72,11 @@ public:
     /// Puts back a batch that the server refuses in a form that it may take: one object at a time,
     /// and if that is refused as well, the whole series. False if it has been refused like this.
     bool askDifferently(const Batch &batch);
-    /// A connection gives up; objects still queued at the end get this reason.
+    /// Notes why a connection gave up: the reason for objects that are still queued at the end.
     void gaveUp(const task::Reason &reason);
     /// Why objects are missing, by UID.
     std::map<std::string, task::Reason> reasons() const;
-    /// Gives the objects that are still missing the reasons that they had before.
+    /// Restores the former reasons of objects that are still missing.
     void restoreReasons(const std::map<std::string, task::Reason> &before);
     /// The reason of all that is missing.
     void refuseMissing(const task::Reason &reason);
@@ -130,11 +130,11 @@ private:
     std::map<std::string, std::size_t> m_receivedBefore; ///< by access token
     double m_waited = 0.0, m_receiving = 0.0;            ///< of all connections, in seconds
     bool m_offersNoGet = false;
-    /// Of objects one at a time: whether the server has refused a list, is asked like this, and has
-    /// sent one.
-    bool m_hasRefusedLists = false, m_asksOneByOne = false, m_hasSentOne = false;
-    bool m_asksWholeSeries = false;     ///< because it refuses them, too
-    std::set<std::string> m_askedWhole; ///< series, for this reason
+    /// How the server is asked for objects: in the next form after it has refused the former.
+    enum class Form { list, single, series };
+    Form m_form = Form::list;
+    bool m_sendsSingle = false;
+    std::set<std::string> m_askedWhole; ///< series that were asked for in the last form
     std::exception_ptr m_failure;
 };
 

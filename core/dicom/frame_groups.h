@@ -26,7 +26,7 @@ struct FrameGroup {
 };
 using FrameGroups = std::vector<FrameGroup>;
 
-/// What a smaller volume must have to be one, and not a few stray slices.
+/// The fewest slices that are split off as a volume of their own; fewer are stray images.
 inline constexpr std::size_t minSlices = 3;
 
 /// The frames of a stack and how their positions repeat. *Requires*: the frames and the progress

@@ -48,6 +48,7 @@ TEST_F(CliServers, TheListShowsWhatDiffersFromTheDefault) {
                                {"tls", false},
                                {"calling_ae", "PELLUCID"},
                                {"retrieve", "automatic"},
+                               {"sends_from", nlohmann::json::array()},
                                {"connections", 4},
                                {"limit", 200},
                                {"uncompress", false},

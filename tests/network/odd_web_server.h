@@ -275,4 +275,16 @@ private:
     HttpServer m_http; // last: its threads use the others
 };
 
+/// A change of each answer: another name of the patient, of the same length, which the archive can
+/// correct between two requests. `name` outlives the server.
+inline std::function<void(const HttpRequest &, HttpAnswer &)>
+namesPatient(const std::string &name) {
+    return [&name](const HttpRequest &, HttpAnswer &answer) {
+        const std::string former = OddWebServer::name;
+        for (std::size_t at = 0; (at = answer.body.find(former, at)) != std::string::npos;
+             at += name.size())
+            answer.body.replace(at, former.size(), name);
+    };
+}
+
 } // namespace pellucid::test

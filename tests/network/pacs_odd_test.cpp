@@ -195,12 +195,7 @@ TEST_F(PacsScripted, ACorrectionIsNoticedAndReplaced) {
     std::string name = OddWebServer::name;
     Quirks quirks;
     quirks.objects = 3;
-    quirks.change = [&](const HttpRequest &, HttpAnswer &answer) {
-        const std::string former = OddWebServer::name;
-        for (std::size_t at = 0; (at = answer.body.find(former, at)) != std::string::npos;
-             at += name.size())
-            answer.body.replace(at, former.size(), name);
-    };
+    quirks.change = namesPatient(name);
     const OddWebServer web(quirks);
     const archive::ObjectFolder folder(m_folder / "got",
                                        archive::ObjectFolder::Keeps::inMemoryOfTheSystem);

@@ -82,12 +82,7 @@ private slots:
         std::string name = OddWebServer::name;
         Quirks quirks;
         quirks.objects = 4;
-        quirks.change = [&](const HttpRequest &, HttpAnswer &answer) {
-            const std::string former = OddWebServer::name;
-            for (std::size_t at = 0; (at = answer.body.find(former, at)) != std::string::npos;
-                 at += name.size())
-                answer.body.replace(at, former.size(), name);
-        };
+        quirks.change = namesPatient(name);
         const OddWebServer web(quirks);
         bench().servers.put(web.server());
         const auto retrieve = [&] {
