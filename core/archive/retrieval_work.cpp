@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -136,7 +135,7 @@ bool RetrievalWork::awaitNeed(std::size_t index) {
     for (;;) {
         if (m_queue.empty() || m_failure || m_offersNoGet)
             return false;
-        const bool isMeasured = m_state.received >= firstBatchSize;
+        const bool isMeasured = m_state.received >= m_connections;
         if (m_whyGivenUp || (isMeasured && !isEnough(index))) // nobody else may be left
             return true;
         m_received.wait_for(lock, moment);
@@ -145,8 +144,7 @@ bool RetrievalWork::awaitNeed(std::size_t index) {
 
 // Requires the lock.
 bool RetrievalWork::isEnough(std::size_t connections) const {
-    return m_receiving > 0.0 &&
-           double(connections) >= std::round((m_waited + m_receiving) / m_receiving);
+    return m_receiving > 0.0 && double(connections) >= (m_waited + m_receiving) / m_receiving;
 }
 
 void RetrievalWork::worked(double waited, double received) {

@@ -24,8 +24,7 @@ struct Batch {
     std::vector<std::string> uids;
 };
 
-/// The size of the first batches; fewer objects do not repay a connection, and are too few to
-/// measure its speed.
+/// The size of the first batches; fewer objects do not repay a connection.
 inline constexpr std::size_t firstBatchSize = 8;
 
 /// The state of a retrieval, shared by its connections: what lacks and why, and the queue of
