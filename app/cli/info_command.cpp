@@ -57,7 +57,7 @@ json volumeJson(const dicom::VolumeEntry &v) {
         {"size", {l.size().i, l.size().j, l.size().k}},
         {"spacing_mm",
          {ifKnown(v.notes.hasSpacing, l.spacingMm(0)), ifKnown(v.notes.hasSpacing, l.spacingMm(1)),
-          ifKnown(v.placed, l.sliceDistanceMm())}},
+          ifKnown(v.notes.hasDepth, l.sliceDistanceMm())}},
         {"spacing_place", volume::spacingPlaceName(v.notes.spacingPlace)},
         {"tilt_deg", ifKnown(v.placed, l.shearRad() * degrees)},
         {"origin_mm", ifKnown(v.placed, vector(l.origin().mm))},
@@ -81,7 +81,7 @@ std::string spacingText(const dicom::VolumeEntry &v) {
     const volume::Lattice &l = v.geometry.lattice;
     const std::string_view place = volume::spacingPlaceName(v.notes.spacingPlace);
     return fmt::format(", {:.3f} x {:.3f}{} mm{}{}", l.spacingMm(0), l.spacingMm(1),
-                       v.placed ? fmt::format(" x {:.3f}", l.sliceDistanceMm()) : "",
+                       v.notes.hasDepth ? fmt::format(" x {:.3f}", l.sliceDistanceMm()) : "",
                        place.empty() ? "" : " ", place);
 }
 

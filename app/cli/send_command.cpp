@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -66,11 +68,17 @@ void send(const Options &o, const Context &context) {
                                         rateText(report.state.bytes, report.seconds)))
                       .c_str());
     }
-    if (!report.notSent.empty())
-        throw task::Error(
-            task::ErrorCode::incomplete,
-            task::because::filesNotSent(report.notSent.size(), report.notSent.front().reason),
-            server.name);
+    if (report.notSent.empty())
+        return;
+    std::set<std::string> reasons;
+    for (const dicom::Skipped &file : report.notSent)
+        reasons.insert(file.reason.english());
+    const std::size_t count = report.notSent.size();
+    throw task::Error(task::ErrorCode::incomplete,
+                      reasons.size() > 1
+                          ? task::because::filesNotSentForReasons(count, reasons.size())
+                          : task::because::filesNotSent(count, report.notSent.front().reason),
+                      server.name);
 }
 
 } // namespace

@@ -19,7 +19,9 @@
 #include "core/archive/listener.h"
 #include "core/archive/login.h"
 #include "core/archive/retrieval_work.h"
+#include "core/dicom/missing_objects.h"
 #include "core/exchange/link.h"
+#include "core/files/user_folders.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -383,6 +385,47 @@ private:
     std::string m_first; ///< address
 };
 
+// Says in the folder of a study what is missing from it, also while it is retrieved, and if the
+// retrieval ends early or the program is killed.
+class MissingNote {
+public:
+    /// *Throws* Error{output}.
+    MissingNote(std::filesystem::path folder, const std::vector<std::string> &seriesUids,
+                const RetrievalWork &work)
+        : m_folder(std::move(folder)), m_seriesUids(seriesUids), m_work(work) {
+        files::createPrivateFolders(m_folder);
+        set(work.missing());
+    }
+    ~MissingNote() {
+        try {
+            if (!m_isFinal)
+                set(m_work.missing());
+        } catch (const Error &) { // the disk is full: the first note stays
+        }
+        // A study of which nothing has come has no folder.
+        std::error_code ignored;
+        if (std::distance(std::filesystem::directory_iterator(m_folder, ignored),
+                          std::filesystem::directory_iterator()) <= 1) {
+            std::filesystem::remove(m_folder / dicom::missingObjectsName, ignored);
+            std::filesystem::remove(m_folder, ignored);
+        }
+    }
+    MissingNote(const MissingNote &) = delete;
+    MissingNote &operator=(const MissingNote &) = delete;
+
+    void set(std::size_t missing) { dicom::noteMissingObjects(m_folder, m_seriesUids, missing); }
+    void setFinal(std::size_t missing) {
+        m_isFinal = true;
+        set(missing);
+    }
+
+private:
+    std::filesystem::path m_folder;
+    const std::vector<std::string> &m_seriesUids;
+    const RetrievalWork &m_work;
+    bool m_isFinal = false;
+};
+
 // For what a server sends because it is asked to.
 ListenerOptions listenerFor(const Server &server, const std::string &ae, int port) {
     ListenerOptions options;
@@ -425,6 +468,7 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     folder.create();
     RetrievalWork work(listing, folder, observer, std::min(int(firstSlices), server.connections),
                        wanted.existing);
+    MissingNote note(folder.folder() / wanted.studyUid, wanted.seriesUids, work);
     // Every connection proposes the kinds that lack; a server that does not tell them gets the
     // common ones.
     std::set<std::string> classes = work.classes();
@@ -467,19 +511,21 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
             if (work.fillQueueAgain(instances))
                 runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {syntax}, {},
                            wanted.existing, nullptr, work, progress);
-    // Some servers list objects but cannot send them on the same association.
-    if (!hasMoved && server.retrieve == RetrieveMethod::automatic && work.receivedCount() == 0 &&
+    // Some servers list objects but cannot send them on the same association, or do not tell their
+    // kinds, which it would have to propose.
+    if (const std::size_t before = work.receivedCount();
+        !hasMoved && server.retrieve == RetrieveMethod::automatic && work.missing() > 0 &&
         server.peer.protocol == exchange::Protocol::dicom && work.fillQueueAgain(instances)) {
         hasMoved = true;
-        const std::map<std::string, task::Reason> before = work.reasons();
+        const std::map<std::string, task::Reason> reasons = work.reasons();
         try {
             moveAll();
         } catch (const Error &error) {
             if (error.code() == ErrorCode::output)
                 throw;
         }
-        if (work.receivedCount() == 0) // the first reasons are the true ones
-            work.restoreReasons(before);
+        if (work.receivedCount() == before) // the first reasons are the true ones
+            work.restoreReasons(reasons);
     }
     // Objects that the server did not list are retrieved with their whole series.
     const bool isShort = work.fillQueueWithShortSeries();
@@ -495,6 +541,7 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     }
     listener.reset();
     RetrievalReport report = work.report();
+    note.setFinal(report.lacking.size());
     if (report.state.received > 0)
         files::flush(folder.folder());
     // Neither a list nor an object.

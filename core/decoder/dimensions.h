@@ -9,6 +9,7 @@
 namespace pellucid::decoder {
 
 inline constexpr std::uint32_t imageTypeTag = 0x00080008;
+inline constexpr std::uint32_t bValueOfGeTag = 0x00431039; // a private attribute
 
 /// How the values of an attribute are compared.
 enum class ValueKind {
@@ -41,7 +42,7 @@ inline constexpr std::array dimensions{
     Dimension{0x00189082, ValueKind::number, task::because::echoTime}, // Effective Echo Time
     Dimension{0x00180082, ValueKind::number, task::because::inversionTime},
     Dimension{0x00189087, ValueKind::number, task::because::bValue},
-    Dimension{0x00431039, ValueKind::text, task::because::bValue}, // of GE, a private attribute
+    Dimension{bValueOfGeTag, ValueKind::number, task::because::bValue},
     Dimension{0x00189089, ValueKind::text, task::because::gradientDirection},
     Dimension{0x00181314, ValueKind::number, task::because::flipAngle},
     Dimension{0x00180060, ValueKind::number, task::because::tubeVoltage},

@@ -29,7 +29,7 @@ struct Rescale {
     bool isSlopeZero = false; ///< in the header; some converters write 0 and mean 1
     /// False if the header's value is not a number or is nonsense.
     bool isSlopeReadable = true, isInterceptReadable = true;
-    bool isStated = false; ///< false: the header has neither
+    bool isSlopeStated = false, isInterceptStated = false; ///< in the header
     bool operator==(const Rescale &) const = default;
 };
 

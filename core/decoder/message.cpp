@@ -58,7 +58,8 @@ template <class A> void pass(A &archive, FrameHeader &frame) {
     pass(archive, frame.rescale.isSlopeZero);
     pass(archive, frame.rescale.isSlopeReadable);
     pass(archive, frame.rescale.isInterceptReadable);
-    pass(archive, frame.rescale.isStated);
+    pass(archive, frame.rescale.isSlopeStated);
+    pass(archive, frame.rescale.isInterceptStated);
     pass(archive, frame.segment);
     pass(archive, frame.dimensions);
 }

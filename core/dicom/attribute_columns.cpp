@@ -76,6 +76,14 @@ std::string wordsOf(const std::string &keyword) {
     return words;
 }
 
+// The first of several values, to which some scanners add 10^9.
+std::string bValueOfGe(const std::string &values) {
+    constexpr double added = 1e5; // a b-value is less
+    const std::string first = values.substr(0, values.find('\\'));
+    const auto number = parsed(first);
+    return number ? fmt::format("{:g}", std::fmod(*number, added)) : first;
+}
+
 // The order in which attributes are tried.
 enum class Trust { standard, aboutPixels, uid, privateOne };
 
@@ -198,10 +206,15 @@ Column::Column(ValueKind kind, Label label, std::size_t frames, bool isKnown)
 void Column::set(std::size_t frame, const std::string &value) {
     if (value.empty())
         return;
-    const auto [it, isNew] = m_known.try_emplace(value, std::uint32_t(m_values.size()));
+    const std::optional<double> number = m_kind == ValueKind::driftingTime ? secondsIn(value)
+                                         : m_kind == ValueKind::text       ? std::nullopt
+                                                                           : parsed(value);
+    // "80.0" and "8E1" are 80.
+    const auto [it, isNew] = m_known.try_emplace(number ? fmt::format("{}", *number) : value,
+                                                 std::uint32_t(m_values.size()));
     if (isNew) {
         m_values.push_back(value);
-        m_numbers.push_back(m_kind == ValueKind::driftingTime ? secondsIn(value) : parsed(value));
+        m_numbers.push_back(number);
     }
     m_ids[frame] = it->second;
 }
@@ -224,7 +237,6 @@ std::vector<Column> headerColumns(const std::vector<PlacedFrame> &frames) {
         Column column(
             dimension.kind,
             [&](const std::string &value) {
-                // "80.0" and "+80" are 80.
                 const auto number = dimension.kind == ValueKind::number ||
                                             dimension.kind == ValueKind::driftingNumber
                                         ? parsed(value)
@@ -235,7 +247,8 @@ std::vector<Column> headerColumns(const std::vector<PlacedFrame> &frames) {
         for (std::size_t n = 0; n < frames.size(); ++n)
             if (const auto at = frames[n].header.dimensions.find(dimension.tag);
                 at != frames[n].header.dimensions.end())
-                column.set(n, at->second);
+                column.set(n, dimension.tag == decoder::bValueOfGeTag ? bValueOfGe(at->second)
+                                                                      : at->second);
         add(std::move(column));
     }
     Column files(

@@ -10,6 +10,7 @@
 
 #include "core/decoder/decoder.h"
 #include "core/decoder/unpack_archive.h"
+#include "core/dicom/missing_objects.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
 #include "core/volume/volume_file.h"
@@ -150,7 +151,8 @@ void FileList::addFolder(const fs::path &folder) {
                 else
                     pending.push_back(entry.path());
             } else if (entry.is_regular_file(ignored)) {
-                below.push_back(entry.path());
+                if (entry.path().filename() != missingObjectsName)
+                    below.push_back(entry.path());
             } else {
                 skipped.push_back(
                     {entry.path(), link ? because::isABrokenLink : because::isNotARegularFile});

@@ -38,7 +38,7 @@ bool sameSpacing(const glm::dvec2 &a, const glm::dvec2 &b) {
 bool sameBlock(const PlacedFrame &a, const PlacedFrame &b) {
     const FrameHeader &x = a.header, &y = b.header;
     return a.rows == b.rows && a.columns == b.columns && a.modality == b.modality &&
-           isLocalizer(x) == isLocalizer(y) && a.statesValues == b.statesValues &&
+           isLocalizer(x) == isLocalizer(y) && a.statedValues == b.statedValues &&
            sameSpacing(*x.spacingMm, *y.spacingMm) && sameAxis(*x.rowAxis, *y.rowAxis) &&
            sameAxis(*x.columnAxis, *y.columnAxis);
 }
@@ -154,7 +154,7 @@ Frames framesOf(const std::vector<SeriesFile> &files) {
             frame.sopInstanceUid = file.header.sopInstanceUid;
             frame.frameOfReferenceUid = file.header.frameOfReferenceUid;
             frame.modality = file.header.modality;
-            frame.statesValues = statesValues(file.header, n);
+            frame.statedValues = statedValues(file.header, n);
             frames.push_back(std::move(frame));
         }
     return frames;
@@ -179,6 +179,25 @@ bool arePackages(const StackResult &whole, const std::vector<Part> &parts) {
     return std::abs(together - stepMm) < 0.1 * stepMm;
 }
 
+// Whether slices are clearly thicker than they are apart.
+bool areOverlapping(const Frames &block, const StackResult &whole) {
+    const double apartMm = whole.geometry.lattice.sliceDistanceMm();
+    return std::all_of(block.begin(), block.end(), [&](const PlacedFrame &frame) {
+        return frame.header.sliceThicknessMm > 1.5 * apartMm;
+    });
+}
+
+// Whether no slices of one part overlap: what an acquisition leaves out, no other one fills by
+// chance.
+bool areAsThickAsApart(const std::vector<Part> &parts) {
+    return std::all_of(parts.begin(), parts.end(), [](const Part &part) {
+        const double apartMm = stackGeometry(part.frames).geometry.lattice.sliceDistanceMm();
+        return std::all_of(part.frames.begin(), part.frames.end(), [&](const PlacedFrame &frame) {
+            return std::abs(frame.header.sliceThicknessMm - apartMm) < 0.1 * apartMm;
+        });
+    });
+}
+
 // The parts of a block that are a volume each. Empty if repeated images cannot be told apart.
 std::vector<Part> partsOf(const Frames &block, Slices slices, const ReadAttributes &read,
                           const task::Progress &progress) {
@@ -186,7 +205,7 @@ std::vector<Part> partsOf(const Frames &block, Slices slices, const ReadAttribut
         return {{{}, block, {}}};
     if (hasRepeatedPositions(block))
         return splitRepeats(block, read, progress);
-    if (slices == Slices::all) {
+    if (slices == Slices::all && block.size() > 1) {
         const StackResult whole = stackGeometry(block);
         const auto isUneven = [](const task::Reason &warning) {
             return warning.is(because::unevenSlices) || warning.is(because::missingSlices);
@@ -194,6 +213,12 @@ std::vector<Part> partsOf(const Frames &block, Slices slices, const ReadAttribut
         if (whole.refusal || std::any_of(whole.warnings.begin(), whole.warnings.end(), isUneven))
             if (std::vector<Part> parts = splitOverlapping(block, read, progress);
                 !parts.empty() && !arePackages(whole, parts))
+                return parts;
+        // Scans that lie halfway between each other are even together, too, but each of their
+        // slices is as thick as its own scan's are apart.
+        if (!whole.refusal && whole.warnings.empty() && areOverlapping(block, whole))
+            if (std::vector<Part> parts = splitOverlapping(block, nullptr, progress);
+                !parts.empty() && areAsThickAsApart(parts))
                 return parts;
     }
     return {{{}, block, {}}};
@@ -245,8 +270,11 @@ bool isLocalizer(const FrameHeader &frame) {
     return frame.imageType().find("LOCALIZER") != std::string::npos;
 }
 
-bool statesValues(const InstanceHeader &header, int frame) {
-    return header.frames.at(std::size_t(frame)).rescale.isStated || !header.modalityTable.empty();
+int statedValues(const InstanceHeader &header, int frame) {
+    const decoder::Rescale &rescale = header.frames.at(std::size_t(frame)).rescale;
+    return header.modalityTable.empty()
+               ? int(rescale.isSlopeStated) + int(rescale.isInterceptStated)
+               : 2;
 }
 
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,

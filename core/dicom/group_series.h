@@ -17,8 +17,8 @@ struct SeriesFile {
 };
 
 /// Splits a series into volumes: first by size, orientation, pixel spacing, localizer, frame of
-/// reference, modality, and whether they state a rescale. If positions still repeat, or the stack
-/// is uneven, it splits by the attributes that distinguish the parts, see `splitRepeats` and
+/// reference, modality, and how much of a rescale they state. If positions still repeat, or the
+/// stack is uneven, it splits by the attributes that distinguish the parts, see `splitRepeats` and
 /// `splitOverlapping`, which `read` lists. Copies of an instance are dropped and added to
 /// `skipped`. Frames without position or orientation, and those that nothing distinguishes, become
 /// sets of images that contain the reason. *Throws* Cancelled.
@@ -30,7 +30,8 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
 /// Whether a frame is a picture for planning a scan (scout, topogram), by its ImageType.
 bool isLocalizer(const FrameHeader &frame);
 
-/// Whether a file says what the samples of a frame mean, by a rescale or a table.
-bool statesValues(const InstanceHeader &header, int frame);
+/// How much a file says of what the samples of a frame mean: 0 to 2, one for a slope and one for
+/// an intercept, two for a table.
+int statedValues(const InstanceHeader &header, int frame);
 
 } // namespace pellucid::dicom

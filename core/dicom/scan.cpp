@@ -20,6 +20,7 @@
 #include "core/decoder/unpack_archive.h"
 #include "core/dicom/file_list.h"
 #include "core/dicom/group_series.h"
+#include "core/dicom/missing_objects.h"
 #include "core/dicom/uptake_scale.h"
 #include "core/dicom/value_warnings.h"
 #include "core/system/memory.h"
@@ -96,9 +97,10 @@ std::vector<volume::ValueWindow> windowsOf(const VolumeEntry &entry, const Heade
     return windows;
 }
 
-// Sets the type of the values and the notes, from the first file of an entry. `othersStateValues`:
-// some image of its series states what its samples mean. `pet`: the PET images of its series.
-void describe(VolumeEntry &entry, const HeadersByPath &headers, bool othersStateValues,
+// Sets the type of the values and the notes, from the first file of an entry. `mostStated`: the
+// most that any image of its series states of what its samples mean, see `statedValues`. `pet`: the
+// PET images of its series.
+void describe(VolumeEntry &entry, const HeadersByPath &headers, int mostStated,
               const std::vector<const InstanceHeader *> &pet) {
     const InstanceHeader &h = *headers.at(entry.frames.front().path);
     entry.notes.title = h.seriesDescription.empty() ? h.modality : h.seriesDescription;
@@ -129,15 +131,16 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers, bool othersState
     entry.notes.lossy =
         std::any_of(entry.frames.begin(), entry.frames.end(),
                     [&](const FrameReference &frame) { return headers.at(frame.path)->lossy; });
-    const bool statesValues = dicom::statesValues(h, front.frame);
+    const int stated = statedValues(h, front.frame);
+    const bool statesLess = stated < mostStated;
     const bool hounsfield =
         (h.rescaleType == "HU" ||
          (h.modality == "CT" && (h.rescaleType.empty() || h.rescaleType == "US"))) &&
-        (statesValues || !othersStateValues);
-    if (entry.placed && !entry.notes.isLocalizer && !statesValues &&
-        (othersStateValues || h.modality == "CT"))
-        entry.notes.warnings.push_back(othersStateValues ? because::valuesAsStored
-                                                         : because::rescaleIsAssumed);
+        !statesLess;
+    if (entry.placed && !entry.notes.isLocalizer &&
+        (statesLess || (stated == 0 && h.modality == "CT")))
+        entry.notes.warnings.push_back(statesLess ? because::valuesAsStored
+                                                  : because::rescaleIsAssumed);
     if (hounsfield && entry.placed && h.modality == "CT") {
         entry.unit = volume::ValueUnit::hounsfield;
     } else if (h.pet && entry.placed) {
@@ -401,13 +404,24 @@ Series seriesOf(const std::vector<SeriesFile> &files, Slices slices, std::vector
     for (const SeriesFile &file : files)
         if (file.header.pet)
             pet.push_back(&file.header);
-    const bool someStateValues =
-        std::any_of(files.begin(), files.end(),
-                    [](const SeriesFile &file) { return statesValues(file.header, 0); });
+    int mostStated = 0;
+    for (const SeriesFile &file : files)
+        mostStated = std::max(mostStated, statedValues(file.header, 0));
+    // Files of one folder belong to one study.
+    std::map<fs::path, std::optional<std::size_t>> missing;
     for (VolumeEntry &volume : series.volumes) {
+        for (const FrameReference &frame : volume.frames) {
+            const auto [at, isNew] = missing.try_emplace(frame.path.parent_path());
+            if (isNew)
+                at->second = missingObjectsBeside(frame.path);
+            if (at->second) {
+                volume.notes.warnings.push_back(because::objectsOfStudyMissing(*at->second));
+                break;
+            }
+        }
         if (studies.size() > 1)
             volume.notes.warnings.push_back(because::namesSeveralStudies(studies.size()));
-        describe(volume, headers, someStateValues, pet);
+        describe(volume, headers, mostStated, pet);
     }
     return series;
 }

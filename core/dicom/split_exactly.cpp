@@ -31,8 +31,8 @@ bool follows(const std::vector<double> &before, const std::vector<double> &here,
 
 class ExactSplitter {
 public:
-    ExactSplitter(const RepeatedFrames &stack, const std::vector<Column> &columns)
-        : m_stack(stack), m_columns(columns) {}
+    ExactSplitter(const RepeatedFrames &stack, const std::vector<Column> &columns, Telling telling)
+        : m_stack(stack), m_columns(columns), m_telling(telling) {}
 
     FrameGroups split(const FrameIndices &frames) {
         const std::size_t each = m_stack.repeatsOfEach(frames);
@@ -53,8 +53,9 @@ public:
             if (isUniform) {
                 if (auto all = splitFurther(groups, places))
                     return std::move(*all);
-            } else if (FrameGroups ranked = byRank(frames, column, each); !ranked.empty()) {
-                return ranked;
+            } else if (m_telling == Telling::alsoByRank) {
+                if (FrameGroups ranked = byRank(frames, column, each); !ranked.empty())
+                    return ranked;
             }
         }
         return {};
@@ -115,13 +116,15 @@ private:
 
     const RepeatedFrames &m_stack;
     const std::vector<Column> &m_columns;
+    Telling m_telling;
     int m_combinations = 0;
 };
 
 } // namespace
 
-FrameGroups splitExactly(const RepeatedFrames &frames, const std::vector<Column> &columns) {
-    return ExactSplitter(frames, columns).split(frames.all());
+FrameGroups splitExactly(const RepeatedFrames &frames, const std::vector<Column> &columns,
+                         Telling telling) {
+    return ExactSplitter(frames, columns, telling).split(frames.all());
 }
 
 } // namespace pellucid::dicom

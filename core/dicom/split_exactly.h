@@ -7,10 +7,13 @@
 
 namespace pellucid::dicom {
 
+/// How the values of an attribute tell groups apart: equal within a group, or also drifting from
+/// slice to slice by less than they differ between groups.
+enum class Telling { byValue, alsoByRank };
+
 /// Splits all frames so that each group has each position once, by an attribute or several
-/// together. The values of an attribute either equal each other throughout a group, or drift from
-/// slice to slice by less than they differ between groups. Empty if there is no such split.
-/// *Throws* Cancelled.
-FrameGroups splitExactly(const RepeatedFrames &frames, const std::vector<Column> &columns);
+/// together. Empty if there is no such split. *Throws* Cancelled.
+FrameGroups splitExactly(const RepeatedFrames &frames, const std::vector<Column> &columns,
+                         Telling telling);
 
 } // namespace pellucid::dicom

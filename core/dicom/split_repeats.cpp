@@ -39,11 +39,9 @@ FrameGroups refined(const RepeatedFrames &frames, const std::vector<Column> &col
     return isSplit ? groups : FrameGroups();
 }
 
-// The groups by these attributes; empty if they do not separate the frames.
-FrameGroups split(const RepeatedFrames &frames, const std::vector<Column> &columns) {
-    if (FrameGroups groups = splitExactly(frames, columns); !groups.empty())
-        return groups;
-    // Where slices are missing: as many groups as repeats, or groups that are each a stack.
+// Where slices are missing: as many groups as repeats, or groups that are each a stack. Empty if
+// these attributes do not separate the frames.
+FrameGroups splitRoughly(const RepeatedFrames &frames, const std::vector<Column> &columns) {
     if (FrameGroups groups = refined(frames, columns); !groups.empty())
         return groups;
     for (const Column &column : columns) {
@@ -55,6 +53,18 @@ FrameGroups split(const RepeatedFrames &frames, const std::vector<Column> &colum
             return groups;
     }
     return {};
+}
+
+// Whether two splits differ in nothing but the names of their groups.
+bool areAlike(const FrameGroups &a, const FrameGroups &b) {
+    const auto has = [](const FrameGroups &groups, const FrameGroup &one) {
+        return std::any_of(groups.begin(), groups.end(), [&](const FrameGroup &group) {
+            return std::is_permutation(group.frames.begin(), group.frames.end(), one.frames.begin(),
+                                       one.frames.end());
+        });
+    };
+    return a.size() == b.size() &&
+           std::all_of(a.begin(), a.end(), [&](const FrameGroup &group) { return has(b, group); });
 }
 
 } // namespace
@@ -69,16 +79,37 @@ std::vector<Part> splitRepeats(const std::vector<PlacedFrame> &sorted, const Rea
     std::vector<Column> columns, shifts;
     for (PlaceColumn &place : placeColumns(sorted))
         (place.isApart ? columns : shifts).push_back(std::move(place.column));
-    const auto alsoBy = [&](std::vector<Column> more) {
+    const auto add = [&](std::vector<Column> more) {
         std::move(more.begin(), more.end(), std::back_inserter(columns));
-        return split(frames, columns);
     };
-    FrameGroups groups = alsoBy(headerColumns(sorted));
-    if (groups.empty() && read)
-        groups = alsoBy(otherColumns(sorted, read, progress));
+    add(headerColumns(sorted));
+    // What equals itself throughout a volume says more than a time that drifts: before a drift
+    // counts, all attributes of the files are tried.
+    FrameGroups groups = splitExactly(frames, columns, Telling::byValue);
+    if (groups.empty()) {
+        const FrameGroups drifting = splitExactly(frames, columns, Telling::alsoByRank);
+        FrameGroups roughly = drifting.empty() ? splitRoughly(frames, columns) : FrameGroups();
+        if (read && roughly.empty()) {
+            add(otherColumns(sorted, read, progress));
+            groups = splitExactly(frames, columns, Telling::byValue);
+        }
+        // The drift names the volumes better, if it means the same ones.
+        if (!drifting.empty() && (groups.empty() || areAlike(groups, drifting)))
+            groups = drifting;
+        if (groups.empty())
+            groups = std::move(roughly);
+        if (groups.empty())
+            groups = splitExactly(frames, columns, Telling::alsoByRank);
+        if (groups.empty())
+            groups = splitRoughly(frames, columns);
+    }
     // Where one thing moves, an attribute says more about a part than its place.
-    if (groups.empty() && !shifts.empty())
-        groups = alsoBy(std::move(shifts));
+    if (groups.empty() && !shifts.empty()) {
+        add(std::move(shifts));
+        groups = splitExactly(frames, columns, Telling::alsoByRank);
+        if (groups.empty())
+            groups = splitRoughly(frames, columns);
+    }
     if (!groups.empty())
         return frames.partsOf(groups);
     std::vector<Part> parts = frames.partsOf(splitByNumber(frames));

@@ -24,8 +24,8 @@ struct PlacedFrame {
     int instanceNumber = 0;
     int framesOfFile = 1;
     std::string sopInstanceUid;
-    bool sharesUid = false;    ///< another image has the same instance UID
-    bool statesValues = false; ///< what its samples mean: it has a rescale or a table
+    bool sharesUid = false; ///< another image has the same instance UID
+    int statedValues = 0;   ///< see `dicom::statedValues`
     /// The same for all frames of a volume: one patient space, one kind of values.
     std::string frameOfReferenceUid, modality;
 

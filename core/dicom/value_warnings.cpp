@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -40,11 +41,20 @@ struct Agreement {
 template <std::uint32_t tag> std::string dimensionOf(const InstanceHeader &header) {
     const auto &dimensions = header.frames.front().dimensions;
     const auto at = dimensions.find(tag);
-    return at == dimensions.end() ? std::string() : at->second;
+    if (at == dimensions.end())
+        return {};
+    // "80.0" is 80.
+    const std::string &text = at->second;
+    const char *const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? fmt::format("{}", number)
+                                                                    : text;
 }
 
 constexpr std::array agreements{
     Agreement{"SOP Class", [](const InstanceHeader &h) { return h.sopClassName; }},
+    Agreement{"Units", [](const InstanceHeader &h) { return h.pet ? h.pet->units : ""; }},
     Agreement{"Rescale Type", [](const InstanceHeader &h) { return h.rescaleType; }},
     Agreement{"Photometric Interpretation", [](const InstanceHeader &h) { return h.photometric; }},
     Agreement{

@@ -38,6 +38,7 @@ void makeImages(VolumeEntry &entry, const std::vector<PlacedFrame> &frames,
     entry.notPlacedReason = reason;
     const glm::dvec2 spacing = frames.front().header.spacingMm.value_or(glm::dvec2(1.0));
     entry.notes.hasSpacing = frames.front().header.spacingMm.has_value();
+    entry.notes.hasDepth = false;
     entry.geometry = {
         volume::Lattice::centred({frames.front().columns, frames.front().rows, int(frames.size())},
                                  {spacing.x, spacing.y, 1.0}),
@@ -51,6 +52,8 @@ VolumeEntry volumeOf(const Part &part, Slices slices = Slices::all) {
         makeImages(entry, part.frames, *stack.refusal);
     else
         entry.geometry = std::move(stack.geometry);
+    if (part.frames.size() == 1 && !(part.frames.front().header.sliceThicknessMm > 0.0))
+        entry.notes.hasDepth = false;
     entry.notes.filled = std::move(stack.filled);
     entry.notes.warnings.insert(entry.notes.warnings.end(), stack.warnings.begin(),
                                 stack.warnings.end());

@@ -246,8 +246,8 @@ exchange::QueryEnd WebClient::find(const exchange::Query &query, Control &contro
             control.match(query, std::move(match));
         }
         if (!hasNew) {
-            // A full page again: the server knows no offsets, and what follows is not to be had.
-            end.mayBeIncomplete = saysMore || matches.size() == exchange::matchesOfPage;
+            // A page again: the server knows no offsets, and what follows is not to be had.
+            end.mayBeIncomplete = saysMore || (!matches.empty() && offset > query.skip);
             return end;
         }
         saysMore = !answer.warning.empty() || answer.status == 206;

@@ -106,10 +106,10 @@ bool isMultiple(DcmItem *item, const DcmTagKey &tag) {
 // An unusable value is recorded, because ignoring it changes the values.
 void readRescale(DcmItem *item, FrameHeader &frame) {
     decoder::Rescale &rescale = frame.rescale;
-    const auto take = [&](const DcmTagKey &tag, double &into, bool &isReadable) {
+    const auto take = [&](const DcmTagKey &tag, double &into, bool &isReadable, bool &isStated) {
         if (readText(item, tag).empty()) // empty or missing
             return;
-        rescale.isStated = true;
+        isStated = true;
         const auto value = readNumber(item, tag);
         isReadable = value && std::abs(*value) <= decoder::largestRescale &&
                      (*value == 0.0 || std::abs(*value) >= smallestRescale) &&
@@ -118,11 +118,13 @@ void readRescale(DcmItem *item, FrameHeader &frame) {
             into = *value;
     };
     double slope = rescale.isSlopeZero ? 0.0 : rescale.slope;
-    take(DCM_DoseGridScaling, slope, rescale.isSlopeReadable); // of a dose, in its units
-    take(DCM_RescaleSlope, slope, rescale.isSlopeReadable);
+    take(DCM_DoseGridScaling, slope, rescale.isSlopeReadable,
+         rescale.isSlopeStated); // of a dose, in its units
+    take(DCM_RescaleSlope, slope, rescale.isSlopeReadable, rescale.isSlopeStated);
     rescale.isSlopeZero = slope == 0.0;
     rescale.slope = rescale.isSlopeZero ? 1.0 : slope;
-    take(DCM_RescaleIntercept, rescale.intercept, rescale.isInterceptReadable);
+    take(DCM_RescaleIntercept, rescale.intercept, rescale.isInterceptReadable,
+         rescale.isInterceptStated);
 }
 
 // Also those within sequences of one item, as in functional groups.

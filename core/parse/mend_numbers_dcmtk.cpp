@@ -28,6 +28,30 @@ std::vector<std::string> splitAt(std::string_view text, char separator) {
     return parts;
 }
 
+// The number of values of points and sizes; 0: any.
+std::size_t valuesOf(const DcmTagKey &tag) {
+    return tag == DCM_PixelSpacing || tag == DCM_ImagerPixelSpacing ? 2
+           : tag == DCM_ImagePositionPatient                        ? 3
+           : tag == DCM_ImageOrientationPatient                     ? 6
+                                                                    : 0;
+}
+
+// A comma may separate values, or whole numbers from their decimals. Where it does both, there are
+// twice as many numbers as values.
+std::optional<std::string> mendedPairs(const std::string &text, std::size_t values) {
+    const std::vector<std::string> parts = splitAt(text, ',');
+    if (values == 0 || parts.size() != 2 * values || text.find('\\') != text.npos)
+        return std::nullopt;
+    std::string all;
+    for (std::size_t n = 0; n < parts.size(); n += 2) {
+        const std::string value = parts[n] + "." + parts[n + 1];
+        if (!numberIn(value) || parts[n + 1].find_first_not_of("0123456789 ") != std::string::npos)
+            return std::nullopt;
+        all += (all.empty() ? "" : "\\") + value;
+    }
+    return all;
+}
+
 // The values of a decimal string; nothing if they are no numbers, however written.
 std::optional<std::string> mended(const std::string &text) {
     std::string all;
@@ -104,7 +128,10 @@ std::uint32_t mendNumbers(DcmItem &dataset) {
         const bool hasComma = text.find(',') != std::string::npos;
         if (isNumber && !hasComma)
             continue;
-        if (auto values = mended(text)) {
+        auto values = mendedPairs(text, valuesOf(tag));
+        if (!values)
+            values = mended(text);
+        if (values) {
             oddities |= (hasComma ? decoder::decimalCommas : 0U) |
                         (isNumber ? 0U : decoder::numbersOfWrongType);
             all.push_back({parent, tag, std::move(*values)});

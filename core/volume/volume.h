@@ -65,6 +65,7 @@ struct VolumeNotes {
     bool lossy = false;             ///< lossy compression at some point
     bool placed = true;             ///< false: images without positions, not a volume
     bool hasSpacing = true;         ///< false: nothing says how large a pixel is; a "mm" is a pixel
+    bool hasDepth = true;           ///< false: nothing says how thick a slice is
     SpacingPlace spacingPlace = SpacingPlace::patient;
 };
 

@@ -3498,20 +3498,12 @@
         <translation>所有影格只有一個位置且無間距、依切片厚度按順序排列的檔案：%1</translation>
     </message>
     <message>
-        <source>files with decimal commas, which were read as points: %1</source>
-        <translation>以逗號為小數點、已讀為句點的檔案：%1</translation>
-    </message>
-    <message>
         <source>files whose numbers have a wrong value representation: %1</source>
         <translation>數字的值表示法錯誤的檔案：%1</translation>
     </message>
     <message>
         <source>mosaics without a number of slices, which were split by their acquisition matrix: %1</source>
         <translation>未載切片數、依擷取矩陣分割的馬賽克影像：%1</translation>
-    </message>
-    <message>
-        <source>no Rescale Slope and Intercept, unlike other images of the series: the values are as stored</source>
-        <translation>與序列的其他影像不同，沒有 Rescale Slope 與 Intercept：數值為儲存值</translation>
     </message>
     <message>
         <source>no Rescale Slope and Intercept: the values are taken as HU</source>
@@ -3692,6 +3684,26 @@
     <message>
         <source>a sender at %1 was refused: it is not an address of the server; if the server sends from there, add it (in the window: Sends from; on the command line: server add with --sends-from)</source>
         <translation>已拒絕 %1 的傳送者：並非伺服器的位址；若伺服器由該處傳送，請加入（視窗中：傳送來源；命令列：server add 加上 --sends-from）</translation>
+    </message>
+    <message>
+        <source>%1 not sent, for %2 reasons</source>
+        <translation>%1 個未送出，原因有 %2 種</translation>
+    </message>
+    <message>
+        <source>the study is not complete: %1 of its objects are missing</source>
+        <translation>檢查不完整：缺少 %1 個物件</translation>
+    </message>
+    <message>
+        <source>files with commas in their numbers, which were read: %1</source>
+        <translation>數值中有逗號而已讀取的檔案：%1</translation>
+    </message>
+    <message>
+        <source>without Rescale Slope or Intercept, unlike other images of the series: the values are taken as they are</source>
+        <translation>與序列中其他影像不同，沒有 Rescale Slope 或 Intercept：數值照原樣採用</translation>
+    </message>
+    <message>
+        <source>not enough memory to measure the error of a picture</source>
+        <translation>記憶體不足，無法測量圖片的誤差</translation>
     </message>
 </context>
 <context>

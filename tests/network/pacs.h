@@ -17,6 +17,7 @@
 #include "core/archive/retrieval.h"
 #include "core/archive/sending.h"
 #include "core/archive/server.h"
+#include "core/dicom/missing_objects.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/write_series.h"
 #include "core/phantom/phantom.h"
@@ -38,11 +39,12 @@ inline std::string dataSetOf(const fs::path &file) {
     return bytes.substr(std::min(bytes.size(), std::size_t(144 + group)));
 }
 
+/// The objects in a folder, and whatever else is there but the notes of what is missing.
 inline std::vector<fs::path> filesIn(const fs::path &folder) {
     std::vector<fs::path> files;
     if (fs::exists(folder))
         for (const auto &entry : fs::recursive_directory_iterator(folder))
-            if (entry.is_regular_file())
+            if (entry.is_regular_file() && entry.path().filename() != dicom::missingObjectsName)
                 files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;

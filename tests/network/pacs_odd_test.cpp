@@ -12,6 +12,7 @@
 #include "core/archive/retrieval.h"
 #include "core/archive/search.h"
 #include "core/archive/sending.h"
+#include "core/dicom/missing_objects.h"
 #include "core/task/error.h"
 #include "tests/network/http_server.h"
 #include "tests/network/odd_web_server.h"
@@ -71,6 +72,8 @@ TEST_F(PacsOdd, WhatCanComeComes) {
         {"lists 20, and says that there is more",
          {.cap = 20, .countsObjects = false, .saysThereIsMore = true}},
         {"no offsets", {.knowsOffsets = false}},
+        {"20 without offsets or numbers",
+         {.cap = 20, .countsObjects = false, .knowsOffsets = false}},
         {"no list of objects", {.listsInstances = false}},
         {"no list of series", {.listsSeries = false}},
         {"an invalid UID in the list", {.hasInvalidUid = true}},
@@ -109,6 +112,13 @@ TEST_F(PacsOdd, APartOfAStudyIsIncomplete) {
     EXPECT_EQ(short20.state.received, 20U);
     EXPECT_EQ(short20.state.wanted, std::size_t(objectCount));
     ASSERT_EQ(short20.lacking.size(), std::size_t(objectCount - 20));
+    // Whoever opens the folder is told.
+    const auto missingIn = [&](const char *name) {
+        return dicom::missingObjectsBeside(filesIn(m_folder / name).front()).value_or(0);
+    };
+    EXPECT_EQ(missingIn("short"), std::size_t(objectCount - 20));
+    EXPECT_TRUE(retrieved({}, "short").isComplete());
+    EXPECT_EQ(missingIn("short"), 0U);
     const auto unsaid = retrieved(
         {.cap = 20, .countsObjects = false, .sendsSeries = false, .saysThereIsMore = true}, "more");
     EXPECT_EQ(unsaid.state.received, 20U);

@@ -59,8 +59,9 @@ void addFacts(QFormLayout *form, const StudyFacts &study, const VolumeFacts &vol
                 .arg(QString::number(volume.spacingMm.x, 'f', 3),
                      QString::number(volume.spacingMm.y, 'f', 3)));
     if (volume.placed) {
-        row(StudyDetailsTexts::tr("Slice spacing"),
-            StudyDetailsTexts::tr("%1 mm").arg(volume.spacingMm.z, 0, 'f', 3));
+        if (volume.spacingMm.z > 0.0)
+            row(StudyDetailsTexts::tr("Slice spacing"),
+                StudyDetailsTexts::tr("%1 mm").arg(volume.spacingMm.z, 0, 'f', 3));
         row(StudyDetailsTexts::tr("Tilt"),
             StudyDetailsTexts::tr("%1 degrees").arg(volume.tiltDeg, 0, 'f', 1));
     }

@@ -128,7 +128,7 @@ VolumeFacts volumeFacts(const dicom::Selection &s) {
     facts.size = lattice.size();
     if (s.volume->notes.hasSpacing)
         facts.spacingMm = {lattice.spacingMm(0), lattice.spacingMm(1),
-                           s.volume->placed ? lattice.sliceDistanceMm() : 0.0};
+                           s.volume->notes.hasDepth ? lattice.sliceDistanceMm() : 0.0};
     if (s.volume->placed)
         facts.originMm = lattice.origin().mm;
     facts.tiltDeg = lattice.shearRad() * 180.0 / 3.14159265358979323846;

@@ -248,12 +248,54 @@ TEST(OddObjects, MisspeltNumbersAreRead) {
         ASSERT_EQ(volume.notes().windows.size(), 1U);
         EXPECT_EQ(volume.notes().windows.front().center, 40.5);
     }
+    // A comma in each number, and between them.
+    const auto pairs = volumesOf([](DicomWriter &w, int k) {
+        w.put({0x0028, 0x0030}, "DS", std::string("1,5,1,25"));
+        w.put({0x0020, 0x0032}, "DS", "-10,5,2,25," + std::to_string(2 * k) + ",0");
+    });
+    ASSERT_EQ(pairs.size(), 1U);
+    ASSERT_TRUE(pairs.front().notes().placed);
+    EXPECT_EQ(pairs.front().lattice().spacingMm(0), 1.25);
+    EXPECT_EQ(pairs.front().lattice().origin().mm.x, -10.5);
     // "1,5" is one number: half of a spacing.
     const auto half = volumesOf([](DicomWriter &w, int) {
         w.put({0x0028, 0x0030}, "DS", std::string("1,5"));
     });
     ASSERT_EQ(half.size(), 1U);
     EXPECT_FALSE(half.front().notes().placed);
+}
+
+// One image without the intercept is no slice of a stack of HU.
+TEST(OddObjects, AnImageThatStatesLessOfItsRescaleStandsAlone) {
+    for (const DicomWriter::Tag tag :
+         {DicomWriter::Tag{0x0028, 0x1052}, DicomWriter::Tag{0x0028, 0x1053}}) {
+        const auto volumes = volumesOf([&](DicomWriter &w, int k) {
+            w.putNumbers({0x0028, 0x1052}, {-1024.0});
+            w.putNumbers({0x0028, 0x1053}, {1.0});
+            if (k == 0)
+                w.remove(tag);
+        });
+        ASSERT_GE(volumes.size(), 2U);
+        for (const volume::Volume &volume : volumes)
+            if (volume.lattice().size().k == 1) {
+                EXPECT_NE(volume.unit(), volume::ValueUnit::hounsfield);
+                EXPECT_TRUE(isWarnedOf(volume, because::valuesAsStored));
+            }
+    }
+}
+
+TEST(OddObjects, NobodyKnowsHowThickASingleSliceIsThatDoesNotSay) {
+    SeriesKnobs knobs;
+    knobs.slices = 1;
+    for (const bool saysSo : {false, true}) {
+        knobs.change = [&](DicomWriter &w, int) {
+            saysSo ? w.putNumbers({0x0018, 0x0050}, {2.5}) : w.remove({0x0018, 0x0050});
+        };
+        const test::TemporaryFolder folder;
+        test::writeSeries(folder.path(), knobs);
+        const auto catalogue = dicom::scan({folder.path()});
+        EXPECT_EQ(dicom::defaultSelection(catalogue).volume->notes.hasDepth, saysSo);
+    }
 }
 
 TEST(OddObjects, RadiographsSayWhereLengthsHold) {

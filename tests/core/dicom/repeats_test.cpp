@@ -164,6 +164,55 @@ TEST(Repeats, ADriftingNumberTellsThemApart) {
         {"acquisition time 115920.50", "acquisition time 115922.50"});
 }
 
+// A time that drifts may cross over; what is equal throughout a volume does not.
+TEST(Repeats, AnAttributeThatIsEqualSaysMoreThanATimeThatDrifts) {
+    const auto timed = [](DicomWriter &w, int repeat, int place) {
+        const int earlier = place < places / 2 ? repeat : 1 - repeat;
+        w.put({0x0008, 0x0033}, "TM", fmt::format("10{:02}{:02}", 10 + 6 * earlier, 2 * place));
+    };
+    for (const auto &[tag, vr] : {std::pair(DicomWriter::Tag{0x0018, 0x1160}, "SH"),
+                                  std::pair(DicomWriter::Tag{0x0019, 0x100C}, "LO")}) {
+        const auto volumes = volumesOf(2, [&](DicomWriter &w, int repeat, int place) {
+            timed(w, repeat, place);
+            w.put({0x0019, 0x0010}, "LO", std::string("MAKER"));
+            w.put(tag, vr, std::string(repeat == 0 ? "STANDARD" : "SHARP"));
+        });
+        ASSERT_EQ(volumes.size(), 2U);
+        for (int n = 0; n < 2; ++n) {
+            EXPECT_EQ(volumes[std::size_t(n)].repeat, n);
+            EXPECT_NE(volumes[std::size_t(n)].label.find(n == 0 ? "STANDARD" : "SHARP"),
+                      std::string::npos);
+        }
+    }
+    // Where both mean the same volumes, the time names them.
+    expectRepeats(volumesOf(2,
+                            [](DicomWriter &w, int repeat, int place) {
+                                w.putNumbers({0x0018, 0x1060}, {100.0 * repeat + 3.0 * place});
+                                w.put({0x0018, 0x1160}, "SH", "F" + std::to_string(repeat));
+                            }),
+                  {"15 ms", "115 ms"});
+}
+
+TEST(Repeats, EqualNumbersMayBeWrittenDifferently) {
+    const std::vector<std::vector<std::string>> written{{"80", "80.0", "8E1"},
+                                                        {"140", "140.0", "+140"}};
+    expectRepeats(
+        volumesOf(
+            2,
+            [&](DicomWriter &w, int repeat, int place) {
+                w.put({0x0018, 0x0060}, "DS", written[std::size_t(repeat)][std::size_t(place % 3)]);
+            }),
+        {"80 kVp", "140 kVp"});
+    expectRepeats(
+        volumesOf(2,
+                  [&](DicomWriter &w, int repeat, int) {
+                      w.put({0x0043, 0x0010}, "LO", std::string("GEMS_PARM_01"));
+                      w.put({0x0043, 0x1039}, "IS",
+                            std::string(repeat == 0 ? "50\\8\\0\\0" : "1000000800\\8\\0\\0"));
+                  }),
+        {"b-value 50", "b-value 800"});
+}
+
 TEST(Repeats, SeveralAttributesTellThemApartTogether) {
     const auto volumes = volumesOf(4, [](DicomWriter &w, int repeat, int place) {
         w.put({0x0018, 0x0060}, "DS", std::string(repeat < 2 ? "80" : "140"));
@@ -339,6 +388,18 @@ TEST(Repeats, OverlappingScansAreVolumesOfTheirOwn) {
                                 w.put({0x0018, 0x1030}, "LO", "part " + std::to_string(repeat));
                             }),
                   {"Protocol Name part 0", "Protocol Name part 1"});
+    // Halfway between each other they would be even together; thick slices tell that they are not.
+    const auto halfway = [&](double thicknessMm) {
+        return volumesOf(2, [=](DicomWriter &w, int repeat, int place) {
+            w.putNumbers({0x0020, 0x0032}, {0.0, 0.0, 2.0 * place + repeat});
+            w.putNumbers({0x0018, 0x0050}, {thicknessMm});
+            w.put({0x0020, 0x0012}, "IS", std::to_string(repeat + 1));
+        });
+    };
+    expectRepeats(halfway(2.0), {"acquisition 1", "acquisition 2"});
+    const auto packages = halfway(1.0);
+    ASSERT_EQ(packages.size(), 1U);
+    EXPECT_EQ(packages.front().slices, 2 * places);
     // Nothing tells them apart: one volume, which says that it is uneven.
     const auto mixed = volumesOf(2, scans);
     ASSERT_EQ(mixed.size(), 1U);
