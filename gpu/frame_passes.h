@@ -11,10 +11,6 @@
 
 namespace pellucid::gpu {
 
-/// How a kernel's cells are read: one by one, or in pairs through the card's linear filter, whose
-/// weights are coarse.
-enum class Fetch { exact, trilinear };
-
 class FramePasses;
 
 /// A projection on the card. While it exists, its texture is not reused for another frame.
@@ -59,7 +55,6 @@ struct FrameCommand {
     int fieldPages = 1, slabs = 1, sums = 1, layers = 1, channels = 1;
     int width = 4, evenTerms = 1, momentTerms = 1;
     bool shaded = false, cued = false, lit = false;
-    Fetch fetch = Fetch::exact;
     CardPicture::Colors colors{};
 };
 

@@ -48,8 +48,7 @@ Defines sliceDefines(const FrameCommand &c) {
             {"IMAGES", c.layers},
             {"SHADED", c.shaded ? 1 : 0},
             {"CUED", c.cued ? 1 : 0},
-            {"LIT", c.lit ? 1 : 0},
-            {"TRILINEAR", c.fetch == Fetch::trilinear ? 1 : 0}};
+            {"LIT", c.lit ? 1 : 0}};
 }
 
 void bindPages(const FrameCommand &command) {

@@ -1,40 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gpu/gpu_engine.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/task/error.h"
 
 namespace pellucid::gpu {
 
-FetchPlan planFetch(const plan::RenderPlan &plan, double tolerance,
-                    const shading::Shading &shading) {
-    const FetchPlan exact{Fetch::exact, plan.predictedError};
-    if (plan.spectrum.width() < 2 || !shading.isPlain()) // a single cell has nothing to filter
-        return exact;
-    // Filtered fetches are so fast that they read everything by one width.
-    const double ofKernel = std::sqrt(std::max(0.0, plan.predictedError * plan.predictedError -
-                                                        plan.adaptiveError * plan.adaptiveError));
-    const double predicted = std::hypot(ofKernel, plan.filterError);
-    return predicted <= tolerance ? FetchPlan{Fetch::trilinear, predicted} : exact;
-}
-
 std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
-                                      const render::ProjectionEngine &engine, Fetch fetch,
+                                      const render::ProjectionEngine &engine,
                                       const task::Progress &progress) {
     render::EngineParts parts = engine.parts();
     return std::make_shared<GpuEngine>(
         SpectrumTextures::upload(std::move(passes), std::move(parts.spectra), progress),
-        std::move(parts.channelWeights), parts.fieldOfView, fetch,
-        fetch == Fetch::exact ? parts.widths : nullptr);
+        std::move(parts.channelWeights), parts.fieldOfView, std::move(parts.widths));
 }
 
 GpuEngine::GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
                      std::vector<render::ChannelWeights> channelWeights,
-                     const plan::FieldOfView &fieldOfView, Fetch fetch,
+                     const plan::FieldOfView &fieldOfView,
                      std::shared_ptr<const plan::AdaptiveWidths> widths)
-    : m_textures(std::move(textures)), m_channelWeights(std::move(channelWeights)), m_fetch(fetch),
+    : m_textures(std::move(textures)), m_channelWeights(std::move(channelWeights)),
       m_setup(std::make_shared<render::FrameSetup>(fieldOfView, std::move(widths))) {}
 
 std::shared_ptr<GpuEngine>
@@ -56,6 +40,11 @@ render::EngineParts GpuEngine::parts() const {
 
 task::Reason GpuEngine::description() const {
     return task::because::gpuEngine(m_textures->passes()->device().capabilities().renderer);
+}
+
+scene::Camera GpuEngine::periodOf(const scene::Camera &camera,
+                                  const scene::ImageDefinition &image) {
+    return m_setup->periodOf(m_textures->spectra(), camera, image);
 }
 
 picture::ProjectionImage GpuEngine::render(const scene::Camera &camera,
@@ -101,7 +90,6 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
     command.shaded = inputs.isShaded;
     command.cued = inputs.shading.cued;
     command.lit = inputs.shading.lit;
-    command.fetch = inputs.isShaded ? Fetch::exact : m_fetch;
     command.colors = inputs.imageColors();
     if (times == nullptr)
         return m_textures->passes()->render(std::move(command), nullptr);

@@ -10,35 +10,22 @@
 
 namespace pellucid::gpu {
 
-/// How the cells of a plan are read, and the error predicted for that.
-struct FetchPlan {
-    Fetch fetch = Fetch::exact;
-    double predictedError = 0.0;
-};
-
-/// Filtered fetches if the plan's error stays within the tolerance with the error of their coarse
-/// weights (`RenderPlan::filterError`), else exact ones. Frames with cue or light always fetch
-/// exactly.
-FetchPlan planFetch(const plan::RenderPlan &plan, double tolerance,
-                    const shading::Shading &shading = {});
-
 class GpuEngine;
 
 /// Copies an engine to the card. *Throws* as SpectrumTextures::upload.
 std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
                                       const render::ProjectionEngine &engine,
-                                      Fetch fetch = Fetch::exact,
                                       const task::Progress &progress = {});
 
 /// `CpuEngine` on the card: the same plan, the same cells, and the same picture within 2e-5
-/// (relative L2, exact fetches), which stays on the card. Engines that differ only in channel
+/// (relative L2), which stays on the card. Engines that differ only in channel
 /// weights share spectra and tables and are cheap to create; only one of them may render at a time.
 class GpuEngine final : public render::ProjectionEngine {
 public:
     /// *Shape*: `channelWeights` as for CpuEngine::setChannelWeights.
     GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
               std::vector<render::ChannelWeights> channelWeights,
-              const plan::FieldOfView &fieldOfView, Fetch fetch = Fetch::exact,
+              const plan::FieldOfView &fieldOfView,
               std::shared_ptr<const plan::AdaptiveWidths> widths = nullptr);
 
     const SpectrumTextures &textures() const { return *m_textures; }
@@ -53,7 +40,9 @@ public:
                                     const scene::ImageDefinition &image,
                                     const shading::Shading &shading = {},
                                     picture::FrameTimes *times = nullptr) override;
-    /// Leaves the picture on the card. Cue and light take exact fetches. *Throws* as render.
+    scene::Camera periodOf(const scene::Camera &camera,
+                           const scene::ImageDefinition &image) override;
+    /// Leaves the picture on the card. *Throws* as render.
     std::shared_ptr<const CardPicture> renderOnCard(const scene::Camera &camera,
                                                     const scene::ImageDefinition &image,
                                                     const shading::Shading &shading = {},
@@ -62,7 +51,6 @@ public:
 private:
     std::shared_ptr<const SpectrumTextures> m_textures;
     std::vector<render::ChannelWeights> m_channelWeights;
-    Fetch m_fetch;
     std::shared_ptr<render::FrameSetup> m_setup; ///< for these spectra with any channel weights
 };
 

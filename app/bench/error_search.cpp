@@ -21,7 +21,7 @@ std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t see
         const Trial trial = trialOf(candidate, pictures);
         const Verdict verdict = judge(trial);
         if (verdict.measured > 0.0)
-            factors.push_back({trial.name, verdict.ofView / verdict.measured});
+            factors.push_back({trial.name, verdict.stated.high / verdict.measured});
     }
     std::sort(factors.begin(), factors.end(),
               [](const auto &a, const auto &b) { return a.factor < b.factor; });

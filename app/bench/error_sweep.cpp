@@ -50,7 +50,7 @@ void sweepField(const Trial &trial, std::uint64_t seed,
                                .tolerance = tolerance,
                                .planned = prepared.plan.predictedError};
             swept.stated =
-                prepare::errorOf(prepared, picture, scene.camera, scene.image, {}).value();
+                prepare::measuredError(*prepared.engine, fields, scene.camera, scene.image);
             swept.measured = compare(picture.samples, truths[view]).relativeL2;
             each(swept);
         }

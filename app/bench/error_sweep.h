@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error/stated_error.h"
+
 namespace pellucid::bench {
 
 /// A picture of a sweep, and its errors. *Units*: relative L2.
@@ -13,8 +15,8 @@ struct SweptPicture {
     std::string name; ///< kind of field, size, view and tolerance
     double tolerance = 0.0;
     double planned = 0.0; ///< the plan's bound for every view; above the tolerance if none meets it
-    double stated = 0.0;  ///< of this picture
-    double measured = 0.0; ///< against the exact picture
+    error::StatedError stated; ///< of this picture, measured as the program does
+    double measured = 0.0;     ///< against the exact picture
 };
 
 /// Pictures of random fields, one kind after the other, each at five tolerances from 1e-2 to 1e-4

@@ -164,9 +164,10 @@ Verdict judge(const Trial &trial) {
                   .image(scene.camera, scene.image)
             : reference::shadedImage(fields, scene.shading, scene.camera, scene.image);
     const double predicted = prepared.plan.predictedError;
-    return {predicted, compare(picture.samples, truth).relativeL2,
-            prepare::errorOf(prepared, picture, scene.camera, scene.image, scene.shading).value(),
-            predicted <= scene.tolerance};
+    return {
+        predicted, compare(picture.samples, truth).relativeL2,
+        prepare::measuredError(*prepared.engine, fields, scene.camera, scene.image, scene.shading),
+        predicted <= scene.tolerance};
 }
 
 } // namespace pellucid::bench

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/classify/density_field.h"
+#include "core/error/stated_error.h"
 #include "core/scene/scene.h"
 
 namespace pellucid::bench {
@@ -34,7 +35,7 @@ Trial trialOf(const Candidate &candidate, PictureKind pictures);
 /// *Units*: relative L2.
 struct Verdict {
     double predicted = 0.0, measured = 0.0;
-    double ofView = 0.0;        ///< the prediction for this picture alone
+    error::StatedError stated;  ///< measured, as the program does
     bool keepsTolerance = true; ///< according to the plan
     double ratio() const {
         return predicted > 0.0 ? measured / predicted : measured > 0.0 ? 1e9 : 0;

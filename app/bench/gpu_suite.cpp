@@ -88,41 +88,33 @@ public:
         fillError(onProcessor, worstError(*prepared.engine, scene, truths));
         m_report(onProcessor);
 
-        const gpu::FetchPlan fetch = gpu::planFetch(prepared.plan, of.tolerance, of.shading);
-        for (const gpu::Fetch how : {gpu::Fetch::exact, gpu::Fetch::trilinear}) {
-            if (how == gpu::Fetch::trilinear && fetch.fetch != how)
-                continue;
-            const double start = millisecondsNow();
-            const auto engine = gpu::copyToCard(m_card, *prepared.engine, how);
-            const double uploadMs = millisecondsNow() - start;
-            const Timed timed = timeFrames(*engine, scene, m_views);
-            const Timed onePixel = timeOnePixel(*engine, scene, m_views);
-            Row onCard = row;
-            // Rows of different cards must be distinguishable.
-            onCard.engine = "gpu, " + m_card->device().capabilities().renderer;
-            onCard.name += how == gpu::Fetch::trilinear ? ", card, filtered" : ", card";
-            onCard.taps = how == gpu::Fetch::trilinear ? filteredTaps(prepared.plan) : row.taps;
-            onCard.predictedError =
-                how == gpu::Fetch::trilinear ? fetch.predictedError : prepared.plan.predictedError;
-            onCard.prepareMs = uploadMs;
-            onCard.sliceMs = median(timed.slice);
-            onCard.transformMs = median(timed.transform);
-            onCard.frameMs = median(timed.card);
-            onCard.bytes = double(engine->textures().bytes());
-            onCard.submitMs = median(timed.submit);
-            onCard.leastFrameMs = median(onePixel.card);
-            onCard.raySumMs = m_rayMs;
-            onCard.raySumRelativeL2 = m_rayError;
-            fillError(onCard, worstError(*engine, scene, truths));
-            onCard.note = fmt::format(
-                "{:.1f} us in {} dispatches; dispatch floor (a frame of one pixel) {:.1f} us; "
-                "submitted in {:.1f} us, done after {:.1f} us; copied in {:.0f} ms; the card's "
-                "ray sum takes {:.1f} times as long, the processor {:.2f} times",
-                1e3 * *onCard.frameMs, timed.dispatches, 1e3 * median(onePixel.card),
-                1e3 * median(timed.submit), 1e3 * median(timed.wall), uploadMs,
-                m_rayMs / *onCard.frameMs, processorMs / *onCard.frameMs);
-            m_report(onCard);
-        }
+        const double start = millisecondsNow();
+        const auto engine = gpu::copyToCard(m_card, *prepared.engine);
+        const double uploadMs = millisecondsNow() - start;
+        const Timed timed = timeFrames(*engine, scene, m_views);
+        const Timed onePixel = timeOnePixel(*engine, scene, m_views);
+        Row onCard = row;
+        // Rows of different cards must be distinguishable.
+        onCard.engine = "gpu, " + m_card->device().capabilities().renderer;
+        onCard.name += ", card";
+        onCard.prepareMs = uploadMs;
+        onCard.sliceMs = median(timed.slice);
+        onCard.transformMs = median(timed.transform);
+        onCard.frameMs = median(timed.card);
+        onCard.bytes = double(engine->textures().bytes());
+        onCard.submitMs = median(timed.submit);
+        onCard.leastFrameMs = median(onePixel.card);
+        onCard.raySumMs = m_rayMs;
+        onCard.raySumRelativeL2 = m_rayError;
+        fillError(onCard, worstError(*engine, scene, truths));
+        onCard.note = fmt::format(
+            "{:.1f} us in {} dispatches; dispatch floor (a frame of one pixel) {:.1f} us; "
+            "submitted in {:.1f} us, done after {:.1f} us; copied in {:.0f} ms; the card's "
+            "ray sum takes {:.1f} times as long, the processor {:.2f} times",
+            1e3 * *onCard.frameMs, timed.dispatches, 1e3 * median(onePixel.card),
+            1e3 * median(timed.submit), 1e3 * median(timed.wall), uploadMs,
+            m_rayMs / *onCard.frameMs, processorMs / *onCard.frameMs);
+        m_report(onCard);
     }
 
 private:
@@ -141,11 +133,6 @@ private:
                 m_rayError, compare(rays.render(m_truth.camera(view), step).samples,
                                     m_truth.image(view, {scene::Reconstruction::linear, 0.05}))
                                 .relativeL2);
-    }
-
-    static int filteredTaps(const plan::RenderPlan &plan) {
-        const int pairs = (plan.spectrum.width() + 1) / 2;
-        return pairs * pairs * pairs;
     }
 
     // The exact images of all views; of one view for a shaded field, which differs in every view.

@@ -55,9 +55,6 @@ public:
                              m_subject.scene, 0);
         row.prepareMs = millisecondsNow() - start;
         row.bytes = double(layers->bytes());
-        if (const auto &loss = layers->detailLoss())
-            row.predictedError =
-                std::hypot(*row.predictedError, loss->relativeError(m_mixture.channelWeights, {}));
         report(bothMove(row, layers));
         report(weightsMove(row, *layers));
     }

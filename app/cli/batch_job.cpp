@@ -135,8 +135,8 @@ private:
 
     DoneRecord::MadeOutput render(const Output &output, scene::Scene scene,
                                   SceneRenderer &renderer) {
-        DoneRecord::MadeOutput made{output.name, scene.tolerance, 0.0,
-                                    englishTexts(m_volume->notes().warnings)};
+        DoneRecord::MadeOutput made{
+            output.name, scene.tolerance, 0.0, {}, englishTexts(m_volume->notes().warnings)};
         for (const std::string &warning : renderer.warnings())
             made.warnings.push_back(warning);
         m_labels.warnings = made.warnings;
@@ -159,25 +159,35 @@ private:
         const std::vector<std::string> files = batch::filesOf(output);
         beginFile(output, scene, files.front(), cameras.size(), isGrey);
         std::string worst; // warning
+        error::StatedError largest;
         for (std::size_t view = 0; view < cameras.size(); ++view) {
             scene.camera = cameras[view];
-            const picture::ProjectionImage image = renderer.image(scene.camera);
-            made.predictedError =
-                std::max(made.predictedError, renderer.renderer().lastViewError());
+            const picture::ProjectionImage image =
+                renderer.image(scene.camera, error::isChecked(output.check, view, cameras.size())
+                                                 ? SceneRenderer::Check::measure
+                                                 : SceneRenderer::Check::none);
+            const error::StatedError &error = renderer.renderer().lastError();
+            // A measurement says more than a bound.
+            if (view == 0 || (error.isMeasured() && !largest.isMeasured()) ||
+                (error.isMeasured() == largest.isMeasured() && error.relative > largest.relative))
+                largest = error;
             m_missed = renderer.warningOfView();
-            if (!m_missed.empty() && renderer.renderer().lastViewError() == made.predictedError)
+            if (!m_missed.empty() && error == largest)
                 worst = m_missed;
-            add(output, scene, image, files[files.size() > 1 ? view : 0], int(view),
-                renderer.renderer().lastViewError());
+            add(output, scene, image, files[files.size() > 1 ? view : 0], int(view), error);
         }
+        made.predictedError = renderer.renderer().predictedError();
+        if (largest.isMeasured())
+            made.measuredError = largest.relative;
         m_missed = worst;
         if (!worst.empty())
             made.warnings.push_back(worst);
-        endFile(output, scene, files.front(), made.predictedError);
+        endFile(output, scene, files.front(), largest);
         return made;
     }
 
-    dicom::CaptureLabels labelsFor(const Output &output, int view, double predictedError) const {
+    dicom::CaptureLabels labelsFor(const Output &output, int view,
+                                   const error::StatedError &error) const {
         dicom::CaptureLabels labels =
             output.isDeidentified ? dicom::deidentified(m_labels) : m_labels;
         // Another version may make other pixels, which need other UIDs.
@@ -194,7 +204,7 @@ private:
         if (output.isDeidentified)
             labels.studyUid = batch::derivedUid("study " + of);
         labels.isDated = false;
-        labels.derivation = derivationText(predictedError);
+        labels.derivation = derivationText(error);
         labels.seriesDescription = output.name;
         labels.seriesNumber += int(&output - m_recipe.outputs.data()); // each is a series
         labels.instanceNumber = view + 1;
@@ -231,12 +241,12 @@ private:
     }
 
     void add(const Output &output, const scene::Scene &scene, const picture::ProjectionImage &image,
-             const std::string &name, int view, double predictedError) {
+             const std::string &name, int view, const error::StatedError &error) {
         const fs::path path = m_folder / name;
         switch (output.format) {
         case Format::npy:
             m_array->write(image.samples);
-            m_geometry.push_back(geometryJson(scene.camera, m_volume->lattice(), predictedError));
+            m_geometry.push_back(geometryJson(scene.camera, m_volume->lattice(), error));
             break;
         case Format::png16:
             files::writePng16(
@@ -255,21 +265,20 @@ private:
         case Format::png:
         case Format::nrrd:
         case Format::capture:
-            writeImage(path, image, scene, m_volume->lattice(),
-                       labelsFor(output, view, predictedError));
+            writeImage(path, image, scene, m_volume->lattice(), labelsFor(output, view, error));
             break;
         }
     }
 
     void endFile(const Output &output, const scene::Scene &scene, const std::string &name,
-                 double predictedError) {
+                 const error::StatedError &error) {
         const fs::path path = m_folder / name;
         if (m_array) {
             std::exchange(m_array, nullptr)->commit();
             writeGeometry(geometryPath(path), scene.camera, m_geometry);
         }
         if (m_loop)
-            std::exchange(m_loop, nullptr)->write(path, labelsFor(output, 0, predictedError));
+            std::exchange(m_loop, nullptr)->write(path, labelsFor(output, 0, error));
         if (m_video)
             std::exchange(m_video, nullptr)->finish(task::Progress(m_context.stop));
     }

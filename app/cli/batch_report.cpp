@@ -49,10 +49,11 @@ void BatchReport::finished(const std::string &key, const batch::DoneRecord &reco
     bool isImprecise = false;
     std::vector<std::string> reported; // what concerns all outputs, once
     for (const batch::DoneRecord::MadeOutput &output : record.outputs) {
-        error = std::max(error, output.predictedError);
+        const double known = output.measuredError.value_or(output.predictedError);
+        error = std::max(error, known);
         // The tolerance of the exact method is no target.
-        isImprecise = isImprecise || (output.tolerance != scene::referenceTolerance &&
-                                      output.predictedError > output.tolerance);
+        isImprecise = isImprecise ||
+                      (output.tolerance != scene::referenceTolerance && known > output.tolerance);
         for (const std::string &warning : output.warnings)
             if (std::find(reported.begin(), reported.end(), warning) == reported.end()) {
                 reported.push_back(warning);
@@ -104,7 +105,7 @@ void BatchReport::print(const std::string &recipe, double seconds) {
         for (const Finished &study : m_finished)
             finished.push_back({{"study", study.key},
                                 {"series", study.seriesUid},
-                                {"predicted_error", study.predictedError},
+                                {"error", study.error},
                                 {"warnings", study.warnings},
                                 {"seconds", study.seconds}});
         for (const Failure &failure : m_failures)

@@ -39,7 +39,8 @@ private:
     };
     struct Finished {
         std::string key, seriesUid;
-        double predictedError = 0.0, seconds = 0.0;
+        double error = 0.0; ///< of the worst picture, measured if some were
+        double seconds = 0.0;
         std::vector<std::string> warnings;
     };
 

@@ -80,9 +80,19 @@ void writeImage(const fs::path &path, const picture::ProjectionImage &image,
     }
 }
 
-std::string derivationText(double predictedError) {
-    return fmt::format("{}, predicted error {:.2g} (relative L2)",
-                       dicom::CaptureLabels().derivation, predictedError);
+std::string derivationText(const error::StatedError &error) {
+    return fmt::format("{}, error {} (relative L2)", dicom::CaptureLabels().derivation,
+                       error.isMeasured() ? fmt::format("{:.2g}, measured", error.relative)
+                                          : fmt::format("at most {:.2g}", error.relative));
+}
+
+nlohmann::json measuredJson(const std::optional<error::StatedError> &error) {
+    if (!error || !error->isMeasured())
+        return nullptr;
+    return {{"relative_l2", error->relative},
+            {"low", error->low},
+            {"high", error->high},
+            {"frequencies", error->frequencies}};
 }
 
 fs::path framePath(const fs::path &out, int frame) {
@@ -96,7 +106,7 @@ fs::path geometryPath(const fs::path &array) {
 }
 
 nlohmann::json geometryJson(const scene::Camera &camera, const volume::Lattice &patient,
-                            double predictedError) {
+                            const error::StatedError &error) {
     const scene::PositionerAngles angles = scene::positionerAngles(camera.orientation);
     const glm::dmat3 axes = camera.axes();
     const auto list = [](const glm::dvec3 &v) { return nlohmann::json{v.x, v.y, v.z}; };
@@ -106,7 +116,8 @@ nlohmann::json geometryJson(const scene::Camera &camera, const volume::Lattice &
             {"right", list(axes[0])},
             {"down", list(-axes[1])},
             {"toward_viewer", list(axes[2])},
-            {"predicted_error", predictedError}};
+            {"predicted_error", error.isMeasured() ? nlohmann::json() : nlohmann::json(error.relative)},
+            {"measured_error", measuredJson(error)}};
 }
 
 void writeGeometry(const fs::path &path, const scene::Camera &camera, const nlohmann::json &views) {

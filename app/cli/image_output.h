@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/dicom/write_capture.h"
+#include "core/error/stated_error.h"
 #include "core/picture/projection_image.h"
 #include "core/scene/scene.h"
 
@@ -27,8 +29,10 @@ void writeImage(const std::filesystem::path &path, const picture::ProjectionImag
                 const scene::Scene &scene, const volume::Lattice &patient,
                 const dicom::CaptureLabels &labels);
 
-/// How a picture was derived, for its Derivation Description. `predictedError`: relative L2.
-std::string derivationText(double predictedError);
+/// How a picture was derived, for its Derivation Description.
+std::string derivationText(const error::StatedError &error);
+/// A measured error with its interval; null if there is none.
+nlohmann::json measuredJson(const std::optional<error::StatedError> &error);
 
 /// OUT_0007.png for frame 7.
 std::filesystem::path framePath(const std::filesystem::path &out, int frame);
@@ -36,10 +40,10 @@ std::filesystem::path framePath(const std::filesystem::path &out, int frame);
 /// The file beside an array of views that describes them.
 std::filesystem::path geometryPath(const std::filesystem::path &array);
 /// Where a view was seen from: its projection matrix, its angles as of DICOM's positioner, the
-/// directions of its axes, and its predicted error (relative L2). *Shape*: `patient`: that of the
+/// directions of its axes, and its error (relative L2). *Shape*: `patient`: that of the
 /// volume.
 nlohmann::json geometryJson(const scene::Camera &camera, const volume::Lattice &patient,
-                            double predictedError);
+                            const error::StatedError &error);
 /// Describes views that have one size, and one size of a pixel. *Throws* Error{output}.
 void writeGeometry(const std::filesystem::path &path, const scene::Camera &camera,
                    const nlohmann::json &views);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -19,6 +20,7 @@
 #include "app/cli/scene_renderer.h"
 #include "app/cli/segment_options.h"
 #include "app/cli/terminal.h"
+#include "core/error/checked_pictures.h"
 #include "core/files/file_set.h"
 #include "core/files/image_files.h"
 #include "core/files/read_text.h"
@@ -39,6 +41,7 @@ struct Options {
     SceneOptions scene;
     InputOptions input;
     std::string out, engine = "auto", views, fit;
+    error::CheckedPictures check = error::CheckedPictures::rest;
     int threads = 0, frames = 0;
     std::uint64_t memory = 0;
     bool json = false, isDeidentified = false;
@@ -173,19 +176,26 @@ private:
         for (int frame = 0; frame < frames(); ++frame) {
             scene::Scene turned = m_scene;
             turned.camera = m_cameras[std::size_t(frame)];
-            const picture::ProjectionImage image = m_renderer->image(turned.camera);
+            const picture::ProjectionImage image =
+                m_renderer->image(turned.camera, checkOf(std::size_t(frame)));
             if (isDisplayed(m_options.out))
                 turned.tone.exposure = m_renderer->exposure();
             task::Progress(m_context.stop).check();
             Stopwatch watch;
             labels.instanceNumber = frame + 1;
-            labels.derivation = derivationText(m_renderer->renderer().lastViewError());
+            labels.derivation = derivationText(m_renderer->renderer().lastError());
             const fs::path &file = m_outs[std::size_t(frame)];
             writeImage(turn ? turn->aside(file) : file, image, turned, volume().lattice(), labels);
             m_writeMs += watch.lapMs();
         }
         if (turn)
             turn->commit();
+    }
+
+    SceneRenderer::Check checkOf(std::size_t picture) const {
+        return error::isChecked(m_options.check, picture, std::size_t(frames()))
+                   ? SceneRenderer::Check::measure
+                   : SceneRenderer::Check::none;
     }
 
     void placeFrames() {
@@ -213,13 +223,14 @@ private:
         files::FileSet both(out);
         files::NpyFile stack(both.aside(out), shape);
         json views = json::array();
-        for (const scene::Camera &camera : m_cameras) {
-            const picture::ProjectionImage image = m_renderer->image(camera);
+        for (std::size_t view = 0; view < m_cameras.size(); ++view) {
+            const scene::Camera &camera = m_cameras[view];
+            const picture::ProjectionImage image = m_renderer->image(camera, checkOf(view));
             Stopwatch watch;
             stack.write(image.samples);
             m_writeMs += watch.lapMs();
             views.push_back(
-                geometryJson(camera, volume().lattice(), m_renderer->renderer().lastViewError()));
+                geometryJson(camera, volume().lattice(), m_renderer->renderer().lastError()));
         }
         stack.commit();
         writeGeometry(both.aside(geometryPath(out)), m_scene.camera, views);
@@ -247,6 +258,7 @@ private:
                             {"plan", m_renderer->renderer().planJson(m_renderer->times())},
                             {"tolerance", m_scene.tolerance},
                             {"predicted_error", errorJson()},
+                            {"measured_error", measuredJson(m_renderer->largestMeasured())},
                             {"warnings", m_warnings},
                             {"skipped", skipped}})
                       .c_str());
@@ -297,10 +309,9 @@ private:
 
     json errorJson() const {
         const std::optional<double> maximum = m_renderer->largestMaximum();
-        const std::optional<bool> areWhole = m_renderer->wereWhole();
-        return {{"relative_l2", m_renderer->largestError()},
+        return {{"relative_l2", m_renderer->renderer().predictedError()},
                 {"maximum", maximum ? json(*maximum) : json(nullptr)},
-                {"whole", areWhole ? json(*areWhole) : json(nullptr)}};
+                {"whole", m_renderer->wereWhole()}};
     }
 
     const Options &m_options;
@@ -339,6 +350,14 @@ void addRenderCommand(CLI::App &app, const Context &context) {
          "--engine", o->engine,
          "Engine that renders the images; default: auto, which uses the GPU for turntables")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
+    c->add_option("--check", o->check,
+                  "Whose errors are measured, by exact sums at some frequencies: 'none', 'all', or "
+                  "'rest' (default), each single picture, and of a series the first, the last and "
+                  "six others")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, error::CheckedPictures>{{"none", error::CheckedPictures::none},
+                                                          {"rest", error::CheckedPictures::rest},
+                                                          {"all", error::CheckedPictures::all}}));
     c->add_option("--threads", o->threads, "Maximum number of threads; default: all processors")
         ->check(CLI::Range(1, 1024));
     c->add_option("--memory", o->memory,

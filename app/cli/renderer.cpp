@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/plan_json.h"
+#include "core/error/shown_part.h"
 #include "core/plan/folded_tails.h"
 #include "core/reference/exact_engine.h"
 #include "core/scene/planning_scene.h"
@@ -139,8 +140,7 @@ void Renderer::preparePlanned(Sources sources) {
     m_lattice = sources.shaded.fields.front().values.lattice();
     m_planned = prepare::makeEngine(std::move(sources.shaded), plan, m_progress);
     m_engine = m_planned;
-    if (m_fitting.reduction == 1) // otherwise every view loses detail
-        m_viewModel.emplace(plan, sources.summaries);
+    m_box = plan.spectrum.box;
     m_bytes = plan.bytes;
     m_predictedError = plan.predictedError;
 }
@@ -166,10 +166,7 @@ void Renderer::use(const CardChoice &card) {
     if (!card.passes)
         return;
     try {
-        const gpu::FetchPlan plan =
-            gpu::planFetch(m_fitting.plan, m_scene.tolerance, m_scene.shading);
-        m_card = gpu::copyToCard(card.passes, *m_planned, plan.fetch, m_progress);
-        m_predictedError = plan.predictedError;
+        m_card = gpu::copyToCard(card.passes, *m_planned, m_progress);
     } catch (const task::Error &error) {
         if (card.isRequired)
             throw cardRefused(error);
@@ -181,7 +178,8 @@ picture::ProjectionImage Renderer::image(const scene::Camera &camera, picture::F
     std::optional<picture::ProjectionImage> image = imageOfCard(camera, times);
     if (!image)
         image = m_engine->render(camera, m_scene.image, m_scene.shading, &times);
-    judge(*image, camera);
+    m_lastError = error::StatedError::atMost(m_predictedError);
+    m_wasWhole = isExact() || error::showsAllOf(m_box, m_lattice, camera);
     return std::move(*image);
 }
 
@@ -198,23 +196,16 @@ std::optional<picture::ProjectionImage> Renderer::imageOfCard(const scene::Camer
             throw cardRefused(error);
         m_choice.reason = error.reason().english();
         m_card.reset();
-        m_predictedError = m_fitting.plan.predictedError;
         return std::nullopt;
     }
 }
 
-void Renderer::judge(const picture::ProjectionImage &image, const scene::Camera &camera) {
-    if (!m_viewModel)
+void Renderer::measure(const scene::Camera &camera, const classify::ShownFields &study) {
+    if (isExact())
         return;
-    const render::EngineParts parts = m_card ? m_card->parts() : m_planned->parts();
-    // The card's own texture filter adds the same error to every view; pictures made with it are
-    // read by one kernel.
-    const double bound = m_fitting.plan.predictedError,
-                 adaptive = parts.widths ? 0.0 : m_fitting.plan.adaptiveError,
-                 added = std::max(0.0, m_predictedError * m_predictedError -
-                                           (bound * bound - adaptive * adaptive));
-    m_picture = m_viewModel->errorOf(image, camera, m_scene.image, parts, m_scene.shading);
-    m_picture->relative = std::hypot(m_picture->relative, std::sqrt(added));
+    render::ProjectionEngine &maker = m_card ? *m_card : *m_planned;
+    m_lastError = prepare::measuredError(maker, study, camera, m_scene.image, m_scene.shading, {},
+                                         m_progress);
 }
 
 std::string Renderer::description() const {
@@ -234,7 +225,7 @@ json Renderer::planJson(const picture::FrameTimes &last) const {
 }
 
 std::optional<double> Renderer::predictedMaximum() const {
-    if (!wasWhole().value_or(false))
+    if (isExact() || !m_wasWhole)
         return std::nullopt;
     return m_fitting.plan.predictedMaximum;
 }

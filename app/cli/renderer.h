@@ -10,7 +10,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "app/cli/commands.h"
-#include "core/accuracy/view_error.h"
 #include "core/classify/shown_fields.h"
 #include "core/picture/exposure.h"
 #include "core/prepare/prepared_engine.h"
@@ -56,6 +55,10 @@ public:
 
     /// `times` receives the times of this image, all channels together.
     picture::ProjectionImage image(const scene::Camera &camera, picture::FrameTimes &times);
+    /// Measures the error of the image of a camera against the fields of the study; not of the
+    /// exact reference, which nothing here is more exact than. *Throws* Error{outOfMemory},
+    /// Cancelled.
+    void measure(const scene::Camera &camera, const classify::ShownFields &study);
 
     /// The exposure of the scene's study, for its contrast.
     scene::Exposure exposure(picture::Background background) const {
@@ -74,16 +77,12 @@ public:
     std::string reason() const { return m_fitting.plan.reason.english(); }
     /// An upper bound on the error of any view of the whole volume.
     double predictedError() const { return m_predictedError; }
-    /// The predicted error of the last picture, for its own view and crop; `predictedError` if the
-    /// picture has none of its own.
-    double lastViewError() const { return m_picture ? m_picture->relative : m_predictedError; }
-    /// Whether the last picture showed the whole of the field, which `predictedError` is for.
-    /// Empty if nothing was predicted for that picture, as for the exact reference.
-    std::optional<bool> wasWhole() const {
-        return m_picture ? std::optional(m_picture->isWhole) : std::nullopt;
-    }
-    /// The predicted largest error of a pixel of the last picture over its largest pixel. None for
-    /// the exact reference, nor for a picture of a part, whose largest pixel may be small.
+    /// What is known of the error of the last image: the bound, or its own, measured.
+    const error::StatedError &lastError() const { return m_lastError; }
+    /// Whether the last image showed all of the fields.
+    bool wasWhole() const { return m_wasWhole; }
+    /// The predicted largest error of a pixel of the last image over its largest pixel. None for
+    /// the exact reference, nor for an image of a part, whose largest pixel may be small.
     std::optional<double> predictedMaximum() const;
 
 private:
@@ -101,7 +100,6 @@ private:
     void preparePlanned(Sources sources);
     std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera,
                                                         picture::FrameTimes &times);
-    void judge(const picture::ProjectionImage &image, const scene::Camera &camera);
 
     const scene::Scene &m_scene;
     task::Progress m_progress;
@@ -109,8 +107,9 @@ private:
     prepare::FittingPlan m_fitting;
     volume::Lattice m_lattice; ///< of the rendered fields
     double m_predictedError = 0.0;
-    std::optional<accuracy::PictureError> m_picture;     ///< the last one
-    std::optional<accuracy::ViewErrorModel> m_viewModel; ///< for the engine at full resolution
+    error::StatedError m_lastError;
+    bool m_wasWhole = true;
+    volume::VoxelBox m_box;                              ///< of the fields
     std::shared_ptr<picture::Projector> m_engine;        ///< on the processor
     std::shared_ptr<render::ProjectionEngine> m_planned; ///< the same, unless it is exact
     std::shared_ptr<gpu::GpuEngine> m_card;              ///< the same on the card, if used

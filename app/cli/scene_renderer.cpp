@@ -86,20 +86,33 @@ void SceneRenderer::prepare() {
 // Whether the last picture misses the tolerance although the plan keeps it, and a closer plan may
 // help.
 bool SceneRenderer::mayPlanCloser() const {
-    return m_renderer->lastViewError() > m_scene.tolerance &&
+    const error::StatedError &error = m_renderer->lastError();
+    return error.isMeasured() && error.relative > m_scene.tolerance &&
            m_renderer->predictedError() <= m_scene.tolerance && !m_renderer->isReduced() &&
            m_scene.interpolation.isPlanned() && m_scene.plannedFor != scene::PlannedFor::volume;
 }
 
+classify::ShownFields SceneRenderer::studyFields() const {
+    return m_fields.channels.empty()
+               ? fieldsFor(m_scene, m_subject.volume, m_subject.segments, m_context)
+               : m_fields;
+}
+
 // The plan is for the whole volume. The error of a part that contains little is known only after
 // rendering it; if it misses the tolerance, plan again with a smaller one.
-picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera) {
+picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera, Check check) {
     task::Progress(m_context.stop).check();
-    picture::ProjectionImage image = m_renderer->image(camera, m_times);
+    const auto make = [&] {
+        picture::ProjectionImage image = m_renderer->image(camera, m_times);
+        if (check == Check::measure)
+            m_renderer->measure(camera, studyFields());
+        return image;
+    };
+    picture::ProjectionImage image = make();
     for (int tries = 0; tries < 3 && mayPlanCloser(); ++tries) {
-        m_planned.tolerance *= 0.8 * m_scene.tolerance / m_renderer->lastViewError();
+        m_planned.tolerance *= 0.8 * m_scene.tolerance / m_renderer->lastError().relative;
         prepare();
-        image = m_renderer->image(camera, m_times);
+        image = make();
     }
     takeErrors();
     return image;
@@ -126,31 +139,33 @@ std::vector<std::string> SceneRenderer::warnings() const {
 }
 
 std::string SceneRenderer::warningOfView() const {
-    return missedText(m_renderer->lastViewError(), m_renderer->wasWhole());
+    return missedText(m_renderer->lastError().relative, m_renderer->wasWhole());
 }
 
 std::string SceneRenderer::warningOfViews() const {
     return missedText(m_viewError, m_isWhole);
 }
 
-std::string SceneRenderer::missedText(double error, std::optional<bool> isWhole) const {
+std::string SceneRenderer::missedText(double error, bool isWhole) const {
     const bool isMissed =
         error > m_scene.tolerance && m_renderer->predictedError() <= m_scene.tolerance;
     if (!isMissed)
         return {};
-    return isWhole == false
-               ? fmt::format("the tolerance of {:.2g} is met for the whole volume, but {:.2g} is "
-                             "predicted for this part",
-                             m_scene.tolerance, error)
-               : fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted for this "
-                             "picture",
-                             m_scene.tolerance, error);
+    return isWhole ? fmt::format("the tolerance of {:.2g} is not met: {:.2g} was measured for this "
+                                 "picture",
+                                 m_scene.tolerance, error)
+                   : fmt::format("the tolerance of {:.2g} is met for the whole volume, but {:.2g} "
+                                 "was measured for this part",
+                                 m_scene.tolerance, error);
 }
 
 void SceneRenderer::takeErrors() {
+    const error::StatedError &error = m_renderer->lastError();
     const bool isFirst = m_pictures++ == 0;
-    m_viewError = std::max(m_viewError, m_renderer->lastViewError());
-    m_isWhole = isFirst || m_isWhole == true ? m_renderer->wasWhole() : m_isWhole;
+    m_viewError = std::max(m_viewError, error.relative);
+    if (error.isMeasured() && (!m_measured || error.relative > m_measured->relative))
+        m_measured = error;
+    m_isWhole = m_isWhole && m_renderer->wasWhole();
     const std::optional<double> here = m_renderer->predictedMaximum();
     m_maximum = here && (isFirst || m_maximum)
                     ? std::optional(std::max(*here, m_maximum.value_or(0.0)))

@@ -48,8 +48,11 @@ public:
 
     /// *Throws* as `Renderer::requireRoomFor`.
     void requireRoomFor(const scene::Camera &camera) const { m_renderer->requireRoomFor(camera); }
+    /// Whether the error of a picture is measured, or only bounded.
+    enum class Check { none, measure };
+    /// A picture whose measured error exceeds the tolerance is planned again, more closely.
     /// *Throws* Error{outOfMemory}, Cancelled.
-    picture::ProjectionImage image(const scene::Camera &camera);
+    picture::ProjectionImage image(const scene::Camera &camera, Check check = Check::none);
     /// The scene's own exposure or, measured once, that of the study.
     const scene::Exposure &exposure();
 
@@ -69,10 +72,11 @@ public:
     /// Of the last picture.
     const picture::FrameTimes &times() const { return m_times; }
 
-    /// For all pictures together: the largest predicted error, whether each showed the whole
-    /// volume, and the largest error of a pixel if so.
+    /// For all pictures together: the largest error that is known of one, the largest measured
+    /// error, whether each showed the whole volume, and the largest error of a pixel if so.
     double largestError() const { return m_viewError; }
-    std::optional<bool> wereWhole() const { return m_isWhole; }
+    const std::optional<error::StatedError> &largestMeasured() const { return m_measured; }
+    bool wereWhole() const { return m_isWhole; }
     std::optional<double> largestMaximum() const { return m_maximum; }
 
 private:
@@ -80,7 +84,8 @@ private:
     void prepare();
     bool mayPlanCloser() const;
     void takeErrors();
-    std::string missedText(double error, std::optional<bool> isWhole) const;
+    std::string missedText(double error, bool isWhole) const;
+    classify::ShownFields studyFields() const;
 
     scene::Scene m_scene;
     scene::Scene m_planned; ///< with a smaller tolerance, if a part of the volume needs one
@@ -99,7 +104,8 @@ private:
     picture::FrameTimes m_times;
     int m_pictures = 0;
     double m_viewError = 0.0;
-    std::optional<bool> m_isWhole;
+    std::optional<error::StatedError> m_measured;
+    bool m_isWhole = true;
     std::optional<double> m_maximum;
 };
 

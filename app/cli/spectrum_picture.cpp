@@ -67,7 +67,7 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
     };
     for (const std::string &text : lookWarnings(command, preset, scene, volume))
         warnOf(text);
-    if (!prepared.viewError) // the volume was averaged to fit in memory
+    if (prepared.reduction > 1) // the volume was averaged to fit in memory
         warnOf(prepared.plan.reason.english());
     const int side = std::max({scene.camera.width, scene.camera.height, 2});
     const render::SpectrumSlice slice =

@@ -225,7 +225,8 @@ private:
             throw task::Error(task::ErrorCode::unusable,
                               because::studyHasTooManyObjects(maxObjects));
         const std::size_t told = std::max(series.objects.value_or(0), listed.size() + invalid);
-        const bool mayHaveMore = !end || end->mayBeIncomplete;
+        const bool mayHaveMore =
+            !end || (end->mayBeIncomplete && !(series.objects && listed.size() >= told));
         if (told > listed.size() || mayHaveMore)
             m_short.push_back({m_wanted.studyUid, series.uid, told - listed.size(), invalid,
                                mayHaveMore && told == listed.size()});

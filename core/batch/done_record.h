@@ -19,7 +19,8 @@ struct DoneRecord {
     };
     struct MadeOutput {
         std::string name;
-        double tolerance = 0.0, predictedError = 0.0; ///< relative L2, of the worst view
+        double tolerance = 0.0, predictedError = 0.0; ///< relative L2, of any view
+        std::optional<double> measuredError;          ///< of the worst measured view
         std::vector<std::string> warnings;
     };
     std::string program;        ///< its name and version

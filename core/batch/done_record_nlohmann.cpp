@@ -34,10 +34,12 @@ std::string toJson(const DoneRecord &record) {
     for (const DoneRecord::MadeFile &file : record.files)
         files.push_back({{"name", file.name}, {"bytes", file.bytes}});
     for (const DoneRecord::MadeOutput &output : record.outputs)
-        outputs.push_back({{"name", output.name},
-                           {"tolerance", output.tolerance},
-                           {"predicted_error", output.predictedError},
-                           {"warnings", output.warnings}});
+        outputs.push_back(
+            {{"name", output.name},
+             {"tolerance", output.tolerance},
+             {"predicted_error", output.predictedError},
+             {"measured_error", output.measuredError ? json(*output.measuredError) : json()},
+             {"warnings", output.warnings}});
     json out{{"program", record.program},
              {"recipe", record.recipe},
              {"inputs", record.inputs},
@@ -70,7 +72,10 @@ std::optional<DoneRecord> doneIn(const fs::path &folder) {
             record.outputs.push_back({output.at("name").text(),
                                       output.at("tolerance").number(),
                                       output.at("predicted_error").number(),
+                                      {},
                                       {}});
+            if (const JsonValue measured = output["measured_error"])
+                record.outputs.back().measuredError = measured.number();
             for (const JsonValue &warning : output.at("warnings").elements())
                 record.outputs.back().warnings.push_back(warning.text());
         }

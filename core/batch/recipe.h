@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/dicom/catalogue.h"
+#include "core/error/checked_pictures.h"
 #include "core/presets/preset.h"
 #include "core/scene/projection_matrix.h"
 #include "core/scene/scene.h"
@@ -43,6 +44,7 @@ struct Output {
     std::optional<double> pixelMm;
     Fit fit = Fit::volume;
     std::optional<double> tolerance;
+    error::CheckedPictures check = error::CheckedPictures::rest;
     bool isDeidentified = false; ///< `capture` and `captureLoop`
 
     /// Whether each view has a file of its own.

@@ -35,6 +35,10 @@ constexpr JsonWords<Format, 7> formats{{{"png", Format::png},
                                         {"dicom", Format::capture},
                                         {"dicom-loop", Format::captureLoop},
                                         {"mp4", Format::video}}};
+using error::CheckedPictures;
+constexpr JsonWords<CheckedPictures, 3> checks{{{"none", CheckedPictures::none},
+                                                {"rest", CheckedPictures::rest},
+                                                {"all", CheckedPictures::all}}};
 constexpr JsonWords<Fit, 2> fits{{{"volume", Fit::volume}, {"body", Fit::body}}};
 constexpr std::size_t maxNameBytes = 60;
 
@@ -92,7 +96,8 @@ private:
 
     Output outputFrom(const JsonValue &in) {
         in.requireOnly({"name", "format", "view", "views", "turntable", "look", "scene",
-                        "without_couch", "size", "pixel_mm", "fit", "tolerance", "deidentify"});
+                        "without_couch", "size", "pixel_mm", "fit", "tolerance", "check",
+                        "deidentify"});
         Output output;
         if (const JsonValue format = in["format"])
             output.format = format.meaning(formats);
@@ -141,6 +146,8 @@ private:
             output.isWithoutCouch = couch.boolean();
         if (const JsonValue tolerance = in["tolerance"])
             output.tolerance = toleranceFrom(tolerance);
+        if (const JsonValue check = in["check"])
+            output.check = check.meaning(checks);
     }
 
     static double toleranceFrom(const JsonValue &in) {

@@ -9,6 +9,14 @@
 
 namespace pellucid::picture {
 
+/// A picture on the whole period of its slice's grid: what `Projector::render` shows a part of.
+struct PeriodPicture {
+    ProjectionImage image;
+    scene::Camera camera; ///< whose picture it is
+    /// The first column and row that `Projector::render` shows, and their numbers.
+    int left = 0, top = 0, width = 0, height = 0;
+};
+
 /// Makes projections of its fields: an engine that slices their spectra
 /// (`render::ProjectionEngine`), or the exact reference (`reference::ExactEngine`), which has no
 /// spectra to share.

@@ -29,24 +29,6 @@ double roundingMargin(const EnergySpread &spread) {
     return boundedMargin + (sparseMargin - boundedMargin) * alike;
 }
 
-// Calls use(e, brightest, x) for at most 40 positions x (in periods) along an axis, which are
-// enough because the amplitudes change slowly. e is the energy there; brightest is the largest
-// energy of a single sample.
-template <class F> void forPositions(const std::vector<double> &energy, int padded, const F &use) {
-    const int samples = int(energy.size()), bins = std::min(samples, 40);
-    for (int bin = 0; bin < bins; ++bin) {
-        const int first = bin * samples / bins, last = (bin + 1) * samples / bins;
-        double e = 0.0, moment = 0.0, here = 0.0;
-        for (int n = first; n < last; ++n) {
-            here = std::max(here, energy[n]);
-            e += energy[n];
-            moment += energy[n] * (n - samples / 2);
-        }
-        if (e > 0.0)
-            use(e, here, moment / e / padded);
-    }
-}
-
 // The factor that a sample at x gets from the taps read at a frequency t off the grid. `Any`: a
 // Kernel or a MomentKernel.
 template <class Any> std::complex<double> offGrid(const Any &kernel, double x, double t) {
@@ -148,30 +130,6 @@ AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector
     error.kernelEnergy = kernel.energy();
     error.isShort = samples <= 4;
     return error;
-}
-
-double filterError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy) {
-    constexpr int offsets = 64;
-    constexpr double rounding = 1e-7; // of the taps
-    double squares = 0.0;
-    for (int n = 0; n < offsets; ++n) {
-        const double c = (n + 0.5) / offsets - 0.5, middle = 0.5 * (kernel.width() - 1);
-        for (int k = 0; k < kernel.width(); k += 2) {
-            const double first = kernel.value(c + k - middle);
-            const double second = k + 1 < kernel.width() ? kernel.value(c + k + 1 - middle) : 0.0;
-            if (std::min(first, second) < -rounding)
-                return std::numeric_limits<double>::infinity();
-            // A tap without a partner is read at the middle of its cell.
-            if (k + 1 < kernel.width())
-                squares += (first + second) * (first + second) / offsets;
-        }
-    }
-    double differences = 0.0;
-    forPositions(energy, padded, [&](double e, double, double x) {
-        const double h = kernel.apodisation(x), sine = 2.0 * std::sin(std::numbers::pi * x);
-        differences += e * sine * sine / (h * h);
-    });
-    return std::ldexp(1.0, -16) / 12.0 * squares * differences;
 }
 
 void addMomentError(AxisError &error, const fourier::Kernel &kernel,

@@ -46,14 +46,6 @@ AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector
 void addMomentError(AxisError &error, const fourier::Kernel &kernel,
                     const fourier::MomentKernel &moment, int padded, const SlabProducts &slabs);
 
-/// The squared error, relative to the energy of the field, that a graphics card's linear filter
-/// adds along one axis if it reads pairs of taps in one fetch. Its weights have 8 fraction bits,
-/// hence an error of 2^-8/sqrt(12) RMS, times the difference of the neighbouring cells of each
-/// pair:
-///   2^-16/12 sum_pairs (sum of the pair's taps)^2 sum_x e(x) 4 sin^2(pi x) / h(x)^2.
-/// Infinite for a kernel with negative taps, which cannot be paired. *Shape*: as of axisError.
-double filterError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy);
-
 /// The root mean square of a cue over all depths, including those far beyond the volume, where
 /// aliases occur. A linear cue, whose own aliases count separately, is averaged over the depths of
 /// the volume.

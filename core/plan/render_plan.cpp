@@ -136,7 +136,6 @@ private:
     }
     RenderPlan finished() const {
         RenderPlan plan = *m_best;
-        plan.filterError = cardFilterError(plan.spectrum);
         plan.reason = reasonFor(plan, m_scene, m_isOverBudget);
         return plan;
     }
@@ -194,18 +193,6 @@ private:
                                                    field.energy, weight));
         return m_composition.together * worst;
     }
-    double cardFilterError(const fourier::SpectrumLayout &layout) const {
-        double added = 0.0;
-        for (std::size_t d = 0; d < 3; ++d) {
-            double worst = 0.0;
-            for (const FieldSummary &field : m_fields)
-                worst = std::max(worst, filterError(layout.kernels[d], layout.padded[int(d)],
-                                                    field.energy.axis[d]));
-            added += worst;
-        }
-        return m_errorFactor * std::sqrt(added);
-    }
-
     // More taps and wider cells cost time that nothing else can save.
     bool mayBeFaster(const fourier::KernelChoice &choice, fourier::Storage storage) const {
         return m_grids.front().cells() * timeInCache(choice.width, storage) < m_bestTime;
@@ -287,12 +274,8 @@ private:
             frameTime(planned.grid, m_scene.camera, m_fields.front().lattice, layout.spectrum);
         const bool meets = predicted <= m_limit, unmet = std::isinf(m_bestTime);
         if (meets ? time < m_bestTime : unmet && (!m_best || predicted < m_best->predictedError)) {
-            m_best = RenderPlan{layout.spectrum,
-                                planned.fieldOfView,
-                                predicted,
-                                maximumError(layout) + planned.folded,
-                                0.0,
-                                bytes};
+            m_best = RenderPlan{layout.spectrum, planned.fieldOfView, predicted,
+                                maximumError(layout) + planned.folded, bytes};
             m_best->together = m_composition.together;
             if (meets)
                 m_bestTime = time;
@@ -351,7 +334,6 @@ namespace {
 RenderPlan withDetail(RenderPlan plan, const scene::ImageDefinition &image) {
     const double gain = scene::detailGain(image);
     plan.predictedError *= gain;
-    plan.filterError *= gain;
     plan.predictedMaximum *= scene::detailPeakGain(image);
     plan.image = image;
     return plan;

@@ -29,9 +29,6 @@ struct RenderPlan {
     double predictedError = 0.0;
     /// Predicted largest error of a pixel over the largest pixel, see predictMaximum.
     double predictedMaximum = 0.0;
-    /// The relative L2 error that a graphics card adds if it reads pairs of taps with its linear
-    /// filter, see filterError. Infinite if it cannot.
-    double filterError = 0.0;
     /// The largest number of bytes held at once by the spectra, their preparation and the frames of
     /// the planned camera.
     std::size_t bytes = 0;
@@ -59,8 +56,7 @@ struct Composition {
     /// The largest number of fields that add up in a channel of a picture that the plan's error is
     /// for. Their errors may be alike where their images are not: without negative samples, the
     /// relative error of n of them is at most sqrt(n) times that of the worst. Layers whose weights
-    /// move are planned one by one; their sum has an error of its own, see
-    /// accuracy::ViewErrorModel.
+    /// move are planned one by one; the error of their sum is measured.
     int together = 1;
     /// The error of a picture over that of its worst field.
     double errorFactor() const { return std::sqrt(double(together)); }

@@ -29,18 +29,14 @@ int minReduction(const volume::GridSize &size) {
 
 } // namespace
 
-LayerSet::LayerSet(std::shared_ptr<render::CpuEngine> engine, plan::RenderPlan plan, int reduction,
-                   std::shared_ptr<const accuracy::ViewErrorModel> viewError,
-                   std::shared_ptr<const accuracy::DetailLoss> detailLoss)
-    : m_engine(std::move(engine)), m_plan(std::move(plan)), m_reduction(reduction),
-      m_viewError(std::move(viewError)), m_detailLoss(std::move(detailLoss)) {}
+LayerSet::LayerSet(std::shared_ptr<render::CpuEngine> engine, plan::RenderPlan plan, int reduction)
+    : m_engine(std::move(engine)), m_plan(std::move(plan)), m_reduction(reduction) {}
 
 std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size_t count,
                                             const FieldOf &fieldOf, const plan::Budget &budget,
                                             const task::Progress &progress,
                                             const std::optional<shading::ShadingScale> &given) {
     std::vector<classify::DensityField> fields;
-    accuracy::AxisProjections fine; // of the layers before reduction
     int reduction = 1, longest = 0;
     shading::ShadingScale scale; // of the volume, whatever the reduction
     const auto reduce = [&](std::size_t n) {
@@ -61,7 +57,6 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
             scale = given.value_or(shading::shadingScale(fields.back().values.lattice()));
             reduction = minReduction(size);
         }
-        fine.add(fields.back(), progress);
         if (reduction > 1)
             reduce(n);
         // The fields alone must leave memory for their spectra.
@@ -93,18 +88,8 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
                                                progress.part(done, done + 0.5 / double(count)))));
             }
             auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
-            auto viewError = std::make_shared<const accuracy::ViewErrorModel>(plan, summaries);
-            std::shared_ptr<const accuracy::DetailLoss> loss;
-            if (reduction > 1) {
-                accuracy::AxisProjections coarse;
-                for (const classify::DensityField &field : fields)
-                    coarse.add(field, progress);
-                loss =
-                    std::make_shared<const accuracy::DetailLoss>(fine, coarse, count, scale.stepMm);
-            }
-            return std::shared_ptr<LayerSet>(new LayerSet(std::move(engine), std::move(plan),
-                                                          reduction, std::move(viewError),
-                                                          std::move(loss)));
+            return std::shared_ptr<LayerSet>(
+                new LayerSet(std::move(engine), std::move(plan), reduction));
         } catch (const task::Error &error) {
             if (error.code() != task::ErrorCode::outOfMemory ||
                 longest / (reduction + 1) < minSamples)

@@ -34,10 +34,6 @@ public:
     const plan::RenderPlan &plan() const { return m_plan; }
     /// The number of original samples per sample along each axis; 1: not reduced.
     int reduction() const { return m_reduction; }
-    /// Predicts the error of pictures of the layers as they are held; and the loss of detail from
-    /// reduction, if any.
-    const std::shared_ptr<const accuracy::ViewErrorModel> &viewError() const { return m_viewError; }
-    const std::shared_ptr<const accuracy::DetailLoss> &detailLoss() const { return m_detailLoss; }
     std::size_t count() const { return m_engine->fieldCount(); }
     std::size_t bytes() const { return m_engine->bytes(); }
 
@@ -51,13 +47,15 @@ public:
                                     picture::FrameTimes *times = nullptr);
 
     task::Reason description() const { return m_engine->description(); }
+    /// See `render::CpuEngine::periodOf`.
+    scene::Camera periodOf(const scene::Camera &camera, const scene::ImageDefinition &image) {
+        return m_engine->periodOf(camera, image);
+    }
     /// The engine parts with these channel weights. Thread-safe.
     render::EngineParts parts(const std::vector<render::ChannelWeights> &channelWeights) const;
 
 private:
-    LayerSet(std::shared_ptr<render::CpuEngine> engine, plan::RenderPlan plan, int reduction,
-             std::shared_ptr<const accuracy::ViewErrorModel> viewError,
-             std::shared_ptr<const accuracy::DetailLoss> detailLoss);
+    LayerSet(std::shared_ptr<render::CpuEngine> engine, plan::RenderPlan plan, int reduction);
     void keep(std::size_t layer);
     picture::ProjectionImage
     sumKept(const std::vector<render::ChannelWeights> &channelWeights) const;
@@ -65,8 +63,6 @@ private:
     std::shared_ptr<render::CpuEngine> m_engine;
     plan::RenderPlan m_plan;
     int m_reduction;
-    std::shared_ptr<const accuracy::ViewErrorModel> m_viewError;
-    std::shared_ptr<const accuracy::DetailLoss> m_detailLoss;
     /// The view of the last frame, and the projections of the layers that it needed.
     struct Kept {
         scene::Camera camera;
@@ -88,6 +84,12 @@ public:
                                     const shading::Shading &shading = {},
                                     picture::FrameTimes *times = nullptr) override;
     render::EngineParts parts() const override { return m_layers->parts(m_channelWeights); }
+
+protected:
+    scene::Camera periodOf(const scene::Camera &camera,
+                           const scene::ImageDefinition &image) override {
+        return m_layers->periodOf(camera, image);
+    }
 
 private:
     std::shared_ptr<LayerSet> m_layers;

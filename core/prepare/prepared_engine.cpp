@@ -162,9 +162,6 @@ PreparedEngine prepareEngine(const scene::Scene &scene, ShadedFields fields,
                              const plan::Budget &budget, const task::Progress &progress) {
     const auto summaries = summarise(fields, scene.shading.cue);
     FittingPlan fitting = planWithin(scene, fields, summaries, budget, progress);
-    std::shared_ptr<const accuracy::ViewErrorModel> viewError;
-    if (!fitting.reduced)
-        viewError = std::make_shared<const accuracy::ViewErrorModel>(fitting.plan, summaries);
     const plan::SpectrumOf of =
         fields.fields.size() > 1 ? plan::SpectrumOf::color : plan::SpectrumOf::look;
     if (fitting.reduced)
@@ -176,10 +173,10 @@ PreparedEngine prepareEngine(const scene::Scene &scene, ShadedFields fields,
             std::move(fitting.plan),
             bytes,
             canBeLit,
-            std::move(viewError),
             false,
-            {},
-            of};
+            of,
+            fitting.reduction,
+            {}};
 }
 
 PreparedEngine prepareEngine(const scene::Scene &scene, classify::ShownFields fields,
@@ -195,34 +192,13 @@ PreparedEngine prepareEngine(const scene::Scene &scene, classify::ShownFields fi
                          progress.part(0.1, 1.0));
 }
 
-std::optional<double> errorOf(const PreparedEngine &prepared,
-                              const picture::ProjectionImage &picture, const scene::Camera &camera,
-                              const scene::ImageDefinition &image,
-                              const shading::Shading &shading) {
-    if (prepared.isCoarse && !prepared.detailLoss)
+std::optional<error::StatedError> boundOf(const PreparedEngine &prepared,
+                                          const scene::ImageDefinition &image) {
+    if (prepared.isCoarse || prepared.of == plan::SpectrumOf::layer)
         return std::nullopt;
-    const render::EngineParts parts = prepared.engine->parts();
-    const double fieldError =
-        prepared.viewError
-            ? prepared.viewError->errorOf(picture, camera, image, parts, shading).relative
-            : prepared.plan.predictedError * scene::detailGain(image) /
-                  scene::detailGain(prepared.plan.image);
-    if (!prepared.isCoarse)
-        return fieldError;
-    return std::hypot(
-        fieldError, scene::detailGain(image) *
-                        prepared.detailLoss->relativeError(picture, parts.channelWeights, shading));
-}
-
-std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double fieldError,
-                                        const shading::Shading &shading) {
-    if (!prepared.isCoarse)
-        return fieldError;
-    if (!prepared.detailLoss)
-        return std::nullopt;
-    return std::hypot(fieldError, scene::detailGain(prepared.plan.image) *
-                                      prepared.detailLoss->relativeError(
-                                          prepared.engine->parts().channelWeights, shading));
+    const double bound = prepared.plan.predictedError * scene::detailGain(image) /
+                         scene::detailGain(prepared.plan.image);
+    return error::StatedError::atMost(bound);
 }
 
 PreparedEngine withoutLight(const PreparedEngine &prepared) {
@@ -234,8 +210,8 @@ PreparedEngine withoutLight(const PreparedEngine &prepared) {
     const std::size_t bytes = engine->bytes();
     plan::RenderPlan plan = prepared.plan;
     plan.bytes -= prepared.bytes - bytes;
-    return {std::move(engine), std::move(plan),     bytes,      false, prepared.viewError,
-            prepared.isCoarse, prepared.detailLoss, prepared.of};
+    return {std::move(engine), std::move(plan),    bytes,         false, prepared.isCoarse,
+            prepared.of,       prepared.reduction, prepared.study};
 }
 
 } // namespace pellucid::prepare

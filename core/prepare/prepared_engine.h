@@ -6,10 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "core/accuracy/detail_loss.h"
-#include "core/accuracy/view_error.h"
 #include "core/classify/shown_fields.h"
 #include "core/plan/frame_model.h"
+#include "core/prepare/measured_error.h"
 #include "core/prepare/shaded_fields.h"
 #include "core/render/cpu_engine.h"
 
@@ -38,14 +37,12 @@ struct PreparedEngine {
     plan::RenderPlan plan;
     std::size_t bytes = 0; ///< of the spectra
     bool canBeLit = false;
-    /// Predicts the error of single pictures of the prepared fields. Null if the plan reduced the
-    /// fields: then the plan's own error includes that.
-    std::shared_ptr<const accuracy::ViewErrorModel> viewError;
-    /// Whether the prepared fields are coarser than the study. Then `detailLoss` predicts the
-    /// resulting error; it is null until it has been computed.
+    /// Whether the prepared fields are coarser than the study, which the plan's error does not
+    /// include.
     bool isCoarse = false;
-    std::shared_ptr<const accuracy::DetailLoss> detailLoss;
     plan::SpectrumOf of = plan::SpectrumOf::look;
+    int reduction = 1; ///< of the fields, because of the memory
+    StudyFields study; ///< what its pictures are measured against; empty: nothing
 };
 
 /// The widths that frames of a plan are read by; null if one width reads everything. *Throws*
@@ -69,14 +66,10 @@ PreparedEngine prepareEngine(const scene::Scene &scene, classify::ShownFields fi
                              const plan::Budget &budget, const task::Progress &progress = {},
                              const std::optional<shading::ShadingScale> &scale = std::nullopt);
 
-/// The relative L2 error of a picture against that of the study. Not set until the loss of detail
-/// has been computed.
-std::optional<double> errorOf(const PreparedEngine &prepared,
-                              const picture::ProjectionImage &picture, const scene::Camera &camera,
-                              const scene::ImageDefinition &image, const shading::Shading &shading);
-/// The same for a whole picture whose error against the prepared fields is known.
-std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double fieldError,
-                                        const shading::Shading &shading);
+/// What is known of the error of whole pictures before it is measured: the plan's bound. Not set
+/// for the sum of layers, and for fields that are coarser than the study.
+std::optional<error::StatedError> boundOf(const PreparedEngine &prepared,
+                                          const scene::ImageDefinition &image);
 
 /// The same engine without its lights; its error is at most what it was with them.
 PreparedEngine withoutLight(const PreparedEngine &prepared);

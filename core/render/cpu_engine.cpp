@@ -287,6 +287,11 @@ task::Reason CpuEngine::description() const {
                         : task::because::cpuEngine(set, threads);
 }
 
+scene::Camera CpuEngine::periodOf(const scene::Camera &camera,
+                                  const scene::ImageDefinition &image) {
+    return m_buffers->setup.periodOf(m_parts.spectra, camera, image);
+}
+
 picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
                                            const scene::ImageDefinition &image,
                                            const shading::Shading &shading,

@@ -57,6 +57,9 @@ public:
                                     const shading::Shading &shading = {},
                                     picture::FrameTimes *times = nullptr) override;
 
+    scene::Camera periodOf(const scene::Camera &camera,
+                           const scene::ImageDefinition &image) override;
+
 private:
     EngineParts m_parts;
     std::unique_ptr<FrameBuffers> m_buffers;

@@ -33,11 +33,34 @@ const plan::SliceGrid &FramedGrid::gridFor(const scene::Camera &camera,
                                            const plan::FieldOfView &fieldOfView,
                                            const volume::Lattice &lattice,
                                            const scene::ImageDefinition &image) {
-    scene::Camera framing = camera;
-    framing.orientation = scene::Camera().orientation;
+    const scene::Camera framing = framingOf(camera);
     if (!m_framed || m_framed->camera != framing || m_framed->image != image)
         m_framed = Framed{framing, image, plan::sliceGrid(camera, fieldOfView, lattice, image)};
     return m_framed->grid;
+}
+
+scene::Camera FramedGrid::periodOf(const scene::Camera &camera,
+                                   const plan::FieldOfView &fieldOfView,
+                                   const volume::Lattice &lattice,
+                                   const scene::ImageDefinition &image) {
+    const plan::SliceGrid grid = gridFor(camera, fieldOfView, lattice, image);
+    scene::Camera whole = camera;
+    whole.width = grid.columns;
+    whole.height = grid.rows;
+    // An odd number of pixels more on one side moves the middle by half a pixel.
+    const auto moved = [&](int period, int side) {
+        return camera.pixelMm * 0.5 * ((period - side) % 2);
+    };
+    whole.panMm.x += moved(grid.columns, camera.width);
+    whole.panMm.y -= moved(grid.rows, camera.height);
+    m_framed = Framed{framingOf(whole), image, grid};
+    return whole;
+}
+
+scene::Camera FramedGrid::framingOf(const scene::Camera &camera) {
+    scene::Camera framing = camera;
+    framing.orientation = scene::Camera().orientation;
+    return framing;
 }
 
 } // namespace pellucid::render

@@ -44,8 +44,13 @@ public:
                                    const plan::FieldOfView &fieldOfView,
                                    const volume::Lattice &lattice,
                                    const scene::ImageDefinition &image);
+    /// A camera whose picture is the whole period of that of another, pixel on pixel. It keeps the
+    /// grid of the other until another framing is asked for. *Throws* as above.
+    scene::Camera periodOf(const scene::Camera &camera, const plan::FieldOfView &fieldOfView,
+                           const volume::Lattice &lattice, const scene::ImageDefinition &image);
 
 private:
+    static scene::Camera framingOf(const scene::Camera &camera);
     struct Framed {
         scene::Camera camera; // except its orientation
         scene::ImageDefinition image;

@@ -64,6 +64,12 @@ public:
                           const shading::Shading &shading,
                           const plan::ForEach &forEach = plan::inOrder);
 
+    /// See `FramedGrid::periodOf`.
+    scene::Camera periodOf(const EngineSpectra &spectra, const scene::Camera &camera,
+                           const scene::ImageDefinition &image) {
+        return m_framed.periodOf(camera, m_fieldOfView, spectra.fields.front()->lattice(), image);
+    }
+
 private:
     plan::FieldOfView m_fieldOfView;
     std::shared_ptr<const plan::AdaptiveWidths> m_widths;

@@ -50,6 +50,22 @@ struct EngineParts {
 class ProjectionEngine : public picture::Projector {
 public:
     virtual EngineParts parts() const = 0;
+    /// The whole period of the picture of a camera: the same slice, and the same pixels where both
+    /// have them. *Throws*, not thread-safe: as `render`.
+    picture::PeriodPicture renderPeriod(const scene::Camera &camera,
+                                        const scene::ImageDefinition &image,
+                                        const shading::Shading &shading = {}) {
+        const scene::Camera whole = periodOf(camera, image);
+        const int width = std::min(camera.width, whole.width),
+                  height = std::min(camera.height, whole.height);
+        return {render(whole, image, shading), whole, (whole.width - width) / 2,
+                (whole.height - height) / 2,   width, height};
+    }
+
+protected:
+    /// The camera of the whole period. The next frame, if it is of that camera, has the same grid.
+    virtual scene::Camera periodOf(const scene::Camera &camera,
+                                   const scene::ImageDefinition &image) = 0;
 };
 
 } // namespace pellucid::render

@@ -12,6 +12,16 @@
     </message>
 </context>
 <context>
+    <name>ProjectionTexts</name>
+    <message numerus="yes">
+        <source>The picture differs from the exact one by %1 (relative L2, between %2), measured at %n frequencies, each summed exactly over the study.</source>
+        <translation>
+            <numerusform>The picture differs from the exact one by %1 (relative L2, between %2), measured at %n frequency, summed exactly over the study.</numerusform>
+            <numerusform>The picture differs from the exact one by %1 (relative L2, between %2), measured at %n frequencies, each summed exactly over the study.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>StepTexts</name>
     <message numerus="yes">
         <source>%n stroke(s)</source>

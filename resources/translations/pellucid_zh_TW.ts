@@ -676,6 +676,36 @@
         <source>draft</source>
         <translation>草圖</translation>
     </message>
+    <message>
+        <source>over 100 %</source>
+        <translation>超過 100 %</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>error %1</source>
+        <translation>誤差 %1</translation>
+    </message>
+    <message>
+        <source>%1 measured</source>
+        <translation>%1 實測</translation>
+    </message>
+    <message>
+        <source>The picture differs from the exact one by at most this share (relative L2). It is measured when the view rests.</source>
+        <translation>影像與精確影像的差別至多為此比例（相對 L2）。檢視靜止後即進行實測。</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 至 %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>The picture differs from the exact one by %1 (relative L2, between %2), measured at %n frequencies, each summed exactly over the study.</source>
+        <translation>
+            <numerusform>影像與精確影像相差 %1（相對 L2，介於 %2），在 %n 個頻率上實測，每個頻率皆對整個檢查精確加總。</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>ProjectionView</name>
@@ -729,14 +759,6 @@
     <message>
         <source>Light acts on the gradient, which has its own spectrum</source>
         <translation>光照作用於梯度，梯度有自己的頻譜</translation>
-    </message>
-    <message>
-        <source>error over 100 %</source>
-        <translation>誤差超過 100 %</translation>
-    </message>
-    <message>
-        <source>error %1 %</source>
-        <translation>誤差 %1 %</translation>
     </message>
     <message>
         <source>look %1</source>
@@ -6175,10 +6197,6 @@ Open it beside?</source>
         <translation>無</translation>
     </message>
     <message>
-        <source>about %1</source>
-        <translation>約 %1</translation>
-    </message>
-    <message>
         <source>Spectra: %1; slices: %2; images: %3; multiplications: %4 million</source>
         <translation>頻譜：%1；切片：%2；影像：%3；乘法：%4 百萬次</translation>
     </message>
@@ -6201,6 +6219,10 @@ Open it beside?</source>
     <message>
         <source>not read: %1</source>
         <translation>不讀取：%1</translation>
+    </message>
+    <message>
+        <source>measured: %1</source>
+        <translation>實測：%1</translation>
     </message>
 </context>
 <context>

@@ -63,35 +63,6 @@ struct Sum {
 #endif
 };
 
-#if TRILINEAR
-// One filtered fetch between two neighbouring taps of the same sign replaces both: width 4 takes 8
-// fetches instead of 64. *Source*: Sigg and Hadwiger 2005 (GPU Gems 2, chapter 20).
-void pairUp(float weights[WIDTH], out float sums[pairs], out float places[pairs]) {
-    for (int j = 0; j < pairs; ++j) {
-        float second = 2 * j + 1 < WIDTH ? weights[min(2 * j + 1, WIDTH - 1)] : 0.0;
-        sums[j] = weights[2 * j] + second;
-        places[j] = float(2 * j) + (sums[j] > 0.0 ? second / sums[j] : 0.0);
-    }
-}
-
-Sum sumOfCells(sampler3D cells, Taps taps) {
-    float sumX[pairs], sumY[pairs], sumZ[pairs], placeX[pairs], placeY[pairs], placeZ[pairs];
-    pairUp(taps.x, sumX, placeX);
-    pairUp(taps.y, sumY, placeY);
-    pairUp(taps.z, sumZ, placeZ);
-    vec3 first = vec3(taps.first) + 0.5; // texels are centred between whole numbers
-    vec3 perTexel = 1.0 / vec3(textureSize(cells, 0));
-    Sum sum = Sum(vec2(0.0));
-    for (int k = 0; k < pairs; ++k)
-        for (int j = 0; j < pairs; ++j)
-            for (int i = 0; i < pairs; ++i) {
-                vec3 at = first + vec3(placeX[i], placeY[j], placeZ[k]);
-                sum.value += sumX[i] * sumY[j] * sumZ[k] *
-                             textureLod(cells, at * perTexel, 0.0).rg;
-            }
-    return sum;
-}
-#else
 Sum sumOfCells(sampler3D cells, Taps taps) {
     Sum sum;
     sum.value = vec2(0.0);
@@ -133,4 +104,3 @@ Sum sumOfCells(sampler3D cells, Taps taps) {
     }
     return sum;
 }
-#endif

@@ -95,7 +95,7 @@ TEST_F(Batch, MakesTheSameHoweverItIsDividedUp) {
     ASSERT_EQ(report["finished"].size(), 6U);
     for (const json &study : report["finished"]) {
         EXPECT_TRUE(fs::exists(folder / "one" / study["study"].get<std::string>() / "done.json"));
-        EXPECT_GT(study["predicted_error"], 0.0);
+        EXPECT_GT(study["error"], 0.0);
     }
     EXPECT_TRUE(report["failed"].empty());
     const auto truth = contentsOf(folder / "one");
@@ -262,7 +262,7 @@ TEST_F(Batch, PicturesNameTheirErrorAndWarnings) {
         0);
     const fs::path made = fs::directory_iterator(folder / "out")->path() / "front.dcm";
     const std::string text = readText(made);
-    EXPECT_NE(text.find("predicted error 0."), std::string::npos);
+    EXPECT_NE(text.find("error 0."), std::string::npos);
     EXPECT_NE(text.find("Not for diagnostic use\r\n"), std::string::npos);
 }
 

@@ -38,7 +38,7 @@ protected:
         const render::EngineParts parts = prepared.engine->parts();
         gpu::GpuEngine engine(
             gpu::SpectrumTextures::upload(card, parts.spectra, {}, maxTextureBytes),
-            parts.channelWeights, parts.fieldOfView, gpu::Fetch::exact, parts.widths);
+            parts.channelWeights, parts.fieldOfView, parts.widths);
         double worst = 0.0;
         for (const glm::dquat &view : views()) {
             scene.camera.orientation = view;
@@ -112,7 +112,7 @@ TEST_F(GpuEngine, NarrowKernelsReadASmoothField) {
     const auto parts = prepare::prepareEngine(scene, fields, {}).engine->parts();
     ASSERT_TRUE(parts.widths);
     gpu::GpuEngine engine(gpu::SpectrumTextures::upload(card, parts.spectra, {}, 1U << 30U),
-                          parts.channelWeights, parts.fieldOfView, gpu::Fetch::exact, parts.widths);
+                          parts.channelWeights, parts.fieldOfView, parts.widths);
     picture::FrameTimes times;
     engine.render(scene.camera, scene.image, {}, &times);
     EXPECT_GE(std::count_if(times.widthShares.begin(), times.widthShares.end(),
@@ -341,8 +341,7 @@ TEST_F(GpuEngine, CopyingCanBeCancelled) {
     const auto prepared = prepare::prepareEngine(sceneOf(fields), fields, {});
     std::stop_source stop;
     stop.request_stop();
-    EXPECT_THROW(gpu::copyToCard(card, *prepared.engine, gpu::Fetch::exact,
-                                 task::Progress(stop.get_token())),
+    EXPECT_THROW(gpu::copyToCard(card, *prepared.engine, task::Progress(stop.get_token())),
                  task::Cancelled);
 }
 

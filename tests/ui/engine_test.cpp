@@ -4,10 +4,12 @@
 
 #include <atomic>
 
+#include <QHelpEvent>
 #include <QLabel>
 #include <QOpenGLWidget>
 #include <QProcess>
 #include <QSignalSpy>
+#include <QToolTip>
 
 #include "app/exit_code.h"
 #include "core/picture/compose.h"
@@ -59,6 +61,48 @@ private slots:
         find<QAction>("processorEngineAction")->trigger();
         settle();
         QVERIFY2(engineText().endsWith("the processor was chosen"), qPrintable(engineText()));
+    }
+
+    // A bound while the picture is new; what was measured of it when it rests.
+    void theErrorOfAPictureAtRestIsMeasured() {
+        useSmallWindow();
+        open(headPath());
+        const auto isMeasured = [&] {
+            const auto &error = projection()->frameError();
+            return error && error->isMeasured();
+        };
+        const auto measure = [&] {
+            QTRY_VERIFY_WITH_TIMEOUT(isMeasured(), patienceMs);
+            const error::StatedError error = *projection()->frameError();
+            QVERIFY(error.relative > 0.0 && error.relative < 1.1e-3);
+            QVERIFY(error.low <= error.relative && error.relative <= error.high);
+            QVERIFY(error.frequencies > 0);
+        };
+        measure();
+        QVERIFY(find<QLabel>("predictedErrorLabel")->text().startsWith("measured: "));
+        QHelpEvent pointed(QEvent::ToolTip, QPoint(projection()->width() - 20, 14),
+                           projection()->mapToGlobal(QPoint(projection()->width() - 20, 14)));
+        QApplication::sendEvent(projection(), &pointed);
+        QVERIFY2(QToolTip::text().contains("summed exactly"), qPrintable(QToolTip::text()));
+        dragMouse(projection(), Qt::LeftButton, QPoint(100, 100), QPoint(60, 20));
+        QVERIFY(!isMeasured()); // of the former view
+        measure();
+    }
+
+    void theCardStatesTheErrorOfTheProcessor() {
+        needCard();
+        useSmallWindow();
+        open(headPath());
+        const auto measured = [&] {
+            const auto &error = projection()->frameError();
+            return error && error->isMeasured() ? error->relative : 0.0;
+        };
+        QTRY_VERIFY_WITH_TIMEOUT(measured() > 0.0, patienceMs);
+        const double byProcessor = measured();
+        chooseCard();
+        QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && measured() > 0.0, patienceMs);
+        // Both read the same cells by the same kernels.
+        QVERIFY(std::abs(measured() - byProcessor) < 0.05 * byProcessor);
     }
 
     void theCardShowsWhatTheProcessorShows() {
@@ -185,8 +229,7 @@ private slots:
             frames.clear();
             worker.request(scene.camera, scene.image, {}, {},
                            ui::RenderWorker::Exposed{
-                               volume::Lattice::centred({100, 100, 100}, {1.2, 1.2, 1.2}), {}, {}},
-                           true);
+                               volume::Lattice::centred({100, 100, 100}, {1.2, 1.2, 1.2}), {}, {}});
             return QTest::qWaitFor([&] { return !frames.empty(); }, patienceMs) ? frames.front()
                                                                                 : nullptr;
         };

@@ -32,10 +32,10 @@ struct CardCopier::Copied {
 };
 
 CardCopier::Copied CardCopier::copyTo(const std::shared_ptr<gpu::FramePasses> &passes,
-                                      const render::ProjectionEngine &engine, gpu::Fetch fetch,
+                                      const render::ProjectionEngine &engine,
                                       const task::Progress &progress) {
     try {
-        return {gpu::copyToCard(passes, engine, fetch, progress)};
+        return {gpu::copyToCard(passes, engine, progress)};
     } catch (const task::Error &error) {
         return {nullptr, error.reason(), error.code() == task::ErrorCode::noSuchDevice};
     } catch (const std::bad_alloc &) {
@@ -111,14 +111,8 @@ void CardCopier::announceAgain() {
 
 void CardCopier::announce(EngineStage stage) {
     const prepare::PreparedEngine &engine = m_current->engine;
-    ShownEngine shown{engine, copyOf(engine.engine->parts()), engine.plan.predictedError,
-                      m_card.reason()};
-    if (shown.onCard)
-        shown.predictedError =
-            std::max(shown.predictedError, gpu::planFetch(engine.plan, m_document.scene().tolerance,
-                                                          m_document.scene().shading)
-                                               .predictedError);
-    else if (m_card.passes())
+    ShownEngine shown{engine, copyOf(engine.engine->parts()), m_card.reason()};
+    if (!shown.onCard && m_card.passes())
         shown.reason = m_isGivenUp                    ? m_reason
                        : stage == EngineStage::coarse ? task::Reason(because::firstCoarsePicture)
                                                       : task::Reason(because::notOnCardYet);
@@ -133,13 +127,11 @@ void CardCopier::copyWhenIdle() {
     // Older copies are dropped before the card runs out of memory. A look and its layers stay.
     m_copies.resize(std::min(m_copies.size(), maxCopies - 1));
     const auto engine = m_current->engine.engine;
-    const gpu::Fetch fetch =
-        gpu::planFetch(m_current->engine.plan, m_document.scene().tolerance).fetch;
     m_copying = Copying::underway;
     m_jobs.start(
         tr("Copying to the graphics card"),
-        [this, engine, fetch, passes = m_card.passes()](const Job &job) {
-            const Copied copied = copyTo(passes, *engine, fetch, job.progress());
+        [this, engine, passes = m_card.passes()](const Job &job) {
+            const Copied copied = copyTo(passes, *engine, job.progress());
             job.deliver([this, engine, passes, copied] { take(copied, engine, passes); });
         },
         [this](const Outcome &outcome) { copyEnded(outcome); });

@@ -43,8 +43,7 @@ private:
     void announceAgain();
     struct Copied;
     static Copied copyTo(const std::shared_ptr<gpu::FramePasses> &passes,
-                         const render::ProjectionEngine &engine, gpu::Fetch fetch,
-                         const task::Progress &progress);
+                         const render::ProjectionEngine &engine, const task::Progress &progress);
     void take(const Copied &copied, const std::shared_ptr<render::ProjectionEngine> &engine,
               const std::shared_ptr<gpu::FramePasses> &passes);
     std::shared_ptr<gpu::GpuEngine> copyOf(const render::EngineParts &parts);

@@ -176,13 +176,16 @@ void LookPreparer::showFull() {
 
 void LookPreparer::showLayers() {
     // Layers of the coarse volume, or of fewer samples, lack detail.
+    const PreparedFor shown = wantedOf(m_document);
     emit engineReady(
-        {std::make_shared<prepare::MixtureEngine>(
-             m_layers, classify::mixtureOf(m_document.scene().look, m_have.layers->adjustedClass)
-                           .channelWeights),
-         m_layers->plan(), m_layers->bytes(), false, m_layers->viewError(),
-         m_layersAreCoarse || m_layers->reduction() > 1,
-         m_layersAreCoarse ? nullptr : m_layers->detailLoss(), plan::SpectrumOf::layer},
+        {.engine = std::make_shared<prepare::MixtureEngine>(
+             m_layers,
+             classify::mixtureOf(shown.look, m_have.layers->adjustedClass).channelWeights),
+         .plan = m_layers->plan(),
+         .bytes = m_layers->bytes(),
+         .isCoarse = m_layersAreCoarse || m_layers->reduction() > 1,
+         .of = plan::SpectrumOf::layer,
+         .study = studyFields({*m_document.volume(), shown, m_steps, m_document.segments()})},
         EngineStage::live);
 }
 

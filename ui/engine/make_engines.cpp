@@ -38,51 +38,38 @@ scene::Scene planningScene(const volume::Volume &volume, const prepare::Prepared
     return scene::planningScene(scene, volume.lattice());
 }
 
-accuracy::AxisProjections projectionsOf(const prepare::ShadedFields &shaded,
-                                        const task::Progress &progress) {
-    accuracy::AxisProjections projections;
-    for (const auto *const fields : {&shaded.fields, &shaded.gradients})
-        for (const classify::DensityField &field : *fields)
-            projections.add(field, progress);
-    return projections;
-}
-
 classify::FieldWindow windowOf(const EngineSource &source) {
     return source.wanted.window.value_or(classify::defaultFieldWindow(source.volume));
+}
+
+// At full resolution the volume's own window holds, also for a coarse one.
+classify::ShownFields fieldsOf(const EngineSource &source, const volume::Volume &volume,
+                               const task::Progress &progress) {
+    preprocess::ClassRunner runner(*source.steps, source.segments);
+    return classify::cropped(
+        classify::shownFields(volume, windowOf(source), source.wanted.look, &runner, progress),
+        source.wanted.crop);
 }
 
 class EngineMaker {
 public:
     EngineMaker(const EngineSource &source, const TakeEngine &take, const task::Progress &progress)
         : m_source(source), m_take(take), m_progress(progress),
-          m_scene(planningScene(source.volume, source.wanted)), m_window(windowOf(source)),
-          m_scale(shading::shadingScale(source.volume.lattice())),
-          m_runner(*source.steps, source.segments) {}
+          m_scene(planningScene(source.volume, source.wanted)),
+          m_scale(shading::shadingScale(source.volume.lattice())) {}
 
     void make(Detail first) {
         requireMemory();
         if (first == Detail::coarse && isLarge(m_source.volume))
             makeCoarse(coarseSide);
-        auto fields = fieldsOf(m_source.volume, m_progress.part(0.1, 0.3));
-        const plan::Budget budget = budgetFor(fields);
-        auto shaded = prepare::shadedFields(std::move(fields), m_scene.shading, m_scale,
-                                            m_progress.part(0.3, 0.35));
-        if (m_coarse)
-            addErrorOfCoarse(shaded);
-        m_take(
-            prepare::prepareEngine(m_scene, std::move(shaded), budget, m_progress.part(0.35, 1.0)),
-            Detail::full);
+        take(fieldsOf(m_source, m_source.volume, m_progress.part(0.1, 0.3)), Detail::full,
+             m_progress.part(0.3, 1.0));
     }
 
     // The steps of classes take no time on a small volume.
     void makeCoarse(int side) {
-        const auto fields = fieldsOf(classify::coarseVolume(m_source.volume, side), {});
-        const auto shaded = prepare::shadedFields(fields, m_scene.shading, m_scale);
-        m_coarse =
-            prepare::prepareEngine(m_scene, shaded, budgetFor(fields), m_progress.part(0.0, 0.1));
-        m_coarse->isCoarse = true;
-        m_take(*m_coarse, Detail::coarse);
-        m_coarseProjections = projectionsOf(shaded, m_progress);
+        take(fieldsOf(m_source, classify::coarseVolume(m_source.volume, side), {}), Detail::coarse,
+             m_progress.part(0.0, 0.1));
     }
 
 private:
@@ -97,40 +84,28 @@ private:
                               task::because::fieldsNeedMemory(needed >> 20));
     }
 
-    classify::ShownFields fieldsOf(const volume::Volume &volume, const task::Progress &progress) {
-        return classify::cropped(
-            classify::shownFields(volume, m_window, m_source.wanted.look, &m_runner, progress),
-            m_source.wanted.crop);
-    }
-
-    plan::Budget budgetFor(const classify::ShownFields &fields) const {
-        const std::size_t free = system::availableMemoryBytes(),
-                          light = prepare::bytesForLight(
-                              m_scene.shading, fields.channels.front().values.lattice().size(),
-                              fields.channels.size());
-        return {free > light ? free - light : 0};
-    }
-
-    // Meanwhile the coarse picture is on the screen.
-    void addErrorOfCoarse(const prepare::ShadedFields &shaded) {
-        m_coarse->detailLoss = std::make_shared<const accuracy::DetailLoss>(
-            projectionsOf(shaded, m_progress), m_coarseProjections, shaded.fields.size(),
-            m_scale.stepMm);
-        m_take(*m_coarse, Detail::coarse);
+    void take(classify::ShownFields fields, Detail detail, const task::Progress &progress) {
+        prepare::PreparedEngine engine = prepare::prepareEngine(
+            m_scene, std::move(fields), {system::availableMemoryBytes()}, progress, m_scale);
+        engine.isCoarse = detail == Detail::coarse;
+        engine.study = studyFields(m_source);
+        m_take(engine, detail);
     }
 
     const EngineSource &m_source;
     const TakeEngine &m_take;
     const task::Progress m_progress;
     const scene::Scene m_scene;
-    const classify::FieldWindow m_window;
     const shading::ShadingScale m_scale;
-    preprocess::ClassRunner m_runner;
-    std::optional<prepare::PreparedEngine> m_coarse;
-    accuracy::AxisProjections m_coarseProjections;
 };
 
 } // namespace
+
+prepare::StudyFields studyFields(const EngineSource &source) {
+    return [source](const task::Progress &progress) {
+        return fieldsOf(source, source.volume, progress);
+    };
+}
 
 void makeEngine(const EngineSource &source, Detail first, const TakeEngine &take,
                 const task::Progress &progress) {

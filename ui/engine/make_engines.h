@@ -18,13 +18,16 @@ struct EngineSource {
     std::shared_ptr<const segment::SegmentSet> segments; ///< of the volume; may be null
 };
 
+/// The fields of the look, which pictures of it are measured against.
+prepare::StudyFields studyFields(const EngineSource &source);
+
 /// Receives an engine, coarse or full, on the job's thread.
 using TakeEngine = std::function<void(const prepare::PreparedEngine &, prepare::Detail)>;
 /// The same for layers.
 using TakeLayers = std::function<void(const std::shared_ptr<prepare::LayerSet> &, prepare::Detail)>;
 
 /// Makes the engine of a look and passes it to `take`. If `first` is coarse, a large volume gets a
-/// coarse engine before that; `take` receives it at once and again when its error is known.
+/// coarse engine before that.
 /// *Throws* Error{outOfMemory}, Cancelled.
 void makeEngine(const EngineSource &source, prepare::Detail first, const TakeEngine &take,
                 const task::Progress &progress);

@@ -49,35 +49,51 @@ void RenderWorker::setEngine(const std::optional<prepare::PreparedEngine> &prepa
 std::uint64_t RenderWorker::request(const scene::Camera &camera,
                                     const scene::ImageDefinition &image,
                                     const shading::Shading &shading, const Reduction &reduction,
-                                    const std::optional<Exposed> &exposed, bool wantsError,
+                                    const std::optional<Exposed> &exposed,
                                     const std::optional<Compared> &compared) {
     const std::lock_guard lock(m_mutex);
     if (!m_prepared)
         return m_number;
-    m_next = Request{*m_prepared, m_onCard, m_generation, camera,   image,     shading,
-                     reduction,   exposed,  wantsError,   compared, ++m_number};
+    m_next = Request{*m_prepared, m_onCard,  m_generation, camera,   image,
+                     shading,     reduction, exposed,      compared, ++m_number};
     m_wake.notify_one();
     return m_number;
+}
+
+template <class Result>
+std::future<Result> RenderWorker::onThread(std::packaged_task<Result()> work) {
+    std::future<Result> result = work.get_future();
+    const std::lock_guard lock(m_mutex);
+    m_pictures.emplace_back([work = std::move(work)]() mutable { work(); });
+    m_wake.notify_one();
+    return result;
 }
 
 std::future<picture::ProjectionImage>
 RenderWorker::picture(std::shared_ptr<render::ProjectionEngine> engine, const scene::Camera &camera,
                       const scene::ImageDefinition &image, const shading::Shading &shading) {
-    const std::lock_guard lock(m_mutex);
-    m_pictures.emplace_back([engine = std::move(engine), camera, image, shading] {
-        if (!engine)
-            throw task::Error(task::ErrorCode::usage, task::because::noProjectionYet);
-        return engine->render(camera, image, shading);
-    });
-    m_wake.notify_one();
-    return m_pictures.back().get_future();
+    return onThread(std::packaged_task<picture::ProjectionImage()>(
+        [engine = std::move(engine), camera, image, shading] {
+            if (!engine)
+                throw task::Error(task::ErrorCode::usage, task::because::noProjectionYet);
+            return engine->render(camera, image, shading);
+        }));
+}
+
+std::future<picture::PeriodPicture>
+RenderWorker::period(std::shared_ptr<render::ProjectionEngine> engine, const scene::Camera &camera,
+                     const scene::ImageDefinition &image, const shading::Shading &shading) {
+    return onThread(std::packaged_task<picture::PeriodPicture()>(
+        [engine = std::move(engine), camera, image, shading] {
+            return engine->renderPeriod(camera, image, shading);
+        }));
 }
 
 void RenderWorker::run(const std::stop_token &stop) {
     for (;;) {
         std::optional<Request> request;
         bool dropsCard = false;
-        std::packaged_task<picture::ProjectionImage()> picture;
+        std::packaged_task<void()> picture;
         {
             std::unique_lock lock(m_mutex);
             if (!m_wake.wait(lock, stop,
@@ -125,7 +141,7 @@ void RenderWorker::makeFrame(const Request &request) {
         auto frame = frameFor(request);
         if (!request.onCard || !renderOnCard(frame, request))
             renderInto(*frame, request);
-        frame->orientation = request.camera.orientation;
+        frame->camera = request.camera;
         if (const auto &exposed = request.exposed) {
             frame->exposed = exposed->of;
             frame->exposure =
@@ -149,11 +165,6 @@ RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
         gpu::CardTimes times;
         frame->onCard =
             request.onCard->renderOnCard(request.camera, request.image, request.shading, &times);
-        // The loss of detail depends on the part that the picture shows.
-        const bool wantsError = request.wantsError && request.prepared.isCoarse;
-        if (wantsError)
-            frame->error = prepare::errorOf(request.prepared, frame->onCard->download(),
-                                            request.camera, request.image, request.shading);
         frame->times = {times.sliceMs, times.transformMs, times.widthShares};
         answer.frame = std::move(frame);
     } catch (const task::Error &error) {
@@ -221,9 +232,6 @@ bool RenderWorker::take(const CardFrame &answer, std::shared_ptr<RenderedFrame> 
 void RenderWorker::renderInto(RenderedFrame &frame, const Request &request) {
     frame.image = request.prepared.engine->render(request.camera, request.image, request.shading,
                                                   &frame.times);
-    if (request.wantsError)
-        frame.error = prepare::errorOf(request.prepared, frame.image, request.camera, request.image,
-                                       request.shading);
 }
 
 } // namespace pellucid::ui

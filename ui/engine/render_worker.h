@@ -32,12 +32,10 @@ struct RenderedFrame {
     /// The exposure of the study, if requested.
     std::optional<scene::Exposure> exposure;
     picture::ToneSubject exposed; ///< for which it was measured
-    glm::dquat orientation;       ///< of the camera
+    scene::Camera camera;         ///< whose picture it is: that of the request, reduced
     /// The same view of the compared look, if requested.
     std::optional<picture::ProjectionImage> compared;
     picture::FrameTimes times;
-    /// The error of this picture against the study, if requested and known.
-    std::optional<double> error;
     std::uint64_t number = 0; ///< of the request it answers
     bool draft = false;
 };
@@ -75,11 +73,9 @@ public:
         shading::Shading shading;
     };
     /// Requests a frame and returns the number of the request, which the frame will carry.
-    /// `wantsError`: computing the error takes longer than the frame; do not request it while the
-    /// view moves.
     std::uint64_t request(const scene::Camera &camera, const scene::ImageDefinition &image,
                           const shading::Shading &shading, const Reduction &reduction,
-                          const std::optional<Exposed> &exposed, bool wantsError,
+                          const std::optional<Exposed> &exposed,
                           const std::optional<Compared> &compared = {});
     /// Renders a single picture before the next frame, as engines render on this thread only. The
     /// future *throws* as rendering does, and std::future_error if the worker ends before.
@@ -87,6 +83,11 @@ public:
                                                   const scene::Camera &camera,
                                                   const scene::ImageDefinition &image,
                                                   const shading::Shading &shading);
+    /// The same for the whole period of a picture.
+    std::future<picture::PeriodPicture> period(std::shared_ptr<render::ProjectionEngine> engine,
+                                               const scene::Camera &camera,
+                                               const scene::ImageDefinition &image,
+                                               const shading::Shading &shading);
 
 signals:
     void frameReady(std::shared_ptr<const pellucid::ui::RenderedFrame> frame);
@@ -105,7 +106,6 @@ private:
         shading::Shading shading;
         Reduction reduction;
         std::optional<Exposed> exposed;
-        bool wantsError;
         std::optional<Compared> compared;
         std::uint64_t number;
     };
@@ -117,6 +117,8 @@ private:
         std::optional<task::Reason> refusal;
         bool isLost = false;
     };
+    /// Has the work done on the worker's thread, before the next frame.
+    template <class Result> std::future<Result> onThread(std::packaged_task<Result()> work);
     void run(const std::stop_token &stop);
     void makeFrame(const Request &request);
     std::shared_ptr<RenderedFrame> frameFor(const Request &request) const;
@@ -132,7 +134,7 @@ private:
     std::condition_variable_any m_wake;
     std::optional<Request> m_next, m_last;
     bool m_dropsCard = false; ///< the card's late frame belongs to a closed study
-    std::deque<std::packaged_task<picture::ProjectionImage()>> m_pictures;
+    std::deque<std::packaged_task<void()>> m_pictures;
     std::uint64_t m_number = 0;
     /// A frame that is slow on the card; meanwhile the processor renders.
     std::future<CardFrame> m_card;

@@ -12,8 +12,7 @@ namespace pellucid::ui {
 struct ShownEngine {
     prepare::PreparedEngine prepared;
     std::shared_ptr<gpu::GpuEngine> onCard;
-    double predictedError = 0.0; ///< of the engine in use
-    task::Reason reason;         ///< why that one is in use
+    task::Reason reason; ///< why that one is in use
 };
 
 } // namespace pellucid::ui

@@ -289,17 +289,13 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
     const bool coarse = stage == EngineStage::coarse;
     const plan::RenderPlan &plan = shown.prepared.plan;
     const auto &spectrum = plan.spectrum;
-    const bool missed = shown.predictedError > m_document.scene().tolerance;
+    const bool missed = plan.predictedError > m_document.scene().tolerance;
     // A coarse picture lacks detail of the study, which the plan does not include.
     const bool isCoarse = shown.prepared.isCoarse;
     const QString unknown = tr("not known yet");
-    const std::optional<double> error = prepare::errorAgainstStudy(
-        shown.prepared, shown.predictedError, m_document.scene().shading);
-    // A bound is known for each layer, but not for their sum.
-    const bool isBound = !isCoarse && shown.prepared.of != plan::SpectrumOf::layer;
-    m_error->setText(!error    ? unknown
-                     : isBound ? tr("at most %1").arg(percent(*error))
-                               : tr("about %1").arg(percent(*error)));
+    // Of a sum of layers no bound is known.
+    const auto bound = prepare::boundOf(shown.prepared, m_document.scene().image);
+    m_error->setText(bound ? tr("at most %1").arg(percent(bound->relative)) : unknown);
     m_largest->setText(isCoarse ? unknown : percent(plan.predictedMaximum));
     const volume::GridSize box = spectrum.box.size();
     const auto padding = [&](int d) {
@@ -371,6 +367,10 @@ void QualityPanel::showReason(const QString &text, bool isWarning) {
     m_reason->setText(text);
     m_reason->setProperty("role", isWarning ? "warning" : "muted");
     m_reason->style()->polish(m_reason); // the style sheet depends on the role
+}
+
+void QualityPanel::showError(const error::StatedError &measured) {
+    m_error->setText(tr("measured: %1").arg(percent(measured.relative)));
 }
 
 void QualityPanel::showFrame(const picture::FrameTimes &times, bool draft) {

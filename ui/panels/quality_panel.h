@@ -30,6 +30,7 @@ public:
     QWidget *corner();
     void showPlan(const ShownEngine &shown, EngineStage stage);
     void showFrame(const picture::FrameTimes &times, bool draft);
+    void showError(const error::StatedError &measured);
 
 signals:
     /// The current value was chosen again, for example to repeat a cancelled preparation.

@@ -165,6 +165,13 @@ bool ProjectionOverlay::isOnAngles(const QPointF &at) const {
            anglesRect(fontMetrics(), text).contains(at.toPoint());
 }
 
+bool ProjectionOverlay::isOnFigures(const QPointF &at) const {
+    const int width = fontMetrics().horizontalAdvance(m_texts.figures),
+              height = fontMetrics().height();
+    return !m_texts.figures.isEmpty() && m_overlays.texts &&
+           QRect(this->width() - 10 - width, 8, width, height).contains(at.toPoint());
+}
+
 // The pivot of turning.
 void ProjectionOverlay::paintCrosshair(QPainter &painter, const PaneMapping &mapping) const {
     constexpr double gap = 4.0, arm = 12.0;

@@ -37,6 +37,8 @@ public:
     std::optional<glm::dvec3> cubeSideAt(const QPointF &at) const;
     /// Whether a position is on the angles of the view, beside the cube.
     bool isOnAngles(const QPointF &at) const;
+    /// Whether a position is on the figures of the picture.
+    bool isOnFigures(const QPointF &at) const;
     /// Whether a position is on the mark of the warnings.
     bool isOnWarnings(const QPoint &at) const;
     bool isClickable(const QPointF &at) const { return isOnAngles(at) || cubeSideAt(at); }

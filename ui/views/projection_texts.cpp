@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/projection_texts.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <QCoreApplication>
 #include <QObject>
 #include <QRegularExpression>
@@ -15,13 +18,14 @@ struct ProjectionTexts {
     Q_DECLARE_TR_FUNCTIONS(ProjectionTexts)
 };
 
-// As many digits as are meaningful.
-QString errorText(double error) {
-    const double percent = 100.0 * error;
-    if (percent >= 100.0) // a view of almost empty space
-        return QObject::tr("error over 100 %");
-    return QObject::tr("error %1 %")
-        .arg(percent < 1.0 ? QString::number(percent, 'f', 3) : QString::number(percent, 'g', 2));
+// Two digits are meaningful.
+QString percentText(double share) {
+    const double percent = 100.0 * share;
+    if (percent >= 100.0)
+        return ProjectionTexts::tr("over 100 %");
+    const int decimals =
+        percent > 0.0 ? std::clamp(1 - int(std::floor(std::log10(percent))), 0, 6) : 0;
+    return ProjectionTexts::tr("%1 %").arg(QString::number(percent, 'f', decimals));
 }
 
 QString withError(const QString &stage, const QString &error) {
@@ -31,7 +35,8 @@ QString withError(const QString &stage, const QString &error) {
 QString qualityText(const DescribedFrame &described) {
     // The error belongs to the picture, which may still be that of the former engine. It is not
     // computed while the view moves.
-    const QString error = described.error       ? errorText(*described.error)
+    const QString error = described.error
+                              ? ProjectionTexts::tr("error %1").arg(errorFigure(*described.error))
                           : described.isPending ? QString()
                                                 : ProjectionTexts::tr("error not known yet");
     if (described.planState == PlanState::cancelled)
@@ -54,6 +59,25 @@ QString figuresText(const DescribedFrame &described) {
     return QString("%1  %2  %3")
         .arg(QString(frame.onCard ? "GPU" : "CPU"), millisecondsText(frame.times.totalMs()),
              frame.draft ? ProjectionTexts::tr("draft") : qualityText(described));
+}
+
+QString errorFigure(const error::StatedError &error) {
+    const QString figure = percentText(error.relative);
+    return error.isMeasured() ? ProjectionTexts::tr("%1 measured").arg(figure)
+                              : QString::fromUtf8("\xe2\x89\xa4 %1").arg(figure);
+}
+
+QString errorExplanation(const error::StatedError &error) {
+    if (!error.isMeasured())
+        return ProjectionTexts::tr("The picture differs from the exact one by at most this share "
+                                   "(relative L2). It is measured when the view rests.");
+    const QString interval =
+        ProjectionTexts::tr("%1 to %2").arg(percentText(error.low), percentText(error.high));
+    return ProjectionTexts::tr(
+               "The picture differs from the exact one by %1 (relative L2, between "
+               "%2), measured at %n frequencies, each summed exactly over the study.",
+               nullptr, error.frequencies)
+        .arg(percentText(error.relative), interval);
 }
 
 QString anglesText(const scene::PositionerAngles &angles) {

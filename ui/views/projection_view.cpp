@@ -25,6 +25,8 @@ constexpr double smoothFrameMs = 35.0;
 // The first frame also allocates its memory and may take three times as long as the next.
 constexpr double firstFrameFactor = 3.0;
 constexpr int restMs = 120;
+// A hand that rests for so long has come to look.
+constexpr int checkMs = 300;
 // With one kernel, or on the card, a frame costs as much as its pixels. Its pixels are then no
 // smaller than a quarter of a voxel, or 1/4096 of the volume's diameter if that is less: smaller
 // ones would show only the smoothness of the reconstruction.
@@ -47,6 +49,17 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
     m_rest.setSingleShot(true);
     m_rest.setInterval(restMs);
     connect(&m_rest, &QTimer::timeout, this, [this] { requestFrame(false); });
+    m_check.setSingleShot(true);
+    m_check.setInterval(checkMs);
+    connect(&m_check, &QTimer::timeout, this, &ProjectionView::measureError);
+    connect(&m_meter, &ErrorMeter::measured, this,
+            [this](std::uint64_t number, const error::StatedError &error) {
+                if (!m_frame || m_frame->number != number)
+                    return;
+                m_frameError = error;
+                showTexts();
+                emit errorMeasured(error);
+            });
     connect(&m_worker, &RenderWorker::frameReady, this, &ProjectionView::takeFrame);
     connect(&m_worker, &RenderWorker::failed, this, [this](const task::Reason &reason) {
         m_pending = false;
@@ -109,15 +122,13 @@ void ProjectionView::forgetVolume() {
 void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     if (m_prepared && m_prepared->engine == shown.prepared.engine && m_onCard == shown.onCard &&
         m_stage == stage && m_engineReason == shown.reason) {
-        // The same engine comes again when the error of its lacking detail is known: only that
-        // figure changes, and frames that are underway remain valid.
+        // The same engine comes again: frames that are underway remain valid.
         m_prepared = shown.prepared;
         m_worker.setEngine(shown.prepared, shown.onCard, m_generation);
         requestFrame(m_rest.isActive());
         return;
     }
     m_prepared = shown.prepared;
-    m_predictedError = shown.predictedError;
     m_message.clear();
     // Weights that move are meant to change the brightness. Other fields, and the full ones after
     // the coarse ones, have a brightness of their own.
@@ -177,6 +188,8 @@ void ProjectionView::retakeExposure() {
 
 void ProjectionView::setPlanState(PlanState state) {
     m_planState = state;
+    if (m_frame && !m_frame->draft && !m_pending)
+        m_check.start(); // a coarse picture may stay
     showTexts();
 }
 
@@ -250,8 +263,8 @@ void ProjectionView::showComparison() {
     const ShownLook &before = *m_comparison.before();
     try {
         const QImage now = picture();
-        const auto rgba = picture::compose(*m_frame->compared,
-                                           picture::displayOf(before.tone, m_frame->orientation));
+        const auto rgba = picture::compose(
+            *m_frame->compared, picture::displayOf(before.tone, m_frame->camera.orientation));
         const QImage then(rgba.data(), m_frame->compared->width, m_frame->compared->height,
                           QImage::Format_RGBA8888);
         m_overlay->setComparison(besideEachOther(then.scaled(now.size()), now), before.name);
@@ -262,6 +275,8 @@ void ProjectionView::showComparison() {
 }
 
 void ProjectionView::requestFrame(bool moving) {
+    m_check.stop();
+    m_meter.cancel();
     if (!m_prepared)
         return;
     const bool draft = moving && m_fullFrameMs > smoothFrameMs;
@@ -287,9 +302,8 @@ void ProjectionView::requestFrame(bool moving) {
     if (m_tone.isWanted())
         exposed = {lattice, m_document.scene().tone, picture::ToneSubject(m_document.scene()),
                    picture::backgroundOf(*m_document.volume())};
-    m_requested =
-        m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
-                         {.draft = draft, .finestPixelMm = finest}, exposed, !moving, compared);
+    m_requested = m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
+                                   {.draft = draft, .finestPixelMm = finest}, exposed, compared);
     if (moving)
         m_rest.start();
 }
@@ -322,8 +336,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
         }
     }
     m_frame = frame;
-    // A full frame from the card has only the plan's error.
-    m_frameError = frame->onCard && !m_prepared->isCoarse ? m_predictedError : frame->error;
+    m_frameError = prepare::boundOf(*m_prepared, m_document.scene().image);
     m_frameStage = m_stage;
     m_pending = m_rest.isActive() || frame->number != m_requested;
     if (!frame->draft) {
@@ -350,6 +363,25 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
         emit finalImageShown();
     }
     showComparison();
+    if (!frame->draft && !m_pending)
+        m_check.start();
+}
+
+// Not while the engine that follows is being prepared: the processor has enough to do.
+void ProjectionView::measureError() {
+    if (!m_frame || !m_prepared || !m_prepared->study || m_pending ||
+        m_planState == PlanState::underway)
+        return;
+    std::shared_ptr<render::ProjectionEngine> engine = m_prepared->engine;
+    if (m_frame->onCard && m_onCard)
+        engine = m_onCard;
+    shading::Shading shading = m_drawnShading;
+    if (!m_prepared->canBeLit)
+        shading.lights.clear();
+    const scene::ImageDefinition &image = m_document.scene().image;
+    m_meter.measure({m_worker.period(engine, m_frame->camera, image, shading), m_prepared->study,
+                     shading::shadingScale(m_document.volume()->lattice()), image, shading,
+                     m_frame->number});
 }
 
 scene::Tone ProjectionView::shownTone() const {
@@ -357,7 +389,7 @@ scene::Tone ProjectionView::shownTone() const {
 }
 
 picture::Display ProjectionView::shownDisplay() const {
-    return picture::displayOf(shownTone(), m_frame ? m_frame->orientation
+    return picture::displayOf(shownTone(), m_frame ? m_frame->camera.orientation
                                                    : m_document.scene().camera.orientation);
 }
 

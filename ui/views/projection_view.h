@@ -11,6 +11,7 @@
 #include "core/picture/automatic_tone.h"
 #include "core/task/reason.h"
 #include "ui/document/pose.h"
+#include "ui/engine/error_meter.h"
 #include "ui/engine/look_preparer.h"
 #include "ui/engine/render_worker.h"
 #include "ui/engine/shown_engine.h"
@@ -98,6 +99,8 @@ public:
     bool isFinal() const { return m_stage == EngineStage::full || m_stage == EngineStage::settled; }
     /// Whether the final image of what the scene asks for is on the screen.
     bool showsWhatIsAskedFor() const;
+    /// What is known of the error of the frame on the screen, against the study.
+    const std::optional<error::StatedError> &frameError() const { return m_frameError; }
     bool showsFinalImage() const { return m_frame && !m_frame->draft && isFinal() && !m_pending; }
 
 signals:
@@ -112,6 +115,8 @@ signals:
     /// The graphics card failed; the processor takes over.
     void cardFailed(const pellucid::task::Reason &reason,
                     const std::shared_ptr<pellucid::gpu::FramePasses> &passes);
+    /// The error of the picture on the screen has been measured, or measured better.
+    void errorMeasured(const pellucid::error::StatedError &error);
     /// A frame is on the screen. `times`: of rendering it.
     void frameShown(const pellucid::picture::FrameTimes &times, bool draft);
 
@@ -131,6 +136,7 @@ private:
     void forgetVolume();
     void requestFrame(bool moving);
     void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
+    void measureError();
     void updateTone();
     /// The pose that fits the body's shadow into the pane.
     Pose fittedToBody(const Pose &pose) const;
@@ -165,20 +171,22 @@ private:
     std::unique_ptr<ProjectionCanvas> m_canvas;
     ProjectionTools m_tools;
     ProjectionOverlay *m_overlay;
+    ErrorMeter m_meter; ///< outlives the worker, which makes its pictures
     RenderWorker m_worker;
     LookComparison m_comparison;
     QTimer m_rest;
+    QTimer m_check; ///< a picture rests: its error is measured
     std::optional<prepare::PreparedEngine> m_prepared;
     std::shared_ptr<gpu::GpuEngine> m_onCard;
     task::Reason m_engineReason = task::because::processorChosen; ///< of the shown engine
     /// The frame on the screen. A new engine has not made it yet.
     std::shared_ptr<const RenderedFrame> m_frame;
-    std::optional<double> m_frameError; ///< against the study, if known
+    std::optional<error::StatedError> m_frameError; ///< against the study, if known
     EngineStage m_frameStage = EngineStage::coarse;
     picture::AutomaticTone m_tone;
     QString m_message, m_lookName;
     shading::Shading m_drawnShading; ///< of the last requested frame
-    double m_predictedError = 0.0, m_fullFrameMs = 0.0;
+    double m_fullFrameMs = 0.0;
     bool m_isFirstFrame = true; ///< of its size, or of an engine
     EngineStage m_stage = EngineStage::coarse;
     bool m_orbitsCrosshair = false, m_turnsFreely = false;

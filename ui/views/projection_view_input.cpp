@@ -14,6 +14,7 @@
 #include "ui/language/shown_text.h"
 #include "ui/views/camera_moves.h"
 #include "ui/views/projection_overlay.h"
+#include "ui/views/projection_texts.h"
 #include "ui/views/projection_view.h"
 #include "ui/views/tools/text_field.h"
 #include "ui/views/view_keys.h"
@@ -156,6 +157,11 @@ bool ProjectionView::event(QEvent *event) {
                 help->globalPos(),
                 plainToolTip(warningLines(notes, Names::shown, notes.warnings.size()).join('\n')),
                 this);
+            return true;
+        }
+        if (m_frameError && m_overlay->isOnFigures(help->pos())) {
+            QToolTip::showText(help->globalPos(), plainToolTip(errorExplanation(*m_frameError)),
+                               this);
             return true;
         }
     }

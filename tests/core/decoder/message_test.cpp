@@ -42,8 +42,10 @@ concept IsA = std::same_as<std::remove_const_t<T>, Message>;
 // The fields of a message, in their order. A struct with more or fewer fields does not compile
 // here.
 auto fieldsOf(IsA<Rescale> auto &r) {
-    auto &[slope, intercept, isSlopeZero, isSlopeReadable, isInterceptReadable, isStated] = r;
-    return std::tie(slope, intercept, isSlopeZero, isSlopeReadable, isInterceptReadable, isStated);
+    auto &[slope, intercept, isSlopeZero, isSlopeReadable, isInterceptReadable, isSlopeStated,
+           isInterceptStated] = r;
+    return std::tie(slope, intercept, isSlopeZero, isSlopeReadable, isInterceptReadable,
+                    isSlopeStated, isInterceptStated);
 }
 auto fieldsOf(IsA<FrameHeader> auto &f) {
     auto &[positionMm, rowAxis, columnAxis, spacingMm, sliceThicknessMm, rescale, segment,

@@ -43,7 +43,7 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     std::array<plan::AxisError, 3> axes;
     for (int d = 0; d < 3; ++d)
         axes[d] = plan::axisError(kernel, layout.padded[d], energy.axis[d]);
-    const double predicted = plan::predictRelativeError(axes, storage, energy, {});
+    const double predicted = plan::predictRelativeError(axes, storage, energy, 1.0);
     const auto fieldOfView = plan::fieldOfViewOf(field.values.lattice(), field.support);
     EXPECT_LT(error, std::hypot(predicted, fieldOfView.aliasingLimit)) << predicted;
 
@@ -59,7 +59,7 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     const double cuedError =
         test::relativeL2(engine.render(camera, {}, {.cue = cue}).samples, exactCued);
     const double predictedCued = plan::predictRelativeError(
-        axes, storage, energy, {},
+        axes, storage, energy, 1.0,
         plan::cueWeight(cue, lattice, lattice.radiusMm(), layout, energy));
     EXPECT_LT(cuedError, std::hypot(predictedCued, fieldOfView.aliasingLimit)) << predictedCued;
 }

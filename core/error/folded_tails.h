@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/error/picture_slice.h"
+
+namespace pellucid::error {
+
+/// The energy, within the shown part of a picture, of what the grid of its slice folds back into
+/// it: the tails that the roll-off leaves beyond a period. The frequencies of the grid do not
+/// contain it. By stationary phase, at a distance of r pixels from a source in direction phi, the
+/// tail has the energy
+///   |A(phi)|^2 / (4 pi^2 r^3) g(F r),   g(x) = min(1, 1/(2 (x^2 - 1)^2)) beyond x = 1,
+/// per pixel, with A the slice in the roll-off in that direction, before the roll-off, in cycles
+/// per pixel. A is measured, so that a regular pattern, whose parts add up, has the tails that it
+/// has. The sources are where the picture has fine detail. *Units*: of the picture squared, times
+/// mm^2.
+double foldedTailEnergy(const picture::PeriodPicture &period, const PictureSlice &slice,
+                        double rollOff);
+
+} // namespace pellucid::error

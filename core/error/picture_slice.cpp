@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/error/picture_slice.h"
+
+#include <cstdlib>
+#include <numbers>
+
+#include "core/fourier/transforms/transform.h"
+#include "core/task/error.h"
+
+namespace pellucid::error {
+
+PictureSlice::PictureSlice(const picture::PeriodPicture &period)
+    : m_columns(period.image.width), m_rows(period.image.height), m_stride(m_columns / 2 + 1),
+      m_columnPerMm(1.0 / (m_columns * period.camera.pixelMm)),
+      m_rowPerMm(1.0 / (m_rows * period.camera.pixelMm)),
+      m_firstU(period.camera.panMm.x - 0.5 * (m_columns - 1) * period.camera.pixelMm),
+      m_firstV(period.camera.panMm.y + 0.5 * (m_rows - 1) * period.camera.pixelMm),
+      m_pixelArea(period.camera.pixelMm * period.camera.pixelMm) {
+    const auto channels = std::size_t(period.image.channels);
+    for (const float sample : period.image.samples)
+        m_wholeEnergy += m_pixelArea * double(sample) * double(sample);
+    task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
+        m_values.resize(channels);
+        for (std::size_t c = 0; c < channels; ++c) {
+            auto &values = m_values[c];
+            values.resize(std::size_t(m_rows) * std::size_t(m_stride));
+            for (int row = 0; row < m_rows; ++row) {
+                auto *const to = reinterpret_cast<double *>(
+                    values.data() + std::size_t(row) * std::size_t(m_stride));
+                const float *const from = period.image.samples.data() +
+                                          std::size_t(row) * std::size_t(m_columns) * channels + c;
+                for (int column = 0; column < m_columns; ++column)
+                    to[column] = double(from[std::size_t(column) * channels]);
+            }
+            fourier::forwardTransform3d(values.data(), {m_columns, m_rows, 1}, m_stride, m_rows);
+        }
+    });
+}
+
+std::complex<double> PictureSlice::phaseOf(int column, int row) const {
+    const double turns = m_columnPerMm * column * m_firstU - m_rowPerMm * row * m_firstV;
+    return std::polar(1.0, -2.0 * std::numbers::pi * turns);
+}
+
+double PictureSlice::energy(int column, int row) const {
+    const std::size_t at = indexOf(column, row % m_rows);
+    double energy = 0.0;
+    for (const auto &values : m_values)
+        energy += std::norm(values[at]);
+    return m_pixelArea * m_pixelArea * energy;
+}
+
+double PictureSlice::energyAround(int column, int row) const {
+    double sum = 0.0;
+    for (int r = -1; r <= 1; ++r)
+        for (int c = -1; c <= 1; ++c)
+            // Left of column 0 is the mirror image.
+            sum += column + c < 0 ? energy(-column - c, -row - r) : energy(column + c, row + r);
+    return sum / 9.0;
+}
+
+double PictureSlice::energyUnit() const {
+    return m_columnPerMm * m_rowPerMm;
+}
+
+double PictureSlice::energyInPart(const picture::PeriodPicture &period) {
+    const auto channels = std::size_t(period.image.channels);
+    double sum = 0.0;
+    for (int row = period.top; row < period.top + period.height; ++row) {
+        const float *const from =
+            period.image.samples.data() +
+            (std::size_t(row) * std::size_t(period.image.width) + std::size_t(period.left)) *
+                channels;
+        for (std::size_t n = 0; n < std::size_t(period.width) * channels; ++n)
+            sum += double(from[n]) * double(from[n]);
+    }
+    return sum * period.camera.pixelMm * period.camera.pixelMm;
+}
+
+double PictureSlice::errorInPart(int channel, const picture::PeriodPicture &period,
+                                 const std::function<void(const Set &)> &fill) const {
+    std::vector<std::complex<double>> errors = m_values[std::size_t(channel)];
+    fill([&](int column, int row, const std::complex<double> &exact) {
+        const std::complex<double> first = exact * std::conj(phaseOf(column, row)) / m_pixelArea;
+        errors[indexOf(column, row)] -= first;
+        if (column == 0 && row != 0) // the transform reads both halves of column 0
+            errors[indexOf(0, -row)] -= std::conj(first);
+    });
+    const auto columns = std::size_t(m_columns), rows = std::size_t(m_rows);
+    std::vector<double> pixels(rows * columns);
+    fourier::InverseTransform2d<double>(m_rows, m_columns).run(errors.data(), pixels.data());
+    double sum = 0.0;
+    for (int row = period.top; row < period.top + period.height; ++row)
+        for (int column = period.left; column < period.left + period.width; ++column) {
+            const double error = pixels[std::size_t(row) * columns + std::size_t(column)];
+            sum += error * error;
+        }
+    const double scale = 1.0 / (double(m_columns) * m_rows);
+    return sum * scale * scale * m_pixelArea;
+}
+
+} // namespace pellucid::error

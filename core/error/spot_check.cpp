@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/error/spot_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+
+#include "core/error/exact_frequencies.h"
+#include "core/error/folded_tails.h"
+#include "core/error/picture_slice.h"
+
+namespace pellucid::error {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+// Frequencies within so many steps of zero, and so many of the brightest, are always summed: in
+// small or smooth fields they have most of the energy, and of the error of rounding.
+constexpr double alwaysSteps = 3.0;
+constexpr std::size_t alwaysBrightest = 100;
+
+// The limits of the interval, in standard errors.
+constexpr double limits = 3.0;
+
+// A frequency of the half plane and its weight: 2 if its mirror image is another.
+struct Frequency {
+    int column = 0, row = 0;
+    double weight = 2.0;
+    double radius = 0.0; ///< 1 at the end of the band
+    double energy = 0.0; ///< of the picture
+    double chance = 0.0; ///< that a draw takes it
+};
+
+using Channels = std::array<Complex, 3>;
+
+struct Energies {
+    double error = 0.0, exact = 0.0, shown = 0.0;
+    Energies &operator+=(const Energies &other) {
+        error += other.error;
+        exact += other.exact;
+        shown += other.shown;
+        return *this;
+    }
+    friend Energies operator*(double factor, const Energies &e) {
+        return {factor * e.error, factor * e.exact, factor * e.shown};
+    }
+};
+
+// A picture and the slice that it was made from.
+struct Judged {
+    explicit Judged(const picture::PeriodPicture &of) : period(of), slice(of) {}
+    const picture::PeriodPicture &period;
+    PictureSlice slice;
+};
+
+// The frequencies of a view, and their exact values.
+struct Sums {
+    struct Term {
+        Frequency at;
+        Channels exact{};
+    };
+    bool isComplete = false;
+    std::vector<Term> always; ///< all of them, if complete
+    std::vector<Term> drawn;  ///< in pairs, each from a stratum of the same chance
+
+    int count() const { return int(always.size() + drawn.size()); }
+    StatedError errorOf(const Judged &picture, double rollOff) const;
+};
+
+class Sampler {
+public:
+    Sampler(const Judged &judged, const scene::ImageDefinition &image, const ShownRows &rows,
+            const CheckEffort &effort)
+        : m_judged(judged), m_image(image), m_rows(rows), m_effort(effort), m_random(effort.seed) {}
+
+    void run(Sums &sums, const task::Progress &progress,
+             const std::function<void(const StatedError &)> &refined) {
+        std::vector<Frequency> all = frequenciesOfBand();
+        const double perFrequency = double(m_rows.box().size().count()) * m_rows.images();
+        sums.isComplete = double(all.size()) * perFrequency <= m_effort.complete ||
+                          all.size() <= std::size_t(m_effort.most);
+        if (!sums.isComplete)
+            divide(all);
+        add(all, sums.always, progress.part(0.0, sums.isComplete ? 1.0 : 0.1));
+        if (sums.isComplete)
+            return;
+        for (int done = 0, count = m_effort.first;; done = count, count *= 2) {
+            count = std::min(count, m_effort.most);
+            add(draw((count - done) / 2), sums.drawn,
+                progress.part(0.1 + 0.9 * done / m_effort.most, 0.1 + 0.9 * count / m_effort.most));
+            const StatedError error = sums.errorOf(m_judged, m_image.rollOff);
+            if (count == m_effort.most || error.high <= (1.0 + m_effort.within) * error.relative)
+                return;
+            if (refined)
+                refined(error);
+        }
+    }
+
+private:
+    std::vector<Frequency> frequenciesOfBand() const {
+        const PictureSlice &slice = m_judged.slice;
+        std::vector<Frequency> all;
+        slice.forEach([&](int column, int row, double weight, double radius) {
+            if (radius < 1.0)
+                all.push_back({column, row, weight, radius, slice.energy(column, row)});
+        });
+        return all;
+    }
+
+    // Leaves those that are always summed in `all`, and keeps the others to draw from.
+    void divide(std::vector<Frequency> &all) {
+        const auto isNear = [&](const Frequency &f) {
+            return std::hypot(f.column, f.row) <= alwaysSteps;
+        };
+        const auto rest = std::stable_partition(all.begin(), all.end(), isNear);
+        const auto bright =
+            rest + std::ptrdiff_t(std::min(std::size_t(all.end() - rest), alwaysBrightest));
+        std::nth_element(rest, bright, all.end(), [](const Frequency &a, const Frequency &b) {
+            return a.energy > b.energy;
+        });
+        m_others.assign(bright, all.end());
+        all.erase(bright, all.end());
+        std::sort(m_others.begin(), m_others.end(), [](const Frequency &a, const Frequency &b) {
+            return std::tie(a.radius, a.row, a.column) < std::tie(b.radius, b.row, b.column);
+        });
+        double around = 0.0;
+        for (Frequency &f : m_others)
+            around += f.chance = m_judged.slice.energyAround(f.column, f.row);
+        const double even = 1.0 / double(m_others.size());
+        for (Frequency &f : m_others)
+            f.chance = 0.5 * even + 0.5 * (around > 0.0 ? f.chance / around : even);
+    }
+
+    std::vector<Frequency> draw(int pairs) {
+        std::uniform_real_distribution<double> even;
+        std::vector<double> places;
+        for (int pair = 0; pair < pairs; ++pair) {
+            const double a = (pair + even(m_random)) / pairs, b = (pair + even(m_random)) / pairs;
+            places.push_back(std::min(a, b));
+            places.push_back(std::max(a, b));
+        }
+        std::vector<Frequency> taken;
+        double passed = 0.0;
+        std::size_t next = 0;
+        for (const double place : places) {
+            while (next + 1 < m_others.size() && passed + m_others[next].chance <= place)
+                passed += m_others[next++].chance;
+            taken.push_back(m_others[next]);
+        }
+        return taken;
+    }
+
+    // P of the samples, by channel.
+    void add(const std::vector<Frequency> &frequencies, std::vector<Sums::Term> &terms,
+             const task::Progress &progress) const {
+        const PictureSlice &slice = m_judged.slice;
+        const glm::dmat3 axes = m_judged.period.camera.axes();
+        const volume::Lattice &lattice = m_rows.lattice();
+        std::vector<glm::dvec3> at;
+        for (const Frequency &f : frequencies)
+            at.push_back(slice.columnPerMm() * f.column * axes[0] -
+                         slice.rowPerMm() * f.row * axes[1]);
+        const auto sums = exactFrequencies(m_rows, at, progress);
+        for (std::size_t n = 0; n < frequencies.size(); ++n) {
+            double factor = scene::rollOffFactor(m_image.rollOff, frequencies[n].radius) *
+                            scene::detailFactor(m_image, glm::length(at[n]));
+            for (int d = 0; d < 3; ++d)
+                factor *= scene::reconstructionFactor(m_image, glm::dot(lattice.step(d), at[n]));
+            Sums::Term term{frequencies[n], {}};
+            for (std::size_t image = 0; image < sums.size(); ++image)
+                for (int c = 0; c < slice.channels(); ++c)
+                    term.exact[std::size_t(c)] +=
+                        factor * m_rows.share(int(image), c) * sums[image][n];
+            terms.push_back(term);
+        }
+    }
+
+    const Judged &m_judged;
+    const scene::ImageDefinition &m_image;
+    const ShownRows &m_rows;
+    const CheckEffort &m_effort;
+    std::mt19937 m_random;
+    std::vector<Frequency> m_others;
+};
+
+Energies energiesOf(const PictureSlice &slice, const Sums::Term &term) {
+    Energies energies;
+    for (int c = 0; c < slice.channels(); ++c) {
+        const Complex shown = slice.value(c, term.at.column, term.at.row),
+                      truth = term.exact[std::size_t(c)];
+        energies += {std::norm(shown - truth), std::norm(truth), std::norm(shown)};
+    }
+    return energies;
+}
+
+StatedError Sums::errorOf(const Judged &picture, double rollOff) const {
+    const PictureSlice &slice = picture.slice;
+    Energies all;
+    double whole = 0.0;
+    slice.forEach([&](int column, int row, double weight, double radius) {
+        // Beyond the band, everything is an error.
+        (radius < 1.0 ? whole : all.error) += weight * slice.energy(column, row);
+    });
+    for (const Term &term : always)
+        all += term.at.weight * energiesOf(slice, term);
+    Energies sum;
+    double variance = 0.0;
+    for (std::size_t n = 0; n + 1 < drawn.size(); n += 2) {
+        const auto weighted = [&](const Term &term) {
+            return term.at.weight / term.at.chance * energiesOf(slice, term);
+        };
+        const Energies a = weighted(drawn[n]), b = weighted(drawn[n + 1]);
+        sum += a;
+        sum += b;
+        // The sum of a pair has this variance.
+        variance += (a.error - b.error) * (a.error - b.error);
+    }
+    double error = 0.0, low = 0.0, high = 0.0; // energies in the part that is shown
+    if (isComplete) {
+        // Where every frequency is known, so is the error of every pixel.
+        for (int c = 0; c < slice.channels(); ++c)
+            error += slice.errorInPart(c, picture.period, [&](const auto &set) {
+                for (const Term &term : always)
+                    set(term.at.column, term.at.row, term.exact[std::size_t(c)]);
+            });
+        low = high = error;
+    } else {
+        const double draws = std::max(1.0, double(drawn.size()));
+        all += (1.0 / draws) * sum;
+        // Sums of a few large terms are skewed: their logarithm is nearly normal.
+        const double share = all.error > 0.0 ? std::sqrt(variance) / draws / all.error : 0.0,
+                     width = std::exp(limits * std::sqrt(std::log1p(share * share)));
+        error = slice.energyUnit() * all.error;
+        // A part of the error may lie beside the part that is shown, within the period: no more
+        // than is there.
+        low = std::max(0.0, error / width -
+                                (slice.wholeEnergy() - PictureSlice::energyInPart(picture.period)));
+        high = error * width;
+    }
+    // What folds back is no error of a frequency. Two waves make a tail: together they have at most
+    // twice the energy of both.
+    const double folded = foldedTailEnergy(picture.period, slice, rollOff);
+    // The picture of the period is rounded otherwise than the shown one: a transform in float has
+    // an error of at most 2^-24 a step.
+    const double rounding = std::ldexp(std::log2(double(slice.columns()) * slice.rows()), -24) *
+                            std::sqrt(slice.wholeEnergy());
+    const double most = std::sqrt(2.0 * folded) + rounding;
+    // The energy of the truth is that of the picture, corrected by the frequencies.
+    const double shown = PictureSlice::energyInPart(picture.period) *
+                         (whole > 0.0 ? std::max(whole + all.exact - all.shown, 0.0) / whole : 1.0);
+    const auto relative = [&](double energy) {
+        return energy > 0.0 ? std::sqrt(energy / std::max(shown, 1e-6 * energy)) : 0.0;
+    };
+    // Whether the two add up or cancel is not known.
+    const double least = std::max(0.0, std::sqrt(low) - most), greatest = std::sqrt(high) + most;
+    return {relative(error + folded), StatedError::Kind::measured, relative(least * least),
+            relative(greatest * greatest), count()};
+}
+
+} // namespace
+
+StatedError spotCheck(const picture::PeriodPicture &period, const scene::ImageDefinition &image,
+                      const ShownRows &rows, const CheckEffort &effort,
+                      const task::Progress &progress,
+                      const std::function<void(const StatedError &)> &refined) {
+    const Judged judged(period);
+    Sums sums;
+    Sampler(judged, image, rows, effort).run(sums, progress, refined);
+    return sums.errorOf(judged, image.rollOff);
+}
+
+} // namespace pellucid::error

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace pellucid::error {
+
+/// What is said about the error of a picture: its relative L2 error, |picture - truth|/|truth|.
+struct StatedError {
+    enum class Kind {
+        bound,   ///< the error is at most this, derived before the picture is made
+        measured ///< found by exact sums over the samples, with an interval
+    };
+    double relative = 0.0;
+    Kind kind = Kind::bound;
+    /// Of a measurement: the error is in between with 98 % confidence. Of a bound: from 0 on.
+    double low = 0.0, high = 0.0;
+    int frequencies = 0; ///< that were summed for a measurement
+
+    static StatedError atMost(double bound) { return {.relative = bound, .high = bound}; }
+    bool isMeasured() const { return kind == Kind::measured; }
+    bool operator==(const StatedError &) const = default;
+};
+
+} // namespace pellucid::error

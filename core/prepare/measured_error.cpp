@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/prepare/measured_error.h"
+
+#include <array>
+#include <vector>
+
+namespace pellucid::prepare {
+
+error::StatedError measuredError(const StudyFields &study, const shading::ShadingScale &scale,
+                                 const picture::PeriodPicture &period,
+                                 const scene::ImageDefinition &image,
+                                 const shading::Shading &shading, const error::CheckEffort &effort,
+                                 const task::Progress &progress,
+                                 const std::function<void(const error::StatedError &)> &refined) {
+    const classify::ShownFields fields = study(progress);
+    std::vector<std::array<double, 3>> weights;
+    for (std::size_t n = 0; n < fields.channels.size(); ++n) {
+        const classify::Color &color = fields.colors[n];
+        weights.push_back({color.red, color.green, color.blue});
+    }
+    const error::ShownRows rows(fields.channels, weights, shading, period.camera.axes(), scale);
+    return error::spotCheck(period, image, rows, effort, progress, refined);
+}
+
+error::StatedError measuredError(render::ProjectionEngine &engine,
+                                 const classify::ShownFields &study, const scene::Camera &camera,
+                                 const scene::ImageDefinition &image,
+                                 const shading::Shading &shading, const error::CheckEffort &effort,
+                                 const task::Progress &progress) {
+    return measuredError([&](const task::Progress &) { return study; },
+                         shading::shadingScale(study.channels.front().values.lattice()),
+                         engine.renderPeriod(camera, image, shading), image, shading, effort,
+                         progress);
+}
+
+} // namespace pellucid::prepare

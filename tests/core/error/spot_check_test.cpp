@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is measured of a picture's error, against its error by the double-precision reference.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "core/error/checked_pictures.h"
+#include "core/error/shown_part.h"
+#include "core/prepare/prepared_engine.h"
+#include "core/reference/wide_kernel.h"
+#include "core/scene/planning_scene.h"
+#include "tests/support/fields.h"
+
+namespace pellucid {
+
+namespace {
+
+using FieldValue = std::function<float(const glm::dvec3 &)>; // of a place in -1..1
+
+struct Kind {
+    const char *name;
+    FieldValue value;
+};
+
+// Fields that are hard to project, or to judge.
+const std::vector<Kind> kinds{
+    {"smooth", [](const glm::dvec3 &x) { return float(std::exp(-4.0 * glm::dot(x, x))); }},
+    {"two corners",
+     [](const glm::dvec3 &x) {
+         return std::min({x.x, x.y, x.z}) > 0.9 || std::max({x.x, x.y, x.z}) < -0.9 ? 1.0F : 0.0F;
+     }},
+    {"oblique sheet",
+     [](const glm::dvec3 &x) {
+         return std::abs(x.x + 0.37 * x.y - 0.61 * x.z) < 0.03 ? 1.0F : 0.0F;
+     }},
+    {"two faces", [](const glm::dvec3 &x) { return std::abs(x.z) > 0.99 ? 1.0F : 0.0F; }},
+    {"rod", [](const glm::dvec3 &x) { return std::hypot(x.x, x.y - 0.3) < 0.05 ? 1.0F : 0.0F; }},
+    {"wave",
+     [](const glm::dvec3 &x) {
+         return float(0.5 + 0.5 * std::sin(glm::dot(x, glm::dvec3(40.0, 11.0, 23.0))));
+     }},
+    {"shell", [](const glm::dvec3 &x) {
+         const double r = glm::length(x);
+         return r > 0.7 && r < 0.76 ? 1.0F : 0.0F;
+     }}};
+
+classify::DensityField fieldOf(const volume::Lattice &lattice, const FieldValue &value) {
+    const glm::dvec3 half(0.5 * (lattice.size().i - 1), 0.5 * (lattice.size().j - 1),
+                          0.5 * (lattice.size().k - 1));
+    return classify::fieldOf(test::volumeOf(lattice, [&](const glm::dvec3 &mm) {
+        return value((lattice.voxel({mm}).v - half) / half);
+    }));
+}
+
+scene::Scene sceneOf(const volume::Lattice &lattice, double tolerance) {
+    scene::Scene scene;
+    scene.tolerance = tolerance;
+    scene.camera = scene::defaultCamera(lattice);
+    return scene;
+}
+
+// A picture of a field, its error, and the engine that made it.
+class Checked {
+public:
+    Checked(const classify::DensityField &field, const scene::Scene &scene)
+        : m_fields{{field}, {}}, m_scene(scene),
+          m_engine(prepare::prepareEngine(scene::planningScene(scene, field.values.lattice()),
+                                          m_fields, {})
+                       .engine),
+          truth(test::relativeL2(m_engine->render(scene.camera, scene.image).samples,
+                                 reference::WideKernel(field.values, field.support)
+                                     .image(scene.camera, scene.image))) {}
+    error::StatedError stated(const error::CheckEffort &effort = {}) const {
+        return prepare::measuredError(*m_engine, m_fields, m_scene.camera, m_scene.image, {},
+                                      effort);
+    }
+
+private:
+    classify::ShownFields m_fields;
+    scene::Scene m_scene;
+    std::shared_ptr<render::ProjectionEngine> m_engine;
+
+public:
+    const double truth;
+};
+
+} // namespace
+
+// Where every frequency is summed, the measurement is the error, but for what folds back.
+TEST(SpotCheck, MeasuresTheErrorOfHardFields) {
+    const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
+    for (const Kind &kind : kinds) {
+        const auto field = fieldOf(lattice, kind.value);
+        for (const double tolerance : {1e-2, 1.1e-3, 1e-4})
+            for (const glm::dvec3 &turn : {glm::dvec3(20, 30, 40), {0, 45, 0}}) {
+                scene::Scene scene = sceneOf(lattice, tolerance);
+                scene.camera.orientation =
+                    scene::viewOrientation(scene::StandardView::front, {turn.x, turn.y, turn.z});
+                const Checked one(field, scene);
+                const error::StatedError stated = one.stated({.complete = 1e12});
+                EXPECT_LE(stated.low, 1.001 * one.truth) << kind.name << " " << tolerance;
+                EXPECT_GE(1.1 * stated.high, one.truth) << kind.name << " " << tolerance;
+                EXPECT_TRUE(stated.isMeasured());
+            }
+    }
+}
+
+// Samples of the frequencies: the error is within the interval, but for the part of it that lies
+// beside the picture; and the same seed finds the same.
+TEST(SpotCheck, ItsSampleFindsTheErrorOfAllFrequencies) {
+    const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
+    int outside = 0, all = 0;
+    for (const Kind &kind : kinds) {
+        const auto field = fieldOf(lattice, kind.value);
+        const Checked one(field, sceneOf(lattice, 1.1e-3));
+        for (unsigned seed = 1; seed <= 10; ++seed, ++all) {
+            const error::CheckEffort effort{.most = 512, .complete = 0.0, .seed = seed};
+            const error::StatedError stated = one.stated(effort);
+            const bool isOutside = one.truth > stated.high || one.truth < stated.low;
+            outside += isOutside ? 1 : 0;
+            EXPECT_LE(one.truth, 1.1 * stated.high) << kind.name << " " << seed;
+            EXPECT_LE(stated.frequencies, 512 + 150);
+            if (seed == 1) {
+                EXPECT_EQ(one.stated(effort), stated);
+            }
+        }
+    }
+    EXPECT_LE(outside, all / 20);
+}
+
+// A picture that something has spoilt says so.
+TEST(SpotCheck, FindsWhatHasSpoiltAPicture) {
+    const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
+    const auto field = fieldOf(lattice, kinds.front().value);
+    const scene::Scene scene = sceneOf(lattice, 1.1e-3);
+    const auto engine =
+        prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {}).engine;
+    const picture::PeriodPicture whole = engine->renderPeriod(scene.camera, scene.image);
+    const auto measured = [&](const std::function<void(picture::Samples &)> &spoil) {
+        picture::PeriodPicture spoilt = whole;
+        spoil(spoilt.image.samples);
+        double change = 0.0, energy = 0.0;
+        for (std::size_t n = 0; n < spoilt.image.samples.size(); ++n) {
+            change += std::pow(double(spoilt.image.samples[n] - whole.image.samples[n]), 2);
+            energy += std::pow(double(whole.image.samples[n]), 2);
+        }
+        const auto error = prepare::measuredError(
+            [&](const task::Progress &) {
+                return classify::ShownFields{{field}, {}};
+            },
+            shading::shadingScale(lattice), spoilt, scene.image, {});
+        return std::pair(error.relative, std::sqrt(change / energy));
+    };
+    const int width = whole.image.width;
+    const std::vector<std::function<void(picture::Samples &)>> faults{
+        [&](picture::Samples &s) { // a row of the transform
+            for (int x = 0; x < width; ++x)
+                s[std::size_t(whole.image.height / 2) * std::size_t(width) + std::size_t(x)] *=
+                    1.5F;
+        },
+        [](picture::Samples &s) { // a card that returns noise
+            std::mt19937 random(1);
+            std::normal_distribution<float> noise(0.0F, 5.0F);
+            for (float &sample : s)
+                sample += noise(random);
+        },
+        [&](picture::Samples &s) { // a pixel with a flipped bit
+            s[s.size() / 2 + std::size_t(width / 2 + 1)] *= 4.0F;
+        },
+        [&](picture::Samples &s) { // moved by a pixel
+            std::rotate(s.begin(), s.begin() + 1, s.end());
+        }};
+    for (const auto &fault : faults) {
+        const auto [found, made] = measured(fault);
+        EXPECT_GT(made, scene.tolerance);
+        EXPECT_NEAR(found, made, 0.3 * made);
+    }
+}
+
+// A coarse picture is measured against the study.
+TEST(SpotCheck, MeasuresWhatACoarsePictureLacks) {
+    const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1}),
+               coarse = volume::Lattice::centred({20, 20, 20}, {2, 2, 2});
+    const auto field = fieldOf(lattice, kinds.back().value),
+               less = fieldOf(coarse, kinds.back().value);
+    const scene::Scene scene = sceneOf(lattice, 1.1e-3);
+    const auto engine = prepare::prepareEngine(scene, classify::ShownFields{{less}, {}}, {}).engine;
+    const auto exact =
+        reference::WideKernel(field.values, field.support).image(scene.camera, scene.image);
+    const double truth = test::relativeL2(engine->render(scene.camera, scene.image).samples, exact);
+    const auto stated = prepare::measuredError(*engine, {{field}, {}}, scene.camera, scene.image);
+    EXPECT_GT(truth, 0.01);
+    EXPECT_NEAR(stated.relative, truth, 0.1 * truth);
+}
+
+TEST(SpotCheck, OfAnEmptyPictureIsZero) {
+    const auto lattice = volume::Lattice::centred({12, 12, 12}, {1, 1, 1});
+    const auto field = fieldOf(lattice, [](const glm::dvec3 &) { return 0.0F; });
+    const error::StatedError stated = Checked(field, sceneOf(lattice, 1.1e-3)).stated();
+    EXPECT_EQ(stated.relative, 0.0);
+    EXPECT_EQ(stated.high, 0.0);
+}
+
+TEST(CheckedPictures, AreTheFirstTheLastAndSixOthers) {
+    using error::CheckedPictures;
+    for (const std::size_t count : {1, 2, 8, 9, 10, 36, 361}) {
+        std::size_t checked = 0;
+        for (std::size_t n = 0; n < count; ++n) {
+            checked += error::isChecked(CheckedPictures::rest, n, count) ? 1 : 0;
+            EXPECT_TRUE(error::isChecked(CheckedPictures::all, n, count));
+            EXPECT_FALSE(error::isChecked(CheckedPictures::none, n, count));
+        }
+        EXPECT_EQ(checked, std::min<std::size_t>(count, 8));
+        EXPECT_TRUE(error::isChecked(CheckedPictures::rest, 0, count));
+        EXPECT_TRUE(error::isChecked(CheckedPictures::rest, count - 1, count));
+    }
+}
+
+TEST(ShownPart, EndsWhereACornerIsBesideThePicture) {
+    const auto lattice = volume::Lattice::centred({10, 10, 10}, {1, 1, 1});
+    scene::Camera camera = scene::defaultCamera(lattice);
+    EXPECT_TRUE(error::showsAllOf(lattice.bounds(), lattice, camera));
+    camera.panMm.x += 0.5 * camera.width * camera.pixelMm;
+    EXPECT_FALSE(error::showsAllOf(lattice.bounds(), lattice, camera));
+}
+
+} // namespace pellucid
