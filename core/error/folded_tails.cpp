@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/image_definition.h"
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 namespace pellucid::error {
 
@@ -90,42 +91,102 @@ std::vector<Source> sourcesOf(const picture::PeriodPicture &period) {
     return sources;
 }
 
-double tailAt(double r, double rollOff) {
-    const double x = rollOff * r, beyond = x * x - 1.0,
-                 fade = x > 1.0 ? std::min(1.0, 0.5 / (beyond * beyond)) : 1.0;
-    return fade / (4.0 * std::numbers::pi * std::numbers::pi * r * r * r);
+double fade(double x) {
+    const double beyond = x * x - 1.0;
+    return x > 1.0 ? std::min(1.0, 0.5 / (beyond * beyond)) : 1.0;
+}
+
+// The band of the lattice along one of its axes, as a picture shows it.
+struct LatticeBand {
+    glm::dvec2 along{0.0};     ///< the projected axis, of length 1; y downward
+    double samplePixels = 0.0; ///< the length of its projected step
+    double energy = 0.0;       ///< |A|^2 in the roll-off, summed across
+};
+
+std::vector<LatticeBand> latticeBands(const picture::PeriodPicture &period,
+                                      const PictureSlice &slice,
+                                      const scene::ImageDefinition &image,
+                                      const volume::Lattice &lattice) {
+    std::vector<LatticeBand> bands;
+    if (image.reconstruction != scene::Reconstruction::bandLimited)
+        return bands;
+    const glm::dmat3 axes = period.camera.axes();
+    const double pixel = period.camera.pixelMm;
+    for (int d = 0; d < 3; ++d) {
+        const glm::dvec2 step(glm::dot(lattice.step(d), axes[0]) / pixel,
+                              -glm::dot(lattice.step(d), axes[1]) / pixel);
+        LatticeBand band{glm::normalize(step), glm::length(step), 0.0};
+        if (band.samplePixels <= 1.0)
+            continue; // its band ends beyond that of the picture
+        // As for the disc, the half of the roll-off that reduces little, and as much before it.
+        const double first = 1.0 - 1.5 * image.rollOff, last = 1.0 - 0.5 * image.rollOff;
+        slice.forEach([&](int column, int row, double weight, double radius) {
+            const double turns = step.x * column / slice.columns() + step.y * row / slice.rows(),
+                         q = 2.0 * std::abs(turns);
+            if (radius >= 1.0 - image.rollOff || q < first || q > last)
+                return;
+            const double factor = scene::rollOffFactor(image.rollOff, q);
+            band.energy += weight * slice.energy(column, row) / (factor * factor);
+        });
+        // From the sum over the grid to the integral across, at one frequency along.
+        const double width = (last - first) * 0.5 / band.samplePixels;
+        band.energy /= width * double(slice.columns()) * slice.rows();
+        bands.push_back(band);
+    }
+    return bands;
 }
 
 } // namespace
 
-double foldedTailEnergy(const picture::PeriodPicture &period, const PictureSlice &slice,
-                        double rollOff) {
-    const auto edge = edgeEnergies(slice, rollOff);
+FoldedTails foldedTails(const picture::PeriodPicture &period, const PictureSlice &slice,
+                        const scene::ImageDefinition &image, const volume::Lattice &lattice) {
+    const auto edge = edgeEnergies(slice, image.rollOff);
+    const auto bands = latticeBands(period, slice, image, lattice);
     const auto sources = sourcesOf(period);
-    const int columns = period.image.width, rows = period.image.height;
-    const double area = double(period.width) * period.height / (double(side) * side);
-    double sum = 0.0;
-    for (int copyRow = -1; copyRow <= 1; ++copyRow)
-        for (int copyColumn = -1; copyColumn <= 1; ++copyColumn) {
-            if (copyRow == 0 && copyColumn == 0)
-                continue;
-            for (int row = 0; row < side; ++row)
-                for (int column = 0; column < side; ++column) {
-                    const double x = period.left + (column + 0.5) * period.width / side +
-                                     copyColumn * columns,
-                                 y = period.top + (row + 0.5) * period.height / side +
-                                     copyRow * rows;
-                    for (const Source &source : sources) {
-                        const double u = x - source.x, v = y - source.y,
-                                     r = std::max(1.0, std::hypot(u, v));
-                        sum += source.share * area * edge[std::size_t(directionOf(u, v))] *
-                               tailAt(r, rollOff);
-                    }
+    const double width = double(period.width) / side, height = double(period.height) / side;
+    // Of a copy of the sources, in a block of the picture, whose middle is at this place.
+    const auto tailsAt = [&](double x, double y) {
+        double sum = 0.0;
+        for (const Source &source : sources) {
+            const glm::dvec2 away(x - source.x, y - source.y);
+            const double r = std::max(1.0, glm::length(away));
+            double tail = edge[std::size_t(directionOf(away.x, away.y))] * fade(image.rollOff * r) /
+                          (4.0 * std::numbers::pi * std::numbers::pi * r * r * r);
+            for (const LatticeBand &band : bands) {
+                const double along = std::max(1.0, std::abs(glm::dot(away, band.along))),
+                             across = std::abs(away.x * band.along.y - away.y * band.along.x),
+                             half = 0.5 * (width * std::abs(band.along.y) +
+                                           height * std::abs(band.along.x) + 1.0);
+                if (across < half)
+                    tail += band.energy * fade(image.rollOff * along / band.samplePixels) /
+                            (4.0 * std::numbers::pi * std::numbers::pi * along * along) /
+                            (2.0 * half);
+            }
+            sum += source.share * tail;
+        }
+        return sum * width * height;
+    };
+    FoldedTails tails;
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            double amplitudes = 0.0;
+            for (int down = -1; down <= 1; ++down)
+                for (int across = -1; across <= 1; ++across) {
+                    if (down == 0 && across == 0)
+                        continue;
+                    const double energy =
+                        tailsAt(period.left + (column + 0.5) * width + across * period.image.width,
+                                period.top + (row + 0.5) * height + down * period.image.height);
+                    tails.expected += energy;
+                    amplitudes += std::sqrt(energy);
                 }
+            tails.most += 2.0 * amplitudes * amplitudes;
         }
     // |P|^2 is in units of the picture squared times mm^4, of a pixel's area squared.
     const double pixel = period.camera.pixelMm;
-    return sum / (pixel * pixel);
+    tails.expected /= pixel * pixel;
+    tails.most /= pixel * pixel;
+    return tails;
 }
 
 } // namespace pellucid::error

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "core/error/picture_slice.h"
+#include "core/scene/image_definition.h"
+#include "core/volume/lattice.h"
 
 namespace pellucid::error {
 
@@ -12,9 +14,15 @@ namespace pellucid::error {
 ///   |A(phi)|^2 / (4 pi^2 r^3) g(F r),   g(x) = min(1, 1/(2 (x^2 - 1)^2)) beyond x = 1,
 /// per pixel, with A the slice in the roll-off in that direction, before the roll-off, in cycles
 /// per pixel. A is measured, so that a regular pattern, whose parts add up, has the tails that it
-/// has. The sources are where the picture has fine detail. *Units*: of the picture squared, times
-/// mm^2.
-double foldedTailEnergy(const picture::PeriodPicture &period, const PictureSlice &slice,
-                        double rollOff);
+/// has. Band-limited reconstruction ends at the lattice's own band along each axis, whose tails
+/// stay in a line along the projected axis: the energy |A|^2/(4 pi^2 r^2) g, summed across, per
+/// pixel of the line. The sources are where the picture has fine detail. *Units*: of the picture
+/// squared, times mm^2.
+struct FoldedTails {
+    double expected = 0.0; ///< the tails of different copies in any phase
+    double most = 0.0;     ///< the tails of all copies, and the two waves of each, in phase
+};
+FoldedTails foldedTails(const picture::PeriodPicture &period, const PictureSlice &slice,
+                        const scene::ImageDefinition &image, const volume::Lattice &lattice);
 
 } // namespace pellucid::error

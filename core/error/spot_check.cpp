@@ -70,7 +70,8 @@ struct Sums {
     std::vector<Term> drawn;  ///< in pairs, each from a stratum of the same chance
 
     int count() const { return int(always.size() + drawn.size()); }
-    StatedError errorOf(const Judged &picture, double rollOff) const;
+    StatedError errorOf(const Judged &picture, const scene::ImageDefinition &image,
+                        const volume::Lattice &lattice) const;
 };
 
 class Sampler {
@@ -94,7 +95,7 @@ public:
             count = std::min(count, m_effort.most);
             add(draw((count - done) / 2), sums.drawn,
                 progress.part(0.1 + 0.9 * done / m_effort.most, 0.1 + 0.9 * count / m_effort.most));
-            const StatedError error = sums.errorOf(m_judged, m_image.rollOff);
+            const StatedError error = sums.errorOf(m_judged, m_image, m_rows.lattice());
             if (count == m_effort.most || error.high <= (1.0 + m_effort.within) * error.relative)
                 return;
             if (refined)
@@ -199,7 +200,8 @@ Energies energiesOf(const PictureSlice &slice, const Sums::Term &term) {
     return energies;
 }
 
-StatedError Sums::errorOf(const Judged &picture, double rollOff) const {
+StatedError Sums::errorOf(const Judged &picture, const scene::ImageDefinition &image,
+                          const volume::Lattice &lattice) const {
     const PictureSlice &slice = picture.slice;
     Energies all;
     double whole = 0.0;
@@ -243,14 +245,13 @@ StatedError Sums::errorOf(const Judged &picture, double rollOff) const {
                                 (slice.wholeEnergy() - PictureSlice::energyInPart(picture.period)));
         high = error * width;
     }
-    // What folds back is no error of a frequency. Two waves make a tail: together they have at most
-    // twice the energy of both.
-    const double folded = foldedTailEnergy(picture.period, slice, rollOff);
+    // What folds back is no error of a frequency.
+    const FoldedTails folded = foldedTails(picture.period, slice, image, lattice);
     // The picture of the period is rounded otherwise than the shown one: a transform in float has
     // an error of at most 2^-24 a step.
     const double rounding = std::ldexp(std::log2(double(slice.columns()) * slice.rows()), -24) *
                             std::sqrt(slice.wholeEnergy());
-    const double most = std::sqrt(2.0 * folded) + rounding;
+    const double most = std::sqrt(folded.most) + rounding;
     // The energy of the truth is that of the picture, corrected by the frequencies.
     const double shown = PictureSlice::energyInPart(picture.period) *
                          (whole > 0.0 ? std::max(whole + all.exact - all.shown, 0.0) / whole : 1.0);
@@ -259,7 +260,7 @@ StatedError Sums::errorOf(const Judged &picture, double rollOff) const {
     };
     // Whether the two add up or cancel is not known.
     const double least = std::max(0.0, std::sqrt(low) - most), greatest = std::sqrt(high) + most;
-    return {relative(error + folded), StatedError::Kind::measured, relative(least * least),
+    return {relative(error + folded.expected), StatedError::Kind::measured, relative(least * least),
             relative(greatest * greatest), count()};
 }
 
@@ -272,7 +273,7 @@ StatedError spotCheck(const picture::PeriodPicture &period, const scene::ImageDe
     const Judged judged(period);
     Sums sums;
     Sampler(judged, image, rows, effort).run(sums, progress, refined);
-    return sums.errorOf(judged, image.rollOff);
+    return sums.errorOf(judged, image, rows.lattice());
 }
 
 } // namespace pellucid::error
