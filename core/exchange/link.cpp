@@ -130,7 +130,7 @@ QueryEnd Link::find(const Query &query, const std::function<void(Attributes)> &m
     std::optional<std::uint32_t> before;
     request(progress, [&] {
         if (before == count && came > 0) { // the same page again
-            end.mayBeIncomplete = came == matchesOfPage;
+            end.mayBeIncomplete = true;
             return;
         }
         before = count;
