@@ -71,11 +71,11 @@ public:
     /// Puts back a batch that the server refuses in a form that it may take: one object at a time,
     /// and if that is refused as well, the whole series. False if it has been refused like this.
     bool askDifferently(const Batch &batch);
-    /// Notes why a connection gave up: the reason for objects that are still queued at the end.
+    /// Objects that are still queued at the end are missing for this reason.
     void gaveUp(const task::Reason &reason);
     /// Why objects are missing, by UID.
     std::map<std::string, task::Reason> reasons() const;
-    /// Restores the former reasons of objects that are still missing.
+    /// Gives objects that are still missing their former reasons again.
     void restoreReasons(const std::map<std::string, task::Reason> &before);
     /// The reason of all that is missing.
     void refuseMissing(const task::Reason &reason);

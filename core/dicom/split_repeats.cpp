@@ -83,8 +83,8 @@ std::vector<Part> splitRepeats(const std::vector<PlacedFrame> &sorted, const Rea
         std::move(more.begin(), more.end(), std::back_inserter(columns));
     };
     add(headerColumns(sorted));
-    // What equals itself throughout a volume says more than a time that drifts: before a drift
-    // counts, all attributes of the files are tried.
+    // An attribute that is constant throughout a volume is stronger evidence than a time that
+    // drifts. All attributes of the files are tried before a drift counts.
     FrameGroups groups = splitExactly(frames, columns, Telling::byValue);
     if (groups.empty()) {
         const FrameGroups drifting = splitExactly(frames, columns, Telling::alsoByRank);
