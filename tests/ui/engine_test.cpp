@@ -97,12 +97,17 @@ private slots:
             const auto &error = projection()->frameError();
             return error && error->isMeasured() ? error->relative : 0.0;
         };
-        QTRY_VERIFY_WITH_TIMEOUT(measured() > 0.0, patienceMs);
-        const double byProcessor = measured();
+        // Estimates follow each other until one is good enough.
+        const auto lastMeasured = [&] {
+            for (double before = 0.0; measured() != before || before == 0.0; QTest::qWait(1000))
+                before = measured();
+            return measured();
+        };
+        const double byProcessor = lastMeasured();
         chooseCard();
-        QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && measured() > 0.0, patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(isOnCard(), patienceMs);
         // Both read the same cells by the same kernels.
-        QVERIFY(std::abs(measured() - byProcessor) < 0.05 * byProcessor);
+        QVERIFY(std::abs(lastMeasured() - byProcessor) < 0.05 * byProcessor);
     }
 
     void theCardShowsWhatTheProcessorShows() {
