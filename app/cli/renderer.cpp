@@ -94,7 +94,8 @@ Renderer::Renderer(const scene::Scene &scene, Sources sources, const plan::Budge
       m_fitting(prepare::planWithin(
           scene::planningScene(scene, sources.shaded.fields.front().values.lattice()),
           sources.shaded, sources.summaries, budget, m_progress)),
-      m_lattice(sources.shaded.fields.front().values.lattice()) {
+      m_lattice(sources.shaded.fields.front().values.lattice()),
+      m_box(sources.summaries.front().support) {
     const std::size_t exactBytes =
         reference::ExactEngine::bytes(m_lattice, sources.summaries.front().support, m_images,
                                       scene.camera, scene.image, scene.shading);
@@ -179,7 +180,7 @@ picture::ProjectionImage Renderer::image(const scene::Camera &camera, picture::F
     if (!image)
         image = m_engine->render(camera, m_scene.image, m_scene.shading, &times);
     m_lastError = error::StatedError::atMost(m_predictedError);
-    m_wasWhole = isExact() || error::showsAllOf(m_box, m_lattice, camera);
+    m_wasWhole = error::showsAllOf(m_box, m_lattice, camera);
     return std::move(*image);
 }
 

@@ -77,7 +77,7 @@ public:
     std::string reason() const { return m_fitting.plan.reason.english(); }
     /// An upper bound on the error of any view of the whole volume.
     double predictedError() const { return m_predictedError; }
-    /// What is known of the error of the last image: the bound, or its own, measured.
+    /// The error of the last image as measured, or the bound until `measure` has run.
     const error::StatedError &lastError() const { return m_lastError; }
     /// Whether the last image showed all of the fields.
     bool wasWhole() const { return m_wasWhole; }
@@ -106,10 +106,10 @@ private:
     std::size_t m_images, m_bytes = 0, m_limit;
     prepare::FittingPlan m_fitting;
     volume::Lattice m_lattice; ///< of the rendered fields
+    volume::VoxelBox m_box;    ///< the same
     double m_predictedError = 0.0;
     error::StatedError m_lastError;
     bool m_wasWhole = true;
-    volume::VoxelBox m_box;                              ///< of the fields
     std::shared_ptr<picture::Projector> m_engine;        ///< on the processor
     std::shared_ptr<render::ProjectionEngine> m_planned; ///< the same, unless it is exact
     std::shared_ptr<gpu::GpuEngine> m_card;              ///< the same on the card, if used

@@ -144,7 +144,7 @@ FoldedTails foldedTails(const picture::PeriodPicture &period, const PictureSlice
     const auto bands = latticeBands(period, slice, image, lattice);
     const auto sources = sourcesOf(period);
     const double width = double(period.width) / side, height = double(period.height) / side;
-    // Of a copy of the sources, in a block of the picture, whose middle is at this place.
+    // The energy of the tails of one copy of the sources in a block of the picture around (x, y).
     const auto tailsAt = [&](double x, double y) {
         double sum = 0.0;
         for (const Source &source : sources) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/error/picture_slice.h"
 
-#include <cstdlib>
+#include <algorithm>
 #include <numbers>
 
 #include "core/fourier/transforms/transform.h"
@@ -77,8 +77,28 @@ double PictureSlice::energyInPart(const picture::PeriodPicture &period) {
     return sum * period.camera.pixelMm * period.camera.pixelMm;
 }
 
-double PictureSlice::errorInPart(int channel, const picture::PeriodPicture &period,
-                                 const std::function<void(const Set &)> &fill) const {
+double PictureSlice::repeatedEnergy(const picture::PeriodPicture &period) {
+    const auto timesShown = [](int periodSide, int pictureSide) {
+        std::vector<int> times(std::size_t(periodSide), 0);
+        const int first = (periodSide - pictureSide) / 2;
+        for (int n = first; n < first + pictureSide; ++n)
+            ++times[std::size_t((n % periodSide + periodSide) % periodSide)];
+        return times;
+    };
+    const std::vector<int> columns = timesShown(period.image.width, period.pictureWidth),
+                           rows = timesShown(period.image.height, period.pictureHeight);
+    const float *pixel = period.image.samples.data();
+    double sum = 0.0;
+    for (const int row : rows)
+        for (const int column : columns)
+            for (int c = 0; c < period.image.channels; ++c, ++pixel)
+                sum += std::max(0, row * column - 1) * double(*pixel) * double(*pixel);
+    return sum * period.camera.pixelMm * period.camera.pixelMm;
+}
+
+PictureSlice::PartEnergies
+PictureSlice::energiesInPart(int channel, const picture::PeriodPicture &period,
+                             const std::function<void(const Set &)> &fill) const {
     std::vector<std::complex<double>> errors = m_values[std::size_t(channel)];
     fill([&](int column, int row, const std::complex<double> &exact) {
         const std::complex<double> first = exact * std::conj(phaseOf(column, row)) / m_pixelArea;
@@ -89,14 +109,17 @@ double PictureSlice::errorInPart(int channel, const picture::PeriodPicture &peri
     const auto columns = std::size_t(m_columns), rows = std::size_t(m_rows);
     std::vector<double> pixels(rows * columns);
     fourier::InverseTransform2d<double>(m_rows, m_columns).run(errors.data(), pixels.data());
-    double sum = 0.0;
+    PartEnergies sum;
     for (int row = period.top; row < period.top + period.height; ++row)
         for (int column = period.left; column < period.left + period.width; ++column) {
-            const double error = pixels[std::size_t(row) * columns + std::size_t(column)];
-            sum += error * error;
+            const std::size_t at = std::size_t(row) * columns + std::size_t(column);
+            const double error = pixels[at] / (double(m_columns) * m_rows),
+                         shown = double(
+                             period.image.samples[at * m_values.size() + std::size_t(channel)]);
+            sum.error += m_pixelArea * error * error;
+            sum.exact += m_pixelArea * (shown - error) * (shown - error);
         }
-    const double scale = 1.0 / (double(m_columns) * m_rows);
-    return sum * scale * scale * m_pixelArea;
+    return sum;
 }
 
 } // namespace pellucid::error

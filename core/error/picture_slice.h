@@ -52,11 +52,17 @@ public:
     double wholeEnergy() const { return m_wholeEnergy; }
     /// The energy of the shown part of a period. *Units*: of the picture squared, times mm^2.
     static double energyInPart(const picture::PeriodPicture &period);
-    /// The energy of the error in that part, if P is known at every frequency of the band: `fill`
-    /// passes all of them to `set(column, row, P)`. Beyond the band, P is 0.
+    /// The energy of the pixels of the picture that repeat others, a period away. *Units*: as
+    /// above.
+    static double repeatedEnergy(const picture::PeriodPicture &period);
+    /// The energies of the shown part, if P is known at every frequency of the band: `fill` passes
+    /// all of them to `set(column, row, P)`. Beyond the band, P is 0.
+    struct PartEnergies {
+        double error = 0.0, exact = 0.0;
+    };
     using Set = std::function<void(int column, int row, const std::complex<double> &exact)>;
-    double errorInPart(int channel, const picture::PeriodPicture &period,
-                       const std::function<void(const Set &)> &fill) const;
+    PartEnergies energiesInPart(int channel, const picture::PeriodPicture &period,
+                                const std::function<void(const Set &)> &fill) const;
 
 private:
     std::size_t indexOf(int column, int row) const {

@@ -76,12 +76,13 @@ struct Sums {
 
 class Sampler {
 public:
-    Sampler(const Judged &judged, const scene::ImageDefinition &image, const ShownRows &rows,
-            const CheckEffort &effort)
-        : m_judged(judged), m_image(image), m_rows(rows), m_effort(effort), m_random(effort.seed) {}
+    Sampler(const picture::PeriodPicture &period, const scene::ImageDefinition &image,
+            const ShownRows &rows, const CheckEffort &effort)
+        : m_judged(period), m_image(image), m_rows(rows), m_effort(effort), m_random(effort.seed) {}
 
-    void run(Sums &sums, const task::Progress &progress,
-             const std::function<void(const StatedError &)> &refined) {
+    StatedError run(const task::Progress &progress,
+                    const std::function<void(const StatedError &)> &refined) {
+        Sums sums;
         std::vector<Frequency> all = frequenciesOfBand();
         const double perFrequency = double(m_rows.box().size().count()) * m_rows.images();
         sums.isComplete = double(all.size()) * perFrequency <= m_effort.complete ||
@@ -90,14 +91,14 @@ public:
             divide(all);
         add(all, sums.always, progress.part(0.0, sums.isComplete ? 1.0 : 0.1));
         if (sums.isComplete)
-            return;
+            return sums.errorOf(m_judged, m_image, m_rows.lattice());
         for (int done = 0, count = m_effort.first;; done = count, count *= 2) {
             count = std::min(count, m_effort.most);
             add(draw((count - done) / 2), sums.drawn,
                 progress.part(0.1 + 0.9 * done / m_effort.most, 0.1 + 0.9 * count / m_effort.most));
             const StatedError error = sums.errorOf(m_judged, m_image, m_rows.lattice());
             if (count == m_effort.most || error.high <= (1.0 + m_effort.within) * error.relative)
-                return;
+                return error;
             if (refined)
                 refined(error);
         }
@@ -182,7 +183,7 @@ private:
         }
     }
 
-    const Judged &m_judged;
+    const Judged m_judged;
     const scene::ImageDefinition &m_image;
     const ShownRows &m_rows;
     const CheckEffort &m_effort;
@@ -223,45 +224,50 @@ StatedError Sums::errorOf(const Judged &picture, const scene::ImageDefinition &i
         // The sum of a pair has this variance.
         variance += (a.error - b.error) * (a.error - b.error);
     }
-    double error = 0.0, low = 0.0, high = 0.0; // energies in the part that is shown
+    // Energies in the part that is shown.
+    double error = 0.0, low = 0.0, high = 0.0, truth = 0.0;
     if (isComplete) {
-        // Where every frequency is known, so is the error of every pixel.
-        for (int c = 0; c < slice.channels(); ++c)
-            error += slice.errorInPart(c, picture.period, [&](const auto &set) {
+        // Where every frequency is known, so is every pixel.
+        for (int c = 0; c < slice.channels(); ++c) {
+            const auto energies = slice.energiesInPart(c, picture.period, [&](const auto &set) {
                 for (const Term &term : always)
                     set(term.at.column, term.at.row, term.exact[std::size_t(c)]);
             });
+            error += energies.error;
+            truth += energies.exact;
+        }
         low = high = error;
     } else {
         const double draws = std::max(1.0, double(drawn.size()));
         all += (1.0 / draws) * sum;
         // Sums of a few large terms are skewed: their logarithm is nearly normal.
         const double share = all.error > 0.0 ? std::sqrt(variance) / draws / all.error : 0.0,
-                     width = std::exp(limits * std::sqrt(std::log1p(share * share)));
+                     width = std::exp(limits * std::sqrt(std::log1p(share * share))),
+                     shown = PictureSlice::energyInPart(picture.period);
         error = slice.energyUnit() * all.error;
         // A part of the error may lie beside the part that is shown, within the period: no more
         // than is there.
-        low = std::max(0.0, error / width -
-                                (slice.wholeEnergy() - PictureSlice::energyInPart(picture.period)));
+        low = std::max(0.0, error / width - (slice.wholeEnergy() - shown));
         high = error * width;
+        // That of the picture, corrected by the frequencies.
+        truth = whole > 0.0 ? shown * std::max(whole + all.exact - all.shown, 0.0) / whole : shown;
     }
-    // What folds back is no error of a frequency.
+    // The frequencies of a period do not tell what folds into it.
     const FoldedTails folded = foldedTails(picture.period, slice, image, lattice);
     // The picture of the period is rounded otherwise than the shown one: a transform in float has
     // an error of at most 2^-24 a step.
     const double rounding = std::ldexp(std::log2(double(slice.columns()) * slice.rows()), -24) *
                             std::sqrt(slice.wholeEnergy());
     const double most = std::sqrt(folded.most) + rounding;
-    // The energy of the truth is that of the picture, corrected by the frequencies.
-    const double shown = PictureSlice::energyInPart(picture.period) *
-                         (whole > 0.0 ? std::max(whole + all.exact - all.shown, 0.0) / whole : 1.0);
+    // Pixels that repeat others show what is not there.
+    const double repeated = PictureSlice::repeatedEnergy(picture.period);
     const auto relative = [&](double energy) {
-        return energy > 0.0 ? std::sqrt(energy / std::max(shown, 1e-6 * energy)) : 0.0;
+        return energy > 0.0 ? std::sqrt(energy / std::max(truth, 1e-6 * energy)) : 0.0;
     };
     // Whether the two add up or cancel is not known.
     const double least = std::max(0.0, std::sqrt(low) - most), greatest = std::sqrt(high) + most;
-    return {relative(error + folded.expected), StatedError::Kind::measured, relative(least * least),
-            relative(greatest * greatest), count()};
+    return {relative(error + folded.expected + repeated), StatedError::Kind::measured,
+            relative(least * least), relative(greatest * greatest + repeated), count()};
 }
 
 } // namespace
@@ -270,10 +276,7 @@ StatedError spotCheck(const picture::PeriodPicture &period, const scene::ImageDe
                       const ShownRows &rows, const CheckEffort &effort,
                       const task::Progress &progress,
                       const std::function<void(const StatedError &)> &refined) {
-    const Judged judged(period);
-    Sums sums;
-    Sampler(judged, image, rows, effort).run(sums, progress, refined);
-    return sums.errorOf(judged, image, rows.lattice());
+    return Sampler(period, image, rows, effort).run(progress, refined);
 }
 
 } // namespace pellucid::error

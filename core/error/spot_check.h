@@ -15,12 +15,12 @@ namespace pellucid::error {
 
 /// The effort of a spot check.
 struct CheckEffort {
-    int first = 64;  ///< frequencies of the first estimate, besides those that are always summed
+    int first = 128; ///< frequencies of the first estimate, besides those that are always summed
     int most = 1024; ///< of the last
     /// The estimate is good enough once its limits are within this share of it.
     double within = 1.0 / 3.0;
     /// Where all frequencies take no more multiplications than this, none is left to chance.
-    double complete = 2e9;
+    double complete = 3e8;
     unsigned seed = 1; ///< the same seed draws the same frequencies
 };
 

@@ -3,7 +3,7 @@
 
 namespace pellucid::error {
 
-/// What is said about the error of a picture: its relative L2 error, |picture - truth|/|truth|.
+/// The relative L2 error of a picture, |picture - truth|/|truth|, as far as it is known.
 struct StatedError {
     enum class Kind {
         bound,   ///< the error is at most this, derived before the picture is made

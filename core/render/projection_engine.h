@@ -58,8 +58,14 @@ public:
         const scene::Camera whole = periodOf(camera, image);
         const int width = std::min(camera.width, whole.width),
                   height = std::min(camera.height, whole.height);
-        return {render(whole, image, shading), whole, (whole.width - width) / 2,
-                (whole.height - height) / 2,   width, height};
+        return {render(whole, image, shading),
+                whole,
+                (whole.width - width) / 2,
+                (whole.height - height) / 2,
+                width,
+                height,
+                camera.width,
+                camera.height};
     }
 
 protected:
