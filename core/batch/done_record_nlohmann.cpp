@@ -33,13 +33,14 @@ std::string toJson(const DoneRecord &record) {
     json files = json::array(), outputs = json::array();
     for (const DoneRecord::MadeFile &file : record.files)
         files.push_back({{"name", file.name}, {"bytes", file.bytes}});
-    for (const DoneRecord::MadeOutput &output : record.outputs)
-        outputs.push_back(
-            {{"name", output.name},
-             {"tolerance", output.tolerance},
-             {"predicted_error", output.predictedError},
-             {"measured_error", output.measuredError ? json(*output.measuredError) : json()},
-             {"warnings", output.warnings}});
+    for (const DoneRecord::MadeOutput &output : record.outputs) {
+        outputs.push_back({{"name", output.name},
+                           {"tolerance", output.tolerance},
+                           {"predicted_error", output.predictedError},
+                           {"warnings", output.warnings}});
+        if (output.measuredError)
+            outputs.back()["measured_error"] = *output.measuredError;
+    }
     json out{{"program", record.program},
              {"recipe", record.recipe},
              {"inputs", record.inputs},

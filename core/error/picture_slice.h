@@ -52,11 +52,12 @@ public:
     double wholeEnergy() const { return m_wholeEnergy; }
     /// The energy of the shown part of a period. *Units*: of the picture squared, times mm^2.
     static double energyInPart(const picture::PeriodPicture &period);
-    /// The energy of the pixels of the picture that repeat others, a period away. *Units*: as
-    /// above.
+    /// The energy of the pixels beyond one period, which repeat others: all of it is error.
+    /// *Units*: as above.
     static double repeatedEnergy(const picture::PeriodPicture &period);
-    /// The energies of the shown part, if P is known at every frequency of the band: `fill` passes
-    /// all of them to `set(column, row, P)`. Beyond the band, P is 0.
+    /// The energies of the error and of P in the shown part, *units* as above, if P is known at
+    /// every frequency of the band: `fill` passes all of them to `set(column, row, P)`. Beyond the
+    /// band, P is 0.
     struct PartEnergies {
         double error = 0.0, exact = 0.0;
     };

@@ -249,17 +249,17 @@ StatedError Sums::errorOf(const Judged &picture, const scene::ImageDefinition &i
         // than is there.
         low = std::max(0.0, error / width - (slice.wholeEnergy() - shown));
         high = error * width;
-        // That of the picture, corrected by the frequencies.
+        // The energy of the picture, corrected by that of the frequencies.
         truth = whole > 0.0 ? shown * std::max(whole + all.exact - all.shown, 0.0) / whole : shown;
     }
-    // The frequencies of a period do not tell what folds into it.
+    // No frequency of the period contains what folds back into it.
     const FoldedTails folded = foldedTails(picture.period, slice, image, lattice);
     // The picture of the period is rounded otherwise than the shown one: a transform in float has
     // an error of at most 2^-24 a step.
     const double rounding = std::ldexp(std::log2(double(slice.columns()) * slice.rows()), -24) *
                             std::sqrt(slice.wholeEnergy());
     const double most = std::sqrt(folded.most) + rounding;
-    // Pixels that repeat others show what is not there.
+    // All of a repeated pixel is error: the field is not there.
     const double repeated = PictureSlice::repeatedEnergy(picture.period);
     const auto relative = [&](double energy) {
         return energy > 0.0 ? std::sqrt(energy / std::max(truth, 1e-6 * energy)) : 0.0;

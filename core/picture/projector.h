@@ -15,7 +15,7 @@ struct PeriodPicture {
     scene::Camera camera; ///< whose picture it is
     /// The first column and row that `Projector::render` shows, and their numbers.
     int left = 0, top = 0, width = 0, height = 0;
-    /// The size of the whole picture. Beyond a period, its pixels repeat.
+    /// The size of the picture of `Projector::render`. Pixels beyond a period repeat others.
     int pictureWidth = width, pictureHeight = height;
 };
 

@@ -59,7 +59,8 @@ protected:
     }
     fs::path recipe() {
         writeText(folder / "recipe.json",
-                  R"({"recipe": 1, "outputs": [{"view": "front"}, {"view": "left"}]})");
+                  R"({"recipe": 1, "outputs": [{"view": "front", "check": "none"},
+                                         {"view": "left", "check": "none"}]})");
         return folder / "recipe.json";
     }
 };
@@ -67,9 +68,9 @@ protected:
 } // namespace
 
 // Two pictures of each study, which share a preparation in a batch. In turns; other processes slow
-// some rounds, so the best of three counts. Measured on two threads of AVX-512: 1.8 to 1.9 times,
-// with twice as many pictures whose error is measured; 2.2 to 2.3 without measuring, 1.5 to 1.6
-// when every study had new decoders besides.
+// some rounds, so the best of three counts. Without the measured errors, of which a batch has twice
+// as many. On two threads of AVX-512: 2.2 to 2.3 times; 1.5 to 1.6 when every study had new
+// decoders.
 TEST_F(BatchSpeed, ABatchIsFasterThanALoopOfRender) {
     const fs::path in = studies(10, "64x64x40");
     const fs::path made = recipe();
@@ -77,10 +78,10 @@ TEST_F(BatchSpeed, ABatchIsFasterThanALoopOfRender) {
     for (double &ratio : ratios) {
         const double loop = secondsOf([&] {
             for (const auto &study : fs::directory_iterator(in))
-                ASSERT_EQ(
-                    cli("render " + quoted(study.path()) + " -o " + quoted(folder / "front.png"))
-                        .exitCode,
-                    0);
+                ASSERT_EQ(cli("render " + quoted(study.path()) + " --check none -o " +
+                              quoted(folder / "front.png"))
+                              .exitCode,
+                          0);
         });
         const double batch = secondsOf([&] {
             ASSERT_EQ(
@@ -93,7 +94,7 @@ TEST_F(BatchSpeed, ABatchIsFasterThanALoopOfRender) {
                     ratio);
     }
     std::sort(ratios.begin(), ratios.end());
-    EXPECT_GT(ratios[2], 1.5);
+    EXPECT_GT(ratios[2], 1.8);
 }
 
 // After it has warmed up, every study leaves as much memory as it took.

@@ -26,7 +26,8 @@ DoneRecord sample() {
     record.inputs = "def";
     record.studyUid = "1.2.3";
     record.seriesUid = "1.2.3.4";
-    record.outputs = {{"front", 1e-3, 5e-4, 2e-4, {"a warning"}}};
+    record.outputs = {{"front", 1e-3, 5e-4, 2e-4, {"a warning"}},
+                      {"left", 1e-3, 5e-4, std::nullopt, {}}}; // was not measured
     record.loadSeconds = 1.5;
     return record;
 }
