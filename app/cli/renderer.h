@@ -106,7 +106,7 @@ private:
     std::size_t m_images, m_bytes = 0, m_limit;
     prepare::FittingPlan m_fitting;
     volume::Lattice m_lattice; ///< of the rendered fields
-    volume::VoxelBox m_box;    ///< the same
+    volume::VoxelBox m_box;    ///< of their samples that a whole picture shows
     double m_predictedError = 0.0;
     error::StatedError m_lastError;
     bool m_wasWhole = true;
