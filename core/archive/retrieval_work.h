@@ -71,11 +71,11 @@ public:
     /// Puts back a batch that the server refuses in a form that it may take: one object at a time,
     /// and if that is refused as well, the whole series. False if it has been refused like this.
     bool askDifferently(const Batch &batch);
-    /// Objects that are still queued at the end are missing for this reason.
+    /// Records why a connection gave up. Objects still queued at the end get this reason.
     void gaveUp(const task::Reason &reason);
     /// Why objects are missing, by UID.
     std::map<std::string, task::Reason> reasons() const;
-    /// Gives objects that are still missing their former reasons again.
+    /// Restores the recorded reasons of objects that are still missing.
     void restoreReasons(const std::map<std::string, task::Reason> &before);
     /// The reason of all that is missing.
     void refuseMissing(const task::Reason &reason);

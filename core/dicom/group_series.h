@@ -18,10 +18,11 @@ struct SeriesFile {
 
 /// Splits a series into volumes: first by size, orientation, pixel spacing, localizer, frame of
 /// reference, modality, and whether a rescale is stated in full, in part or not at all. If
-/// positions still repeat, or the stack is uneven, it splits by the attributes that distinguish the
-/// parts, see `splitRepeats` and `splitOverlapping`, which `read` lists. Copies of an instance are
-/// dropped and added to `skipped`. Frames without position or orientation, and those that nothing
-/// distinguishes, become sets of images that contain the reason. *Throws* Cancelled.
+/// positions still repeat, or the stack is uneven, it then splits by the attributes that differ
+/// between the parts, see `splitRepeats` and `splitOverlapping`; `read` supplies their values.
+/// Copies of an instance are dropped and added to `skipped`. Frames without position or
+/// orientation, and those that nothing distinguishes, become sets of images that contain the
+/// reason. *Throws* Cancelled.
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                                      std::vector<Skipped> &skipped,
                                      const task::Progress &progress = {},
