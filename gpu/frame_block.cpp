@@ -97,9 +97,11 @@ void setShading(FrameBlock &block, const render::FrameInputs &inputs) {
         block.gradient[c] = three(shading.images[c].gradient);
         block.excess[c] = three(shading.images[c].excess);
     }
-    if (shading.kernels != nullptr)
-        for (int d = 0; d < 3; ++d)
-            packPairs((*shading.kernels)[std::size_t(d)], d, block.momentKernels.data());
+    for (std::size_t width = 1; shading.kernels != nullptr && width < shading.kernels->size();
+         ++width)
+        for (std::size_t d = 0; d < (*shading.kernels)[width].size(); ++d)
+            packPairs((*shading.kernels)[width][d], int(d),
+                      block.momentKernels.data() + (width - 1) * FrameBlock::kernelVectors);
 }
 
 } // namespace
@@ -164,7 +166,7 @@ FrameBlock frameBlock(const render::FrameInputs &inputs, const scene::ImageDefin
     block.rollOff = float(image.rollOff);
     block.detail = float(inputs.radial.detail);
     block.detailWidth = float(inputs.radial.detailWidth);
-    block.tilesPerSide = inputs.widths ? inputs.widths->tiles : 0;
+    block.tilesPerSide = inputs.widthMap ? inputs.widthMap->tiles : 0;
     block.slabStep = texels.slabStep;
     block.padded = {layout.padded.i, layout.padded.j, layout.padded.k};
     for (int d = 0; d < 3; ++d) {

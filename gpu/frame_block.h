@@ -47,7 +47,7 @@ struct FrameBlock {
     std::array<ImageShade, 3> shade;
     Vectors<3> gradient, excess;
     Vectors<bindings::maxWidth * kernelVectors> kernels;
-    Vectors<kernelVectors> momentKernels;
+    Vectors<bindings::maxWidth * kernelVectors> momentKernels;
     std::array<Four<std::int32_t>, 8> radices;
 };
 

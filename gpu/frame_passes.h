@@ -50,7 +50,7 @@ struct FrameCommand {
     scene::Camera camera;
     plan::SliceGrid grid;
     FrameBlock block;                     ///< without the transform members, which the passes set
-    std::vector<std::int32_t> tileWidths; ///< of plan::WidthMap; empty: `width` reads everything
+    std::vector<std::int32_t> tileWidths; ///< of widths::WidthMap; empty: `width` reads everything
     std::vector<unsigned> pages;          ///< texture names
     int fieldPages = 1, slabs = 1, sums = 1, layers = 1, channels = 1;
     int width = 4, evenTerms = 1, momentTerms = 1;
@@ -64,7 +64,7 @@ struct CardTimes {
     double transformMs = 0.0; ///< card time
     double submitMs = 0.0;    ///< processor time to submit the commands
     int dispatches = 0;
-    plan::WidthMap::Shares widthShares{}; ///< see picture::FrameTimes
+    widths::WidthMap::Shares widthShares{}; ///< see picture::FrameTimes
 };
 
 /// Slice, inverse transform and picture as compute passes, with their buffers; all engines of a

@@ -11,13 +11,13 @@ std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
     render::EngineParts parts = engine.parts();
     return std::make_shared<GpuEngine>(
         SpectrumTextures::upload(std::move(passes), std::move(parts.spectra), progress),
-        std::move(parts.channelWeights), parts.fieldOfView, std::move(parts.widths));
+        std::move(parts.channelWeights), parts.fieldOfView, std::move(parts.adaptive));
 }
 
 GpuEngine::GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
                      std::vector<render::ChannelWeights> channelWeights,
                      const plan::FieldOfView &fieldOfView,
-                     std::shared_ptr<const plan::AdaptiveWidths> widths)
+                     std::shared_ptr<const widths::AdaptiveWidths> widths)
     : m_textures(std::move(textures)), m_channelWeights(std::move(channelWeights)),
       m_setup(std::make_shared<render::FrameSetup>(fieldOfView, std::move(widths))) {}
 
@@ -35,7 +35,8 @@ std::shared_ptr<GpuEngine> GpuEngine::withoutLight() const {
 }
 
 render::EngineParts GpuEngine::parts() const {
-    return {m_textures->spectra(), m_channelWeights, m_setup->fieldOfView(), m_setup->widths()};
+    return {m_textures->spectra(), m_channelWeights, m_setup->fieldOfView(),
+            m_setup->adaptiveWidths()};
 }
 
 task::Reason GpuEngine::description() const {
@@ -64,7 +65,7 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
                                                            CardTimes *times) {
     const render::FrameInputs inputs = task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
         return m_setup->inputsFor(m_textures->spectra(), m_channelWeights, camera, image, shading,
-                                  plan::onAllThreads);
+                                  widths::onAllThreads);
     });
     if (inputs.isEmpty()) {
         if (times != nullptr)
@@ -75,8 +76,8 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
     FrameCommand command{.camera = camera, .grid = inputs.grid};
     command.block =
         frameBlock(inputs, image, layout, m_textures->layout(), m_textures->fieldPages());
-    if (inputs.widths)
-        command.tileWidths.assign(inputs.widths->widths.begin(), inputs.widths->widths.end());
+    if (inputs.widthMap)
+        command.tileWidths.assign(inputs.widthMap->widths.begin(), inputs.widthMap->widths.end());
     command.pages = m_textures->pages(inputs.shading.lit);
     command.fieldPages = m_textures->fieldPages();
     command.slabs = m_textures->layout().slabs;
@@ -86,7 +87,8 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
     command.width = layout.width();
     command.evenTerms = layout.kernels.front().terms();
     if (inputs.shading.kernels != nullptr)
-        command.momentTerms = inputs.shading.kernels->front().terms();
+        command.momentTerms =
+            (*inputs.shading.kernels)[std::size_t(layout.width())].front().terms();
     command.shaded = inputs.isShaded;
     command.cued = inputs.shading.cued;
     command.lit = inputs.shading.lit;
@@ -94,7 +96,7 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
     if (times == nullptr)
         return m_textures->passes()->render(std::move(command), nullptr);
     auto picture = m_textures->passes()->render(std::move(command), times);
-    times->widthShares = inputs.widthShares(camera, layout);
+    times->widthShares = inputs.widthShares(layout);
     return picture;
 }
 

@@ -26,7 +26,7 @@ public:
     GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
               std::vector<render::ChannelWeights> channelWeights,
               const plan::FieldOfView &fieldOfView,
-              std::shared_ptr<const plan::AdaptiveWidths> widths = nullptr);
+              std::shared_ptr<const widths::AdaptiveWidths> widths = nullptr);
 
     const SpectrumTextures &textures() const { return *m_textures; }
     std::shared_ptr<GpuEngine>

@@ -110,14 +110,15 @@ nlohmann::json geometryJson(const scene::Camera &camera, const volume::Lattice &
     const scene::PositionerAngles angles = scene::positionerAngles(camera.orientation);
     const glm::dmat3 axes = camera.axes();
     const auto list = [](const glm::dvec3 &v) { return nlohmann::json{v.x, v.y, v.z}; };
-    return {{"matrix", scene::projectionMatrix(camera, patient)},
-            {"primary_deg", angles.primaryDeg},
-            {"secondary_deg", angles.secondaryDeg},
-            {"right", list(axes[0])},
-            {"down", list(-axes[1])},
-            {"toward_viewer", list(axes[2])},
-            {"predicted_error", error.isMeasured() ? nlohmann::json() : nlohmann::json(error.relative)},
-            {"measured_error", measuredJson(error)}};
+    return {
+        {"matrix", scene::projectionMatrix(camera, patient)},
+        {"primary_deg", angles.primaryDeg},
+        {"secondary_deg", angles.secondaryDeg},
+        {"right", list(axes[0])},
+        {"down", list(-axes[1])},
+        {"toward_viewer", list(axes[2])},
+        {"predicted_error", error.isMeasured() ? nlohmann::json() : nlohmann::json(error.relative)},
+        {"measured_error", measuredJson(error)}};
 }
 
 void writeGeometry(const fs::path &path, const scene::Camera &camera, const nlohmann::json &views) {

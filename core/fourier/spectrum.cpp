@@ -50,21 +50,12 @@ Spectrum Spectrum::prepare(volume::Field field, const SpectrumLayout &layout,
     progress.report(firstPass);
     spectrum.m_dc = sums.dc;
     spectrum.m_moments = sums.moments;
-    CellEncoding encoding;
-    if (layout.storage == Storage::binary16) {
-        // The sum of the magnitudes bounds every cell; a power of two scales without rounding.
-        double scale = 1.0;
-        if (sums.magnitudes > 0.0)
-            scale = std::exp2(std::floor(std::log2(32768.0 / sums.magnitudes)));
-        spectrum.m_unit = 1.0 / scale;
-        encoding.scale = float(scale);
-        constexpr std::size_t side = 2 * roundingReach + 1;
-        if (std::min({layout.padded.i, layout.padded.j, layout.padded.k}) > int(side)) {
-            spectrum.m_rounding.resize(side * side * (roundingReach + 1));
-            encoding.rounding = spectrum.m_rounding.data();
-        }
-    }
-    transformColumns(layout, cells, memory, encoding, progress.part(firstPass, 1.0));
+    float scale = 1.0F;
+    // The sum of the magnitudes bounds every cell; a power of two scales without rounding.
+    if (layout.storage == Storage::binary16 && sums.magnitudes > 0.0)
+        scale = float(std::exp2(std::floor(std::log2(32768.0 / sums.magnitudes))));
+    spectrum.m_unit = 1.0 / double(scale);
+    transformColumns(layout, cells, memory, scale, progress.part(firstPass, 1.0));
     spectrum.m_cells = memory.takeCells();
     return spectrum;
 }
@@ -116,16 +107,6 @@ std::complex<double> Spectrum::between(std::array<double, 3> cells,
             sum += taps[1][std::size_t(q)] * taps[2][std::size_t(r)] * row;
         }
     return isMirrored ? std::conj(sum) : sum;
-}
-
-std::complex<double> Spectrum::rounding(int p, int q, int r) const {
-    if (m_rounding.empty())
-        return {};
-    if (p < 0)
-        return std::conj(rounding(-p, -q, -r));
-    constexpr int side = 2 * roundingReach + 1;
-    const int at = ((q + roundingReach) * side + r + roundingReach) * (roundingReach + 1) + p;
-    return m_unit * std::complex<double>(m_rounding[std::size_t(at)]);
 }
 
 } // namespace pellucid::fourier

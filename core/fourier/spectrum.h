@@ -5,7 +5,6 @@
 #include <complex>
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 #include "core/fourier/kernels/kernel.h"
 #include "core/fourier/storage.h"
@@ -90,14 +89,6 @@ public:
     /// by axis. *Requires*: no kernel is wider than the layout's.
     std::complex<double> between(std::array<double, 3> cells,
                                  const std::array<Kernel, 3> &kernels) const;
-    /// The rounding error of the stored value at a grid index: stored minus exact. Most fields have
-    /// nearly all their energy in a few cells around frequency 0, whose rounding therefore
-    /// dominates the error. 0 unless `keepsRounding`. *Requires*: |p|, |q| and |r| are at most
-    /// `roundingReach`. *Units*: as `value`.
-    std::complex<double> rounding(int p, int q, int r) const;
-    static constexpr int roundingReach = 5;
-    /// Whether `rounding` is known: with 16-bit cells, on a grid of more than 11 cells a side.
-    bool keepsRounding() const { return !m_rounding.empty(); }
     std::size_t bytes() const { return m_layout.bytes(); }
 
 private:
@@ -111,8 +102,6 @@ private:
     std::shared_ptr<std::byte[]> m_cells;
     double m_unit = 1.0, m_dc = 0.0;
     std::array<double, 3> m_moments{};
-    /// [q][r][p], q and r from -roundingReach, p from 0, in stored units; empty with float cells.
-    std::vector<std::complex<float>> m_rounding;
 };
 
 } // namespace pellucid::fourier

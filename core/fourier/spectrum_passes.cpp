@@ -11,7 +11,6 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "core/fourier/binary16.h"
 #include "core/fourier/transforms/strip_copies.h"
 #include "core/fourier/transforms/strip_transform.h"
 #include "core/fourier/transforms/transform.h"
@@ -59,13 +58,6 @@ void placeStrips(const float *from, int count, float *strips, int padded) {
                 std::size_t(padded - count) * stripFloats * sizeof(float));
     std::memcpy(strips + std::size_t(padded - middle) * stripFloats, from,
                 std::size_t(middle) * stripFloats * sizeof(float));
-}
-
-std::complex<float> asComplex(std::uint32_t cell) {
-    return {fromBinary16(std::uint16_t(cell)), fromBinary16(std::uint16_t(cell >> 16))};
-}
-Complex asComplex(Complex cell) {
-    return cell;
 }
 
 // Transforms the rows of planes along x. Sample n goes to (n - middle) modulo padded. The cells to
@@ -187,9 +179,9 @@ private:
 template <class Cell> class ColumnTransform {
 public:
     ColumnTransform(const SpectrumLayout &layout, const CellLayout &cells, std::byte *out,
-                    const CellEncoding &encoding)
+                    float scale)
         : m_size(layout.box.size()), m_padded(layout.padded), m_cells(cells), m_out(out),
-          m_encoding(encoding), m_alongY(layout.padded.j), m_alongZ(layout.padded.k),
+          m_scale(scale), m_alongY(layout.padded.j), m_alongZ(layout.padded.k),
           m_planes(system::allocatePages(planeBytes(layout), task::because::aTransform)),
           m_strips(2 * std::size_t(std::max(m_padded.j, m_padded.k)) * stripFloats),
           m_lines(std::size_t(rowsTogether) * m_padded.k * CellLayout::columnCells) {}
@@ -217,7 +209,7 @@ public:
             const int first = group * rowsTogether,
                       count = std::min(rowsTogether, m_padded.j - first);
             for (int y = first; y < first + count; ++y)
-                transformRow(column, y, lines + std::size_t(y - first) * rowCells());
+                transformRow(y, lines + std::size_t(y - first) * rowCells());
             writeLines(column, first, count, lines);
         });
     }
@@ -233,34 +225,12 @@ private:
     std::size_t rowCells() const { return std::size_t(m_padded.k) * CellLayout::columnCells; }
 
     // `lines`: [z][16 cells].
-    void transformRow(int column, int y, Cell *lines) {
+    void transformRow(int y, Cell *lines) {
         float *const strips = m_strips.local();
         placeStrips(planes(y, 0), m_size.k, strips, m_padded.k);
         const float *const result =
             m_alongZ.run(strips, strips + std::size_t(m_padded.k) * stripFloats);
-        storeExchanged(result, m_padded.k, m_encoding.scale, lines, CellLayout::columnCells);
-        if (column == 0)
-            keepRounding(y, result, lines);
-    }
-
-    // Each row has its own range of the output.
-    void keepRounding(int y, const float *exact, const Cell *lines) const {
-        constexpr int reach = Spectrum::roundingReach, side = 2 * reach + 1;
-        const int q = y <= m_padded.j / 2 ? y : y - m_padded.j;
-        if (m_encoding.rounding == nullptr || std::abs(q) > reach)
-            return;
-        for (int r = -reach; r <= reach; ++r) {
-            const auto z = std::size_t(modulo(r, m_padded.k));
-            for (int p = 0; p <= reach; ++p) {
-                const int lane = p - m_cells.firstX;
-                const float *const cell = exact + z * stripFloats + lane;
-                const std::complex<float> stored =
-                    asComplex(lines[z * CellLayout::columnCells + std::size_t(lane)]);
-                // Real and imaginary parts are exchanged.
-                m_encoding.rounding[((q + reach) * side + r + reach) * (reach + 1) + p] =
-                    stored - m_encoding.scale * std::complex<float>(cell[stripLanes], cell[0]);
-            }
-        }
+        storeExchanged(result, m_padded.k, m_scale, lines, CellLayout::columnCells);
     }
 
     void writeLines(int column, int first, int count, const Cell *lines) const {
@@ -282,7 +252,7 @@ private:
     GridSize m_size, m_padded;
     const CellLayout &m_cells;
     std::byte *m_out;
-    CellEncoding m_encoding;
+    float m_scale;
     StripTransform m_alongY, m_alongZ;
     std::shared_ptr<std::byte[]> m_planes; ///< of a column: [y][k][strip]
     Scratch<float> m_strips;
@@ -291,9 +261,8 @@ private:
 
 template <class Cell>
 void transformAllColumns(const SpectrumLayout &layout, const CellLayout &cells,
-                         ColumnMemory &memory, const CellEncoding &encoding,
-                         const task::Progress &progress) {
-    ColumnTransform<Cell> transform(layout, cells, memory.cells(), encoding);
+                         ColumnMemory &memory, float scale, const task::Progress &progress) {
+    ColumnTransform<Cell> transform(layout, cells, memory.cells(), scale);
     for (int column = 0; column < cells.columns; ++column) {
         transform.alongY(memory.slab(column), progress);
         transform.alongZ(column, progress);
@@ -349,11 +318,11 @@ FieldSums transformRows(const volume::Field &field, const SpectrumLayout &layout
 }
 
 void transformColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnMemory &memory,
-                      const CellEncoding &encoding, const task::Progress &progress) {
+                      float scale, const task::Progress &progress) {
     if (layout.storage == Storage::binary16)
-        transformAllColumns<std::uint32_t>(layout, cells, memory, encoding, progress);
+        transformAllColumns<std::uint32_t>(layout, cells, memory, scale, progress);
     else
-        transformAllColumns<Complex>(layout, cells, memory, encoding, progress);
+        transformAllColumns<Complex>(layout, cells, memory, scale, progress);
 }
 
 } // namespace pellucid::fourier

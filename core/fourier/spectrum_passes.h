@@ -2,10 +2,8 @@
 #pragma once
 
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 #include "core/fourier/spectrum.h"
 
@@ -49,15 +47,8 @@ FieldSums transformRows(const volume::Field &field, const SpectrumLayout &layout
                         const CellLayout &cells, ColumnMemory &memory,
                         const task::Progress &progress);
 
-/// How the second pass stores cells.
-struct CellEncoding {
-    float scale = 1.0F; ///< the factor of cells before they are stored
-    /// The rounding of the cells around frequency 0, see `Spectrum`; null if nothing is rounded.
-    std::complex<float> *rounding = nullptr;
-};
-
-/// The second pass. *Throws* Error{outOfMemory}, Cancelled.
+/// The second pass. Cells are stored times `scale`. *Throws* Error{outOfMemory}, Cancelled.
 void transformColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnMemory &memory,
-                      const CellEncoding &encoding, const task::Progress &progress);
+                      float scale, const task::Progress &progress);
 
 } // namespace pellucid::fourier

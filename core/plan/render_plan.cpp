@@ -373,11 +373,6 @@ RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> f
 
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
                  std::span<const FieldSummary> fields) {
-    // Noise has the same energy in every tile, up to the limit of its samples.
-    constexpr double noiseRoughness = 0.5, minSteps = 0.75;
-    if (roughnessOf(fields) > noiseRoughness &&
-        scene.camera.pixelMm > minSteps * fields.front().lattice.shortestStepMm())
-        return;
     // A small remainder saves too little time.
     constexpr double margin = 0.95, leastShare = 0.1;
     // The error is at edges. In six real volumes and phantoms the worst pixel was off by 1.2

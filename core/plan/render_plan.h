@@ -35,7 +35,7 @@ struct RenderPlan {
     /// Why this plan was chosen: one line for the user.
     task::Reason reason = task::because::mostAccurate;
     /// The part of `predictedError` that frames may make by narrower kernels, see
-    /// AdaptiveWidths; 0: one kernel reads every frequency.
+    /// `widths::AdaptiveWidths`; 0: one kernel reads every frequency.
     double adaptiveError = 0.0;
     /// The same, relative to the whole projection, of which the image may show a part.
     double adaptiveTolerance = 0.0;
@@ -67,9 +67,8 @@ struct Composition {
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields,
                       const Composition &composition, const Budget &budget = {});
 
-/// Spends the rest of the tolerance on narrower kernels, or, with a linear cue, whose moments have
-/// kernels of one width, on frequencies that are not read at all. No effect for noise, where one
-/// width is as fast. *Shape*: the fields of the plan.
+/// Spends the rest of the tolerance on narrower kernels and on leaving frequencies out. Each frame
+/// measures where. *Shape*: the fields of the plan.
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene, std::span<const FieldSummary> fields);
 
 } // namespace pellucid::plan

@@ -112,23 +112,20 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
     }
 }
 
-std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra &spectra,
-                                                           const plan::RenderPlan &plan,
-                                                           const task::Progress &progress) {
+std::shared_ptr<const widths::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra &spectra,
+                                                             const plan::RenderPlan &plan,
+                                                             const task::Progress &progress) {
     if (plan.adaptiveError == 0.0)
         return nullptr;
-    auto kernels = std::make_shared<const fourier::KernelsByWidth>(plan.spectrum);
     const auto energiesOf = [&](const render::EngineSpectra::Spectra &of) {
-        plan::AdaptiveWidths::Energies energies;
+        widths::AdaptiveWidths::Energies energies;
         for (const auto &spectrum : of)
-            energies.push_back(std::make_shared<const plan::SpectrumEnergies>(
-                *spectrum, *kernels, plan.image, plan.adaptiveTolerance, progress));
+            energies.push_back(std::make_shared<const widths::BlockEnergies>(*spectrum, progress));
         return energies;
     };
-    auto fields = energiesOf(spectra.fields), gradients = energiesOf(spectra.gradients);
-    return std::make_shared<const plan::AdaptiveWidths>(std::move(kernels), std::move(fields),
-                                                        std::move(gradients), plan.image,
-                                                        plan.adaptiveTolerance);
+    return std::make_shared<const widths::AdaptiveWidths>(widths::AdaptiveWidths{
+        std::make_shared<const fourier::KernelsByWidth>(plan.spectrum), energiesOf(spectra.fields),
+        energiesOf(spectra.gradients), plan.adaptiveTolerance});
 }
 
 std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan::RenderPlan &plan,
@@ -205,7 +202,7 @@ PreparedEngine withoutLight(const PreparedEngine &prepared) {
     render::EngineParts parts = prepared.engine->parts();
     parts.spectra.gradients.clear();
     auto engine = std::make_shared<render::CpuEngine>(std::move(parts.spectra), parts.fieldOfView);
-    engine->setWidths(std::move(parts.widths));
+    engine->setWidths(std::move(parts.adaptive));
     engine->setChannelWeights(std::move(parts.channelWeights));
     const std::size_t bytes = engine->bytes();
     plan::RenderPlan plan = prepared.plan;

@@ -45,11 +45,12 @@ struct PreparedEngine {
     StudyFields study; ///< what its pictures are measured against; empty: nothing
 };
 
-/// The widths that frames of a plan are read by; null if one width reads everything. *Throws*
+/// The data from which frames of a plan choose their kernel widths; null if one width reads
+/// everything. *Throws*
 /// Error{outOfMemory}, Cancelled.
-std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra &spectra,
-                                                           const plan::RenderPlan &plan,
-                                                           const task::Progress &progress = {});
+std::shared_ptr<const widths::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra &spectra,
+                                                             const plan::RenderPlan &plan,
+                                                             const task::Progress &progress = {});
 
 /// Makes an engine for the channels of a look from spectra that were prepared by one plan and share
 /// a layout. Each field is released as soon as its samples are transformed.

@@ -25,7 +25,7 @@ struct FrameBuffers {
     // Prepares for a frame of a picture of so many rows.
     void fit(const FrameInputs &inputs, int imageRows) {
         const int all = stripsOf(inputs.grid.columns / 2),
-                  count = inputs.widths ? std::min(all, inputs.widths->strips) : all;
+                  count = inputs.widthMap ? std::min(all, inputs.widthMap->strips) : all;
         takeTables(inputs.grid, inputs.radial, count, all);
         strips = std::span(tables->strips).first(std::size_t(count));
         const plan::SliceGrid need{std::max(allocated.columns, inputs.grid.columns),
@@ -149,31 +149,12 @@ namespace {
 FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
                 const scene::ImageDefinition &image, FrameBuffers &buffers,
                 picture::ProjectionImage &result) {
-    const Mixing &mixing = inputs.mixing;
-    const FrameGeometry &geometry = inputs.geometry;
     const GridTables &tables = *buffers.tables;
-    FrameJob job;
-    job.layout = &spectrum.layout();
-    job.cellLayout = &spectrum.cellLayout();
-    job.sources = mixing.sources.data();
-    job.sourceCount = int(mixing.sources.size());
-    job.imageCount = mixing.imageCount;
-    job.sums = mixing.sums;
-    job.shading = inputs.isShaded ? &inputs.shading : nullptr;
-    job.image = image;
-    job.columns = inputs.grid.columns;
-    job.rows = inputs.grid.rows;
+    FrameJob job = readingJob(inputs, spectrum, image);
     job.imageColumns = result.width;
     job.imageRows = result.height;
     job.pictureChannels = result.channels;
-    job.cellsPerColumn = geometry.cellsPerColumn;
-    job.cellsPerRow = geometry.cellsPerRow;
-    job.edgeSlack = geometry.edgeSlack;
-    for (int width = fourier::KernelsByWidth::narrowest;
-         inputs.kernels && width < spectrum.layout().width(); ++width)
-        job.kernels[std::size_t(width)] = inputs.kernels->of(width).data();
-    job.kernels[std::size_t(spectrum.layout().width())] = spectrum.layout().kernels.data();
-    job.widths = inputs.widths ? &*inputs.widths : nullptr;
+    job.widthMap = inputs.widthMap ? &*inputs.widthMap : nullptr;
     job.strips = buffers.strips.data();
     job.stripCount = int(buffers.strips.size());
     job.rollOff = tables.rollOff.data();
@@ -184,7 +165,6 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
     job.unpackReal = tables.unpackReal.data();
     for (std::size_t c = 0; c < std::size_t(job.imageCount); ++c)
         job.lines[c] = reinterpret_cast<float *>(buffers.lines[c].get());
-    job.zero = inputs.zero;
     job.imageColors = inputs.imageColors();
     job.samples = result.samples.data();
     return job;
@@ -266,8 +246,8 @@ CpuEngine::CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView
 
 CpuEngine::~CpuEngine() = default;
 
-void CpuEngine::setWidths(std::shared_ptr<const plan::AdaptiveWidths> widths) {
-    m_parts.widths = widths;
+void CpuEngine::setWidths(std::shared_ptr<const widths::AdaptiveWidths> widths) {
+    m_parts.adaptive = widths;
     m_buffers->setup.setWidths(std::move(widths));
 }
 
@@ -325,7 +305,7 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
     run.runOn(buffers.team);
     if (times != nullptr) {
         *times = run.timesSince(start);
-        times->widthShares = inputs.widthShares(camera, m_parts.spectra.fields.front()->layout());
+        times->widthShares = inputs.widthShares(m_parts.spectra.fields.front()->layout());
     }
     return result;
 }

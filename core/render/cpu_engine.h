@@ -15,8 +15,8 @@ struct FrameBuffers;
 /// spectrum strip by strip, multiplies by the reconstruction and the roll-off, and transforms each
 /// strip back while it is in the cache. The result has the same bits for any number of threads;
 /// between instruction sets that choose the same widths, images differ by less than 2e-6 of their
-/// largest value. Sets without fused multiplication measure the errors of widths slightly
-/// otherwise.
+/// largest value. Each set measures the errors of widths with its own rounding, so that a tile on
+/// the limit may get another width.
 ///
 /// Several spectra are shown as their weighted sum: weights and positions of the kernel are
 /// computed once for all, and each channel is transformed once, whatever the number of spectra. A
@@ -36,9 +36,9 @@ public:
     CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView, int threads = 0);
     ~CpuEngine() override;
 
-    /// Reads frames by these widths; null: everything by the layout's own.
+    /// Frames choose their kernel widths from this; null: the layout's own kernel reads everything.
     /// *Requires*: no concurrent frame.
-    void setWidths(std::shared_ptr<const plan::AdaptiveWidths> widths);
+    void setWidths(std::shared_ptr<const widths::AdaptiveWidths> widths);
     /// *Shape*: one entry per field.
     void setChannelWeights(std::vector<ChannelWeights> channelWeights);
     std::size_t fieldCount() const { return m_parts.spectra.fields.size(); }

@@ -19,7 +19,8 @@ FrameGeometry::FrameGeometry(const scene::Camera &camera, const plan::SliceGrid 
         cellsPerColumn[std::size_t(d)] = padded * glm::dot(lattice.step(d), axes[0]) * du;
         cellsPerRow[std::size_t(d)] = -padded * glm::dot(lattice.step(d), axes[1]) * dv;
         // Offsets are up to 7.5 steps, and both the product and the step are rounded.
-        edgeSlack[std::size_t(d)] = 2e-6F * float(1.0 + std::abs(cellsPerColumn[std::size_t(d)]));
+        edgeSlack[std::size_t(d)] = 2e-6F * float(1.0 + std::abs(cellsPerColumn[std::size_t(d)]) +
+                                                  std::abs(cellsPerRow[std::size_t(d)]));
         wraps = wraps || lattice.spacingMm(d) > camera.pixelMm * (1.0 + 1e-9);
     }
     toWrap = spectrum.wrapPoint().mm - lattice.center().mm;

@@ -5,15 +5,16 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/fourier/kernels/moment_kernel.h"
 #include "core/fourier/spectrum.h"
 #include "core/fourier/transforms/strip_transform.h"
-#include "core/plan/adaptive_widths.h"
 #include "core/plan/slice_grid.h"
 #include "core/scene/image_definition.h"
 #include "core/shading/shading.h"
+#include "core/widths/width_map.h"
 
 namespace pellucid::render {
 
@@ -44,8 +45,9 @@ struct alignas(64) FrequencyBatch {
     std::array<std::array<float, lanes>, 3> gradient, excess;
 };
 
-/// By axis.
-using MomentKernels = std::array<fourier::MomentKernel, 3>;
+/// The moment kernels of the widths that read a slice. *Shape*: [width][axis]; empty for others.
+using MomentKernels =
+    std::array<std::vector<fourier::MomentKernel>, fourier::Kernel::largestWidth + 1>;
 
 /// What a spectrum represents: a field, or the length of its gradient.
 enum class FrameKind { field, gradient };
@@ -115,7 +117,7 @@ struct FrameJob {
     std::array<float, 3> edgeSlack{}; ///< see FrameGeometry
     /// By width: the kernels of the three axes, or null.
     std::array<const fourier::Kernel *, fourier::Kernel::largestWidth + 1> kernels{};
-    const plan::WidthMap *widths = nullptr; ///< null: the layout's own width reads everything
+    const widths::WidthMap *widthMap = nullptr; ///< null: the layout's own width reads everything
     const StripBounds *strips = nullptr;
     int stripCount = 0;
     const float *rollOff = nullptr;
@@ -152,6 +154,18 @@ inline constexpr int batchesAhead = 3;
 /// A clock that splits a frame's time: seconds since an arbitrary moment.
 double frameClockSeconds();
 
+/// Sixteen neighbouring frequencies: one in each column of a strip.
+struct StripLine {
+    int strip = 0;
+    int row = 0;                    ///< of the first one
+    int slope = 0;                  ///< rows from one to the next
+    const float *rollOff = nullptr; ///< 16 factors; null: 1
+};
+/// Reads lines by one width into the strips of the scratch, one after the other. *Requires*: width
+/// > 0; of the job, all that `readingJob` sets, the phases and `stripCount`; of the scratch,
+/// `batches` and room for a strip for each line.
+void readLines(const FrameJob &job, std::span<const StripLine> lines, int width,
+               FrameScratch &scratch);
 /// Interpolates one strip of the slice and transforms it along the rows.
 void sliceStrip(const FrameJob &job, int strip, FrameScratch &scratch);
 /// Transforms 16 rows of every image along the columns and stores them in the picture.

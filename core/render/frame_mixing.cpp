@@ -113,12 +113,13 @@ FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mi
     return frame;
 }
 
-MomentKernels momentKernels(const fourier::SpectrumLayout &layout) {
-    const auto kernel = [&](int d) {
-        return fourier::MomentKernel(layout.kernels[std::size_t(d)],
-                                     double(layout.padded[d]) / layout.box.size()[d]);
-    };
-    return {kernel(0), kernel(1), kernel(2)};
+std::vector<fourier::MomentKernel> momentKernels(const std::array<fourier::Kernel, 3> &kernels,
+                                                 const fourier::SpectrumLayout &layout) {
+    std::vector<fourier::MomentKernel> moments;
+    for (int d = 0; d < 3; ++d)
+        moments.emplace_back(kernels[std::size_t(d)],
+                             double(layout.padded[d]) / layout.box.size()[d]);
+    return moments;
 }
 
 ZeroSums zeroSums(const Mixing &mixing, const FrameShading &shading,

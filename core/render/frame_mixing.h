@@ -45,7 +45,9 @@ FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mi
                           const fourier::Spectrum &spectrum, const glm::dvec3 &toWrap,
                           const glm::dvec3 &toViewer, double stepMm);
 
-MomentKernels momentKernels(const fourier::SpectrumLayout &layout);
+/// The moment kernels that belong to kernels of a layout, by axis.
+std::vector<fourier::MomentKernel> momentKernels(const std::array<fourier::Kernel, 3> &kernels,
+                                                 const fourier::SpectrumLayout &layout);
 
 /// *Units*: of the mixing.
 ZeroSums zeroSums(const Mixing &mixing, const FrameShading &shading,

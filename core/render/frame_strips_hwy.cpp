@@ -22,6 +22,16 @@ using fourier::StripTransform;
 #include "core/fourier/transforms/strip_transform_hwy.inc"
 #include "core/fourier/transforms/transpose_hwy.inc"
 #include "core/render/frame_sums_hwy.inc"
+
+// Sixteen neighbouring frequencies: their first column and row, the rows from one to the next, the
+// factors of roll-off and detail, and the place in the strips of the scratch.
+struct BatchPlace {
+    int column = 0, row = 0, slope = 0;
+    const float *rollOff = nullptr;
+    std::size_t to = 0;
+};
+
+// Included after what they use.
 #include "core/render/frame_weights_hwy.inc"
 
 // Rows of a strip that one width reads.
@@ -29,55 +39,77 @@ struct Rows {
     int first = 0, last = -1, width = 0;
 };
 
-// Included after the two files that it uses.
+// The batches that one width reads: the rows of a strip, or listed ones.
+class Batches {
+public:
+    Batches(const FrameJob &job, int strip, const Rows &rows)
+        : m_job(job), m_bounds(&job.strips[strip]), m_strip(strip), m_first(rows.first),
+          m_count(rows.last - rows.first + 1) {}
+    Batches(const FrameJob &job, std::span<const StripLine> listed)
+        : m_job(job), m_listed(listed.data()), m_count(int(listed.size())) {}
+
+    int count() const { return m_count; }
+    HWY_INLINE BatchPlace operator[](int n) const {
+        if (m_listed != nullptr)
+            return {m_listed[n].strip * stripLanes, m_listed[n].row, m_listed[n].slope,
+                    m_listed[n].rollOff, std::size_t(n) * stripFloats};
+        const int row = m_first + n, ring = std::abs(row) - m_bounds->innerRow - 1;
+        return {m_strip * stripLanes, row, 0,
+                ring < 0 ? nullptr
+                         : m_job.rollOff + m_bounds->rollOff + std::size_t(ring) * stripLanes,
+                std::size_t(row < 0 ? row + m_job.rows : row) * stripFloats};
+    }
+
+private:
+    const FrameJob &m_job;
+    const StripBounds *m_bounds = nullptr;
+    const StripLine *m_listed = nullptr;
+    int m_strip = 0, m_first = 0, m_count = 0;
+};
+
 #include "core/render/frame_shading_hwy.inc"
 
-// Rows of a strip of the slice of one spectrum without cue and light, as in most frames.
+// The slice of one spectrum without cue and light, as in most frames.
 template <int W, class Cell>
-void interpolatePlain(const FrameJob &job, int strip, const Rows &rows, FrameScratch &scratch) {
-    const StripBounds &bounds = job.strips[strip];
-    const int column = strip * stripLanes;
+void interpolatePlain(const FrameJob &job, const Batches &batches, FrameScratch &scratch) {
     const auto *const cells = reinterpret_cast<const Cell *>(job.sources[0].cells);
-    const auto batchOf = [&](int row) -> FrequencyBatch & {
-        return scratch.batches[(row + job.rows) % (batchesAhead + 1)];
+    const auto batchOf = [&](int n) -> FrequencyBatch & {
+        return scratch.batches[n % (batchesAhead + 1)];
     };
-    const auto prepare = [&](int row) {
-        const int ring = std::abs(row) - bounds.innerRow - 1;
-        prepareBatch<W, false>(
-            job, column, row, 0,
-            ring < 0 ? nullptr : job.rollOff + bounds.rollOff + std::size_t(ring) * stripLanes,
-            batchOf(row));
+    const auto prepare = [&](int n) {
+        const BatchPlace place = batches[n];
+        prepareBatch<W, false>(job, place, 0, batchOf(n));
     };
-    const int first = rows.first, last = rows.last;
-    for (int row = first; row < first + batchesAhead && row <= last; ++row) {
-        prepare(row);
-        prefetchPart<W>(batchOf(row), cells, 0, 1);
+    const int count = batches.count();
+    for (int n = 0; n < std::min(batchesAhead, count); ++n) {
+        prepare(n);
+        prefetchPart<W>(batchOf(n), cells, 0, 1);
     }
     HWY_ALIGN float sums[stripFloats];
-    for (int row = first; row <= last; ++row) {
-        const int ahead = std::min(row + batchesAhead, last);
-        if (ahead == row + batchesAhead)
+    for (int n = 0; n < count; ++n) {
+        const int ahead = std::min(n + batchesAhead, count - 1);
+        if (ahead == n + batchesAhead)
             prepare(ahead);
-        sumBatch<W, false>(batchOf(row), batchOf(ahead), cells, sums, nullptr);
-        if (strip == 0 && row == 0) {
+        const BatchPlace place = batches[n];
+        sumBatch<W, false>(batchOf(n), batchOf(ahead), cells, sums, nullptr);
+        if (place.column == 0 && place.row == 0) {
             sums[0] = float(job.zero[0][0].value);
             sums[1] = 0.0F;
         }
-        finishBatch(job, batchOf(row), sums, column, row,
-                    scratch.strips[0] + std::size_t(row < 0 ? row + job.rows : row) * stripFloats);
+        finishBatch(job, batchOf(n), sums, place.column, place.row, scratch.strips[0] + place.to);
     }
 }
 
 template <int W, class Cell>
-void interpolateRows(const FrameJob &job, int strip, const Rows &rows, FrameScratch &scratch) {
+void interpolate(const FrameJob &job, const Batches &batches, FrameScratch &scratch) {
     if (job.shading != nullptr && job.shading->cued)
-        interpolateMixed<W, true, true, Cell>(job, strip, rows, scratch);
+        interpolateMixed<W, true, true, Cell>(job, batches, scratch);
     else if (job.shading != nullptr)
-        interpolateMixed<W, true, false, Cell>(job, strip, rows, scratch);
+        interpolateMixed<W, true, false, Cell>(job, batches, scratch);
     else if (job.sourceCount > 1)
-        interpolateMixed<W, false, false, Cell>(job, strip, rows, scratch);
+        interpolateMixed<W, false, false, Cell>(job, batches, scratch);
     else
-        interpolatePlain<W, Cell>(job, strip, rows, scratch);
+        interpolatePlain<W, Cell>(job, batches, scratch);
 }
 
 // Sets rows of the strip to zero.
@@ -92,40 +124,46 @@ void clearRows(const FrameJob &job, const Rows &rows, FrameScratch &scratch) {
 }
 
 template <class Cell>
-void interpolateRows(const FrameJob &job, int strip, const Rows &rows, FrameScratch &scratch) {
-    switch (rows.width) {
-    case 0:
-        return clearRows(job, rows, scratch);
+void interpolateBy(int width, const FrameJob &job, const Batches &batches, FrameScratch &scratch) {
+    switch (width) {
     case 1:
-        return interpolateRows<1, Cell>(job, strip, rows, scratch);
+        return interpolate<1, Cell>(job, batches, scratch);
     case 2:
-        return interpolateRows<2, Cell>(job, strip, rows, scratch);
+        return interpolate<2, Cell>(job, batches, scratch);
     case 3:
-        return interpolateRows<3, Cell>(job, strip, rows, scratch);
+        return interpolate<3, Cell>(job, batches, scratch);
     case 4:
-        return interpolateRows<4, Cell>(job, strip, rows, scratch);
+        return interpolate<4, Cell>(job, batches, scratch);
     case 5:
-        return interpolateRows<5, Cell>(job, strip, rows, scratch);
+        return interpolate<5, Cell>(job, batches, scratch);
     case 6:
-        return interpolateRows<6, Cell>(job, strip, rows, scratch);
+        return interpolate<6, Cell>(job, batches, scratch);
     default:
-        return interpolateRows<7, Cell>(job, strip, rows, scratch);
+        return interpolate<7, Cell>(job, batches, scratch);
     }
+}
+
+template <class Cell>
+void interpolateRows(const FrameJob &job, int strip, const Rows &rows, FrameScratch &scratch) {
+    if (rows.width == 0)
+        clearRows(job, rows, scratch);
+    else
+        interpolateBy<Cell>(rows.width, job, Batches(job, strip, rows), scratch);
 }
 
 template <class Cell> void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
     const int outer = job.strips[strip].outerRow;
-    if (job.widths == nullptr)
+    if (job.widthMap == nullptr)
         return interpolateRows<Cell>(job, strip, {-outer, outer, job.layout->width()}, scratch);
-    static_assert(plan::WidthMap::tileColumns == stripLanes);
-    const auto widths = job.widths->strip(strip);
-    const int begin = -job.widths->tiles * plan::WidthMap::tileRows;
+    constexpr int tileRows = widths::SliceTiles::rows;
+    static_assert(widths::SliceTiles::columns == stripLanes);
+    const auto widths = job.widthMap->strip(strip);
+    const int begin = -job.widthMap->tiles * tileRows;
     for (std::size_t tile = 0, next = 0; tile < widths.size(); tile = next) {
         while (next < widths.size() && widths[next] == widths[tile])
             ++next;
-        const Rows rows{std::max(-outer, begin + int(tile) * plan::WidthMap::tileRows),
-                        std::min(outer, begin + int(next) * plan::WidthMap::tileRows - 1),
-                        widths[tile]};
+        const Rows rows{std::max(-outer, begin + int(tile) * tileRows),
+                        std::min(outer, begin + int(next) * tileRows - 1), widths[tile]};
         if (rows.first <= rows.last)
             interpolateRows<Cell>(job, strip, rows, scratch);
     }
@@ -161,6 +199,14 @@ void sliceOneStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
     scratch.stripSeconds += frameClockSeconds() - start;
 }
 
+void readListed(const FrameJob &job, std::span<const StripLine> lines, int width,
+                FrameScratch &scratch) {
+    if (job.layout->storage == fourier::Storage::binary16)
+        interpolateBy<Half>(width, job, Batches(job, lines), scratch);
+    else
+        interpolateBy<std::complex<float>>(width, job, Batches(job, lines), scratch);
+}
+
 const char *targetName() {
     return hwy::TargetName(HWY_TARGET);
 }
@@ -172,10 +218,16 @@ HWY_AFTER_NAMESPACE();
 namespace pellucid::render {
 
 HWY_EXPORT(sliceOneStrip);
+HWY_EXPORT(readListed);
 HWY_EXPORT(targetName);
 
 void sliceStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
     HWY_DYNAMIC_DISPATCH(sliceOneStrip)(job, strip, scratch);
+}
+
+void readLines(const FrameJob &job, std::span<const StripLine> lines, int width,
+               FrameScratch &scratch) {
+    HWY_DYNAMIC_DISPATCH(readListed)(job, lines, width, scratch);
 }
 
 const char *instructionSet() {

@@ -9,9 +9,9 @@
 
 #include "core/fourier/spectrum.h"
 #include "core/picture/projector.h"
-#include "core/plan/adaptive_widths.h"
 #include "core/plan/slice_grid.h"
 #include "core/shading/slice_shading.h"
+#include "core/widths/adaptive_widths.h"
 
 namespace pellucid::render {
 
@@ -41,8 +41,8 @@ struct EngineParts {
     EngineSpectra spectra;
     std::vector<ChannelWeights> channelWeights; ///< one entry per field
     plan::FieldOfView fieldOfView;
-    /// The kernel widths that frames are read by; null: the layout's own kernel reads everything.
-    std::shared_ptr<const plan::AdaptiveWidths> widths;
+    /// What frames choose their kernel widths from; null: the layout's own kernel reads everything.
+    std::shared_ptr<const widths::AdaptiveWidths> adaptive;
 };
 
 /// Makes projections of prepared fields by slicing their spectra. Engines are interchangeable:

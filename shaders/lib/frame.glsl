@@ -46,7 +46,7 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     vec4 excess[3];
     // [width - 1][axis][pair][...]: a vector holds two even and two odd coefficients
     vec4 kernels[MAX_WIDTH * 3 * MAX_PAIRS * MAX_PAIR_VECTORS];
-    vec4 momentKernels[3 * MAX_PAIRS * MAX_PAIR_VECTORS];
+    vec4 momentKernels[MAX_WIDTH * 3 * MAX_PAIRS * MAX_PAIR_VECTORS];
     ivec4 radices[8];            // four vectors for a column, four for a row
 }
 frame;

@@ -34,13 +34,24 @@ void kernelWeights(int axis, float c, int width, out float weights[WIDTH]) {
 
 #if CUED
 // The offset of a tap is its grid index minus the frequency, which flips the sign of an odd kernel.
-void momentWeights(int axis, float c, out float weights[WIDTH]) {
+void momentWeights(int axis, float c, int width, out float weights[WIDTH]) {
+    int kernel = 3 * (width - 1) + axis;
     float scale = -frame.perMoment[axis];
-    for (int k = 0; k < pairs; ++k) {
-        EVEN_AND_ODD(frame.momentKernels, axis, k, MOMENT_TERMS, c * c, part)
-        weights[k] = scale * (part.x + c * part.y);
-        if (2 * k != WIDTH - 1)
-            weights[WIDTH - 1 - k] = scale * (c * part.y - part.x);
+    if (width == WIDTH) {
+        for (int k = 0; k < pairs; ++k) {
+            EVEN_AND_ODD(frame.momentKernels, kernel, k, MOMENT_TERMS, c * c, part)
+            weights[k] = scale * (part.x + c * part.y);
+            if (2 * k != WIDTH - 1)
+                weights[WIDTH - 1 - k] = scale * (c * part.y - part.x);
+        }
+        return;
+    }
+    for (int k = 0; k < WIDTH; ++k) {
+        int mirrored = width - 1 - k;
+        EVEN_AND_ODD(frame.momentKernels, kernel, max(0, min(k, mirrored)), MOMENT_TERMS, c * c,
+                     part)
+        float weight = k > mirrored ? c * part.y - part.x : part.x + c * part.y;
+        weights[k] = k < width ? scale * weight : 0.0;
     }
 }
 #endif

@@ -54,9 +54,9 @@ Taps tapsAt(Fixed place, int width, out vec3 q, out bool mirrored) {
     kernelWeights(1, c.y, width, taps.y);
     kernelWeights(2, c.z, width, taps.z);
 #if CUED
-    momentWeights(0, c.x, taps.momentX);
-    momentWeights(1, c.y, taps.momentY);
-    momentWeights(2, c.z, taps.momentZ);
+    momentWeights(0, c.x, width, taps.momentX);
+    momentWeights(1, c.y, width, taps.momentY);
+    momentWeights(2, c.z, width, taps.momentZ);
 #endif
     return taps;
 }

@@ -43,7 +43,8 @@ void writeExchangeMessages(const fs::path &folder) {
     writeText(folder / "query",
               exchange::pack(exchange::Query{
                   exchange::Level::series, {{exchange::tag::patientName, "A*"}}, 3}));
-    writeText(folder / "query_end", exchange::pack(exchange::QueryEnd{true, false, {"slow today"}}));
+    writeText(folder / "query_end",
+              exchange::pack(exchange::QueryEnd{true, false, {"slow today"}}));
     writeText(folder / "retrieval",
               exchange::pack(
                   exchange::Retrieval{exchange::Level::image, "1.2", "1.3", {"1.4", "1.5"}, "US"}));

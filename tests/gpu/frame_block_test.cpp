@@ -138,8 +138,8 @@ TEST(Bindings, HoldWhatThePlanMayAskFor) {
     EXPECT_GE(bindings::maxTerms, int(2 * shading::maxCurveValues));
     EXPECT_GE(2 * bindings::maxPairVectors, fourier::Kernel::largestTerms);
     EXPECT_EQ(bindings::maxWidth, fourier::Kernel::largestWidth);
-    EXPECT_EQ(bindings::tileColumns, plan::WidthMap::tileColumns);
-    EXPECT_EQ(bindings::tileRows, plan::WidthMap::tileRows);
+    EXPECT_EQ(bindings::tileColumns, widths::SliceTiles::columns);
+    EXPECT_EQ(bindings::tileRows, widths::SliceTiles::rows);
     EXPECT_GE(2 * bindings::maxPairs, fourier::Kernel::largestWidth);
     for (int n = 2; n <= 65536; n = fourier::smoothEvenSize(n + 1)) {
         int product = 1;

@@ -38,7 +38,7 @@ protected:
         const render::EngineParts parts = prepared.engine->parts();
         gpu::GpuEngine engine(
             gpu::SpectrumTextures::upload(card, parts.spectra, {}, maxTextureBytes),
-            parts.channelWeights, parts.fieldOfView, parts.widths);
+            parts.channelWeights, parts.fieldOfView, parts.adaptive);
         double worst = 0.0;
         for (const glm::dquat &view : views()) {
             scene.camera.orientation = view;
@@ -110,9 +110,9 @@ TEST_F(GpuEngine, NarrowKernelsReadASmoothField) {
     scene.tolerance = 1e-2;
     EXPECT_LE(difference(scene, fields), withinBinary16);
     const auto parts = prepare::prepareEngine(scene, fields, {}).engine->parts();
-    ASSERT_TRUE(parts.widths);
+    ASSERT_TRUE(parts.adaptive);
     gpu::GpuEngine engine(gpu::SpectrumTextures::upload(card, parts.spectra, {}, 1U << 30U),
-                          parts.channelWeights, parts.fieldOfView, parts.widths);
+                          parts.channelWeights, parts.fieldOfView, parts.adaptive);
     picture::FrameTimes times;
     engine.render(scene.camera, scene.image, {}, &times);
     EXPECT_GE(std::count_if(times.widthShares.begin(), times.widthShares.end(),

@@ -243,9 +243,8 @@ private slots:
     // A study whose first projection was cancelled has none to return to.
     void aCancelledPreparationIsRepeatedByF5() {
         mainWindow().openPaths({headPath()});
-        QTRY_VERIFY_WITH_TIMEOUT(document().volume() && !document().isPreview() &&
-                                     jobs().isRunning(),
-                                 patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(
+            document().volume() && !document().isPreview() && jobs().isRunning(), patienceMs);
         QTest::keyClick(&mainWindow(), Qt::Key_Escape);
         QVERIFY(!jobs().isRunning());
         QCOMPARE(projection()->planState(), ui::PlanState::cancelled);

@@ -284,8 +284,7 @@ void ProjectionView::requestFrame(bool moving) {
     const plan::RenderPlan &plan = m_prepared->plan;
     const volume::Lattice &lattice = m_document.volume()->lattice();
     // The picture that this one is compared with may be read by one kernel.
-    const bool isAdaptive = plan.adaptiveError > 0.0 && plan.image == m_document.scene().image &&
-                            !m_onCard && !m_isComparing;
+    const bool isAdaptive = plan.adaptiveError > 0.0 && !m_onCard && !m_isComparing;
     const double finest = isAdaptive ? 0.0
                                      : std::min(lattice.shortestStepMm() / pixelsPerVoxel,
                                                 2.0 * lattice.radiusMm() / pixelsAcross);

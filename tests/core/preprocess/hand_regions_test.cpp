@@ -264,8 +264,8 @@ TEST(RegionSteps, ALeakLimitKeepsARegionFromPassingABridge) {
     };
     const auto count = [](const Mask &mask) { return std::count(mask.begin(), mask.end(), 1); };
     EXPECT_GT(count(region(0.0)), 2 * count(left));
-    // A ball of 4 mm reaches all of the left ball but what is narrower than itself. Where the bridge
-    // begins, it reaches as far into that as its radius.
+    // A ball of 4 mm reaches all of the left ball but what is narrower than itself. Where the
+    // bridge begins, it reaches as far into that as its radius.
     const Mask reached = region(4.0), least = preprocess::opening(lattice, left, 2.0);
     forAll(lattice.size(), [&](VoxelIndex n, std::size_t at) {
         EXPECT_GE(reached[at], least[at]) << n.i << ' ' << n.j << ' ' << n.k;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -7,11 +8,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/plan/adaptive_widths.h"
 #include "core/prepare/prepared_engine.h"
-#include "core/render/frame_inputs.h"
+#include "core/render/cpu_engine.h"
 #include "tests/support/fields.h"
-#include "tests/support/fresh_seed.h"
 
 namespace pellucid {
 
@@ -52,13 +51,26 @@ const Shape shapes[] = {
      [](const glm::dvec3 &mm, std::mt19937 &random) {
          return std::uniform_real_distribution<double>()(random) < 2e-3 ? inBall(mm) : 0.0;
      }},
+    // A peak of a few frequencies, anywhere in a tile.
+    {"wave in a window",
+     [](const glm::dvec3 &mm, std::mt19937 &) {
+         const auto hann = [](double at) { return std::pow(std::cos(std::numbers::pi * at), 2.0); };
+         return hann(mm.x / 61.0) * hann(mm.y / 61.0) * hann(mm.z / 61.0) *
+                (0.5 + 0.05 * std::cos(2.0 * std::numbers::pi * 0.27 * glm::dot(oblique, mm)));
+     }},
+    // Narrow kernels blur the faint part much more than the bright one.
+    {"bright middle",
+     [](const glm::dvec3 &mm, std::mt19937 &random) {
+         return std::exp(-glm::dot(mm, mm) / 20.0) +
+                0.01 * inBall(mm) * std::uniform_real_distribution<double>()(random);
+     }},
     {"box",
      [](const glm::dvec3 &mm, std::mt19937 &) {
          return std::abs(mm.x) < 20.0 && std::abs(mm.y) < 14.0 && std::abs(mm.z) < 24.0 ? 1.0 : 0.0;
      }},
 };
 
-class AdaptiveWidths : public testing::TestWithParam<Shape> {
+class FrameWidths : public testing::TestWithParam<Shape> {
 protected:
     classify::DensityField field(const volume::Lattice &lattice, unsigned seed) const {
         std::mt19937 random(seed);
@@ -93,6 +105,8 @@ std::vector<glm::dquat> views(unsigned seed) {
     return views;
 }
 
+constexpr double rounding = 3e-7;
+
 // Pictures by several widths beside those that one kernel reads from the same spectra.
 class Narrowed {
 public:
@@ -101,44 +115,36 @@ public:
           m_whole(prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {}).engine),
           m_parts(m_whole->parts()) {
         const fourier::SpectrumLayout &layout = m_parts.spectra.fields.front()->layout();
-        m_kernels = std::make_shared<const fourier::KernelsByWidth>(layout);
-        const auto energiesOf = [&](const render::EngineSpectra::Spectra &spectra) {
-            plan::AdaptiveWidths::Energies energies;
+        const auto energiesOf = [](const render::EngineSpectra::Spectra &spectra) {
+            widths::AdaptiveWidths::Energies energies;
             for (const auto &spectrum : spectra)
-                energies.push_back(std::make_shared<const plan::SpectrumEnergies>(
-                    *spectrum, *m_kernels, scene.image, 1e-4));
+                energies.push_back(std::make_shared<const widths::BlockEnergies>(*spectrum));
             return energies;
         };
-        m_fields = energiesOf(m_parts.spectra.fields);
-        m_gradients = energiesOf(m_parts.spectra.gradients);
+        m_adaptive = {std::make_shared<const fourier::KernelsByWidth>(
+                          m_parts.spectra.fields.front()->layout()),
+                      energiesOf(m_parts.spectra.fields), energiesOf(m_parts.spectra.gradients)};
     }
 
-    struct Error {
-        double predicted, measured;
-    };
-    Error errorFrom(const glm::dquat &view, double tolerance) {
+    // The distance from the picture that one kernel reads, over the tolerance.
+    double errorFrom(const glm::dquat &view, double tolerance) {
         m_scene.camera.orientation = view;
+        m_adaptive.tolerance = tolerance;
         const auto render = [&](picture::Projector &engine) {
             return engine.render(m_scene.camera, m_scene.image, m_scene.shading).samples;
         };
-        const auto widths = std::make_shared<const plan::AdaptiveWidths>(
-            m_kernels, m_fields, m_gradients, m_scene.image, tolerance);
         render::CpuEngine narrow(m_parts.spectra, m_parts.fieldOfView);
         narrow.setChannelWeights(m_parts.channelWeights);
-        narrow.setWidths(widths);
-        render::FrameSetup setup(m_parts.fieldOfView, widths);
-        const auto inputs = setup.inputsFor(m_parts.spectra, m_parts.channelWeights, m_scene.camera,
-                                            m_scene.image, m_scene.shading);
-        return {inputs.widths.value().estimatedError,
-                test::relativeL2(render(narrow), render(*m_whole))};
+        narrow.setWidths(std::make_shared<const widths::AdaptiveWidths>(m_adaptive));
+        return std::max(0.0, test::relativeL2(render(narrow), render(*m_whole)) - rounding) /
+               tolerance;
     }
 
 private:
     scene::Scene m_scene;
     std::shared_ptr<render::ProjectionEngine> m_whole;
     render::EngineParts m_parts;
-    std::shared_ptr<const fourier::KernelsByWidth> m_kernels;
-    plan::AdaptiveWidths::Energies m_fields, m_gradients;
+    widths::AdaptiveWidths m_adaptive;
 };
 
 // A scene of pixels of a third of a voxel or larger ones, read by one kernel.
@@ -157,34 +163,50 @@ std::array<volume::Lattice, 2> lattices() {
             volume::Lattice::centred({60, 60, 20}, {1.0, 1.0, 3.0})};
 }
 
-constexpr double rounding = 3e-7;
+// The errors of many pictures. A few lines of the slice estimate each with three standard errors to
+// spare: hardly any is above the tolerance, and none by much; a peak that no line crosses may
+// double it.
+class Errors {
+public:
+    void add(double ofTolerance) {
+        ++m_count;
+        m_above += ofTolerance > 1.0 ? 1 : 0;
+        m_spent += ofTolerance > 0.0 ? 1 : 0;
+        m_largest = std::max(m_largest, ofTolerance);
+    }
+    ~Errors() {
+        EXPECT_LE(m_largest, 2.0) << m_name;
+        EXPECT_LE(m_above, 1 + m_count / 50) << m_name;
+        EXPECT_GE(m_spent, m_least) << m_name;
+    }
+    Errors(const char *name, int least) : m_name(name), m_least(least) {}
+    Errors(const Errors &) = delete;
+    Errors &operator=(const Errors &) = delete;
 
-// The difference from a picture that one kernel reads never exceeds the predicted one.
-TEST_P(AdaptiveWidths, DifferNoMoreThanPredicted) {
-    const unsigned seed = test::freshSeed();
+private:
+    const char *m_name;
+    int m_least;
+    int m_count = 0, m_above = 0, m_spent = 0;
+    double m_largest = 0.0;
+};
+
+constexpr unsigned seed = 7;
+
+TEST_P(FrameWidths, StayWithinTheTolerance) {
+    Errors errors(GetParam().name, 32);
     for (const volume::Lattice &lattice : lattices()) {
         const classify::DensityField shown = field(lattice, seed);
         for (const double voxelsPerPixel : {1.0 / 3.0, 1.7})
             for (const int width : {3, 4, 5, 7}) {
                 Narrowed narrowed(sceneOf(lattice, voxelsPerPixel, width), shown);
-                int differing = 0;
                 for (const glm::dquat &view : views(seed))
-                    for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
-                        const auto [predicted, measured] = narrowed.errorFrom(view, tolerance);
-                        EXPECT_LE(measured, predicted + rounding)
-                            << GetParam().name << " " << voxelsPerPixel << " " << width;
-                        EXPECT_LE(predicted, tolerance);
-                        differing += measured > 0.0 ? 1 : 0;
-                    }
-                if (voxelsPerPixel < 1.0) {
-                    EXPECT_GT(differing, 4) << GetParam().name;
-                }
+                    for (const double tolerance : {1e-2, 1e-3, 1e-4})
+                        errors.add(narrowed.errorFrom(view, tolerance));
             }
     }
 }
 
-TEST_P(AdaptiveWidths, DifferNoMoreThanPredictedUnderCuesAndLights) {
-    const unsigned seed = test::freshSeed();
+TEST_P(FrameWidths, StayWithinTheToleranceUnderCuesAndLights) {
     shading::Shading lit, sine, curve, linear;
     lit.ambient = 0.3;
     lit.lights.resize(2);
@@ -200,20 +222,14 @@ TEST_P(AdaptiveWidths, DifferNoMoreThanPredictedUnderCuesAndLights) {
     litLinear.cue = linear.cue;
     const volume::Lattice lattice = lattices()[1];
     const classify::DensityField shown = field(lattice, seed);
+    Errors errors(GetParam().name, 20);
     for (const shading::Shading &shading : {lit, sine, curve, linear, litLinear}) {
         scene::Scene scene = sceneOf(lattice, 1.0 / 3.0, 4);
         scene.shading = shading;
         Narrowed narrowed(scene, shown);
-        int differing = 0;
         for (const glm::dquat &view : views(seed))
-            for (const double tolerance : {1e-2, 1e-3}) {
-                const auto [predicted, measured] = narrowed.errorFrom(view, tolerance);
-                EXPECT_LE(measured, predicted + rounding) << GetParam().name;
-                EXPECT_LE(predicted, tolerance);
-                differing += measured > 0.0 ? 1 : 0;
-            }
-        // With a linear cue, frequencies are only left out.
-        EXPECT_GT(differing, shading.cue.hasMoments() ? 0 : 4) << GetParam().name;
+            for (const double tolerance : {1e-2, 1e-3})
+                errors.add(narrowed.errorFrom(view, tolerance));
     }
 }
 
@@ -240,7 +256,7 @@ TEST(WidthShares, ASmoothFieldReadsLessThanHalfOfTheTaps) {
     EXPECT_LT(taps, 0.5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, AdaptiveWidths, testing::ValuesIn(shapes),
+INSTANTIATE_TEST_SUITE_P(Shapes, FrameWidths, testing::ValuesIn(shapes),
                          [](const auto &shape) { return std::to_string(shape.index); });
 
 } // namespace
