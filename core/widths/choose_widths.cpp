@@ -133,11 +133,9 @@ std::vector<Step> stepsFor(std::span<const Drawn> drawn, std::span<const LineErr
             const double price = std::max(0.0, shares[width] - shares[wider]) /
                                  (plan::readTime(int(wider)) - plan::readTime(int(width)));
             if (to + 1 == from || price <= best.perEnergy) {
-                // With a single kernel, the only step leaves a tile out, and its error is all of
-                // its energy.
-                const bool isOneKernel = widths.size() == 2;
+                // A tile that is left out loses all of its energy, however dark its lines are.
                 best = {int(width),
-                        isOneKernel ? 1.0 : std::sqrt(squares[width] / std::max(all, 1.0)), price};
+                        width == 0 ? 1.0 : std::sqrt(squares[width] / std::max(all, 1.0)), price};
                 next = to;
             }
         }

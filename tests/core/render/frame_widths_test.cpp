@@ -114,7 +114,6 @@ public:
         : m_scene(scene),
           m_whole(prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {}).engine),
           m_parts(m_whole->parts()) {
-        const fourier::SpectrumLayout &layout = m_parts.spectra.fields.front()->layout();
         const auto energiesOf = [](const render::EngineSpectra::Spectra &spectra) {
             widths::AdaptiveWidths::Energies energies;
             for (const auto &spectrum : spectra)
