@@ -42,13 +42,16 @@ struct Measured {
         float most = 0.0F;
         for (const float value : values)
             most = std::max(most, value);
+        // Less is error: a picture of the default tolerance is off by up to 2e-3 of its brightest
+        // pixel.
+        const double leastSeen = 4e-3 * double(most);
         // Air first: it is no measure of the body's brightness.
-        std::vector<float> seen = valuesAbove(1e-3 * double(most));
+        std::vector<float> seen = valuesAbove(leastSeen);
         if (seen.empty())
             return;
         const double bright = quantile(seen, brightQuantile);
         if (background == Background::measured)
-            axis.air = airBeside(1e-3 * double(most), bright, outlineMm2);
+            axis.air = airBeside(leastSeen, bright, outlineMm2);
         const double leastOfBody = axis.air + airShare * (bright - axis.air);
         std::vector<float> body = valuesAbove(leastOfBody);
         axis.dark = quantile(body, darkQuantile);
@@ -71,7 +74,7 @@ struct Measured {
     // it is the body, which the volume cuts off.
     double airBeside(double limit, double bright, double outlineMm2) const {
         constexpr double quarter = 0.25, half = 0.5, mostOfBright = 0.5, mostOfAColumn = 0.6,
-                         mostOfAll = 0.9;
+                         mostOfAll = 0.9, rising = 1.05;
         int first = picture.width, last = -1, top = picture.height, bottom = -1;
         for (int r = 0; r < picture.height; ++r)
             for (int c = 0; c < picture.width; ++c)
@@ -99,11 +102,18 @@ struct Measured {
         std::vector<float> beside = besideAt(inward);
         double share = quarter;
         // Air fills the volume, or a part of it from top to bottom; a body without air does not.
-        // The outer columns of an oblique volume only show its corners.
+        // The outer columns of an oblique volume only show its corners: they are short, and
+        // brighter farther inward.
+        const int step = inward;
+        const auto isOfCorners = [&] {
+            std::vector<float> farther = besideAt(inward + step);
+            return !isTall(beside, mostOfAll) ||
+                   (!farther.empty() && quantile(farther, half) > rising * quantile(beside, half));
+        };
         const double seenMm2 =
             double(valuesAbove(limit).size()) * picture.pixelMm * picture.pixelMm;
         if (outlineMm2 > 0.0 && seenMm2 > mostOfAll * outlineMm2)
-            for (; !isTall(beside, mostOfAll) && 4 * inward < last - first; ++inward) {
+            for (; 4 * inward < last - first && isOfCorners(); ++inward) {
                 beside = besideAt(inward);
                 share = half;
             }
