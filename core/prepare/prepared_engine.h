@@ -45,9 +45,8 @@ struct PreparedEngine {
     StudyFields study; ///< what its pictures are measured against; empty: nothing
 };
 
-/// The data from which frames of a plan choose their kernel widths; null if one width reads
-/// everything. *Throws*
-/// Error{outOfMemory}, Cancelled.
+/// The data for choosing the kernel widths of a plan's frames; null if one width reads everything.
+/// *Throws* Error{outOfMemory}, Cancelled.
 std::shared_ptr<const widths::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra &spectra,
                                                              const plan::RenderPlan &plan,
                                                              const task::Progress &progress = {});

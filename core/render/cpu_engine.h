@@ -36,7 +36,7 @@ public:
     CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView, int threads = 0);
     ~CpuEngine() override;
 
-    /// Frames choose their kernel widths from this; null: the layout's own kernel reads everything.
+    /// Sets the data for choosing kernel widths; null: the layout's own kernel reads everything.
     /// *Requires*: no concurrent frame.
     void setWidths(std::shared_ptr<const widths::AdaptiveWidths> widths);
     /// *Shape*: one entry per field.

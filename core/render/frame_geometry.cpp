@@ -18,7 +18,7 @@ FrameGeometry::FrameGeometry(const scene::Camera &camera, const plan::SliceGrid 
         const int padded = spectrum.layout().padded[d];
         cellsPerColumn[std::size_t(d)] = padded * glm::dot(lattice.step(d), axes[0]) * du;
         cellsPerRow[std::size_t(d)] = -padded * glm::dot(lattice.step(d), axes[1]) * dv;
-        // Offsets are up to 7.5 steps, and both the product and the step are rounded.
+        // Offsets are up to 7.5 columns and 15 rows; products and steps are rounded.
         edgeSlack[std::size_t(d)] = 2e-6F * float(1.0 + std::abs(cellsPerColumn[std::size_t(d)]) +
                                                   std::abs(cellsPerRow[std::size_t(d)]));
         wraps = wraps || lattice.spacingMm(d) > camera.pixelMm * (1.0 + 1e-9);

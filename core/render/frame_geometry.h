@@ -28,8 +28,8 @@ struct FrameGeometry {
     /// Tolerances by axis, in cells. A coordinate within this distance of a kernel's far edge
     /// counts as on the edge, and mirrored cells are read only where x is further below 0 than
     /// this. Kernels may jump at their edges, so where a view meets the grid, rounding alone must
-    /// not decide which of two cells is read. Larger than the rounding of the float offsets of 16
-    /// neighbours, in a row or on a diagonal.
+    /// not decide which of two cells is read. Larger than the rounding of the float offsets within
+    /// 16 columns and 16 rows.
     std::array<float, 3> edgeSlack{};
     double cellArea = 0.0;  ///< of the frequency grid, 1/mm^2
     glm::dvec3 toWrap{0.0}; ///< from the centre of rotation to the wrap voxel, mm

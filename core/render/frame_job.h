@@ -26,7 +26,7 @@ struct StripBounds {
     std::size_t rollOff = 0;
 };
 
-/// The cells and weights of a batch of 16 neighbouring frequencies. *Shape*: y and z weights
+/// The cells and weights of 16 frequencies in neighbouring columns. *Shape*: y and z weights
 /// [tap][lane]; x weights [lane][4 or 8 taps].
 struct alignas(64) FrequencyBatch {
     static constexpr int lanes = fourier::stripLanes;
@@ -154,11 +154,11 @@ inline constexpr int batchesAhead = 3;
 /// A clock that splits a frame's time: seconds since an arbitrary moment.
 double frameClockSeconds();
 
-/// Sixteen neighbouring frequencies: one in each column of a strip.
+/// Sixteen frequencies: one in each column of a strip, within 16 rows.
 struct StripLine {
     int strip = 0;
     int row = 0;                    ///< of the first one
-    int slope = 0;                  ///< rows from one to the next
+    const float *rows = nullptr;    ///< 16 distances from that row; null: all are in it
     const float *rollOff = nullptr; ///< 16 factors; null: 1
 };
 /// Reads lines by one width into the strips of the scratch, one after the other. *Requires*: width

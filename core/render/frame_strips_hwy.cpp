@@ -23,11 +23,11 @@ using fourier::StripTransform;
 #include "core/fourier/transforms/transpose_hwy.inc"
 #include "core/render/frame_sums_hwy.inc"
 
-// Sixteen neighbouring frequencies: their first column and row, the rows from one to the next, the
-// factors of roll-off and detail, and the place in the strips of the scratch.
+// Sixteen frequencies in neighbouring columns: the first column and row, the distances of their
+// rows from that, the factors of roll-off and detail, and the place in the strips of the scratch.
 struct BatchPlace {
-    int column = 0, row = 0, slope = 0;
-    const float *rollOff = nullptr;
+    int column = 0, row = 0;
+    const float *rows = nullptr, *rollOff = nullptr;
     std::size_t to = 0;
 };
 
@@ -51,10 +51,10 @@ public:
     int count() const { return m_count; }
     HWY_INLINE BatchPlace operator[](int n) const {
         if (m_listed != nullptr)
-            return {m_listed[n].strip * stripLanes, m_listed[n].row, m_listed[n].slope,
+            return {m_listed[n].strip * stripLanes, m_listed[n].row, m_listed[n].rows,
                     m_listed[n].rollOff, std::size_t(n) * stripFloats};
         const int row = m_first + n, ring = std::abs(row) - m_bounds->innerRow - 1;
-        return {m_strip * stripLanes, row, 0,
+        return {m_strip * stripLanes, row, nullptr,
                 ring < 0 ? nullptr
                          : m_job.rollOff + m_bounds->rollOff + std::size_t(ring) * stripLanes,
                 std::size_t(row < 0 ? row + m_job.rows : row) * stripFloats};

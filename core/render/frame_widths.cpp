@@ -61,11 +61,13 @@ public:
 
     // The squared errors of at most `linesTogether` lines, by each width of `by`. *Requires*: `by`
     // is ascending; its last width is the reference, whose errors stay 0.
-    void measure(Lines lines, std::span<const int> by, std::span<widths::LineErrors> errors) const {
+    void measure(Lines lines, std::span<const int> by,
+                 std::span<widths::ErrorsByWidth> errors) const {
         Scratch scratch;
         std::array<StripLine, linesTogether> listed;
         for (std::size_t n = 0; n < lines.size(); ++n)
-            listed[n] = {lines[n].strip, lines[n].row, lines[n].slope,
+            listed[n] = {lines[n].strip, lines[n].rowOf(0),
+                         rowsFromFirst(lines[n], scratch.rows[n].data()),
                          rollOff(lines[n], scratch.rollOff[n].data())};
         for (auto width = by.rbegin(); width != by.rend(); ++width) {
             const bool isWidest = width == by.rbegin();
@@ -74,12 +76,9 @@ public:
                 read.strips[c] = (isWidest ? scratch.widest : scratch.narrower)[c].data();
             if (*width > 0)
                 readLines(m_job, std::span(listed).first(lines.size()), *width, read);
-            for (std::size_t n = 0; n < lines.size() && !isWidest; ++n) {
-                const auto energies = energiesOf(lines[n], n, scratch.widest,
-                                                 *width > 0 ? &scratch.narrower : nullptr);
-                for (std::size_t part = 0; part < energies.size(); ++part)
-                    errors[n][part][std::size_t(*width)] = energies[part];
-            }
+            for (std::size_t n = 0; n < lines.size() && !isWidest; ++n)
+                errors[n][std::size_t(*width)] =
+                    energyOf(lines[n], n, scratch.widest, *width > 0 ? &scratch.narrower : nullptr);
         }
     }
 
@@ -87,34 +86,35 @@ private:
     using Values = std::array<std::array<float, linesTogether * stripFloats>, FrameJob::maxImages>;
     struct alignas(64) Scratch {
         Values widest, narrower;
-        std::array<std::array<float, stripLanes>, linesTogether> rollOff;
+        std::array<std::array<float, stripLanes>, linesTogether> rows, rollOff;
         std::array<FrequencyBatch, batchesAhead + 1> batches;
     };
 
-    const float *rollOff(const widths::SliceLine &at, float *factors) const {
-        const int column = at.strip * stripLanes;
-        const auto radius = [&](int lane) {
-            return std::hypot(2.0 * (column + lane) / m_job.columns,
-                              2.0 * (at.row + lane * at.slope) / m_job.rows);
-        };
-        // The farthest is at an end.
-        if (m_inputs.radial.detail <= 0.0 &&
-            std::max(radius(0), radius(stripLanes - 1)) <= 1.0 - m_inputs.radial.rollOffShare)
+    static const float *rowsFromFirst(const widths::SliceLine &line, float *rows) {
+        if (line.rise == 0)
             return nullptr;
         for (int lane = 0; lane < stripLanes; ++lane)
-            factors[lane] = float(radius(lane) < 1.0 ? m_inputs.radial.at(radius(lane)) : 0.0);
+            rows[lane] = float(line.rowOf(lane) - line.rowOf(0));
+        return rows;
+    }
+    const float *rollOff(const widths::SliceLine &line, float *factors) const {
+        for (int lane = 0; lane < stripLanes; ++lane) {
+            const double radius = std::hypot(2.0 * (line.strip * stripLanes + lane) / m_job.columns,
+                                             2.0 * line.rowOf(lane) / m_job.rows);
+            factors[lane] = float(radius < 1.0 ? m_inputs.radial.at(radius) : 0.0);
+        }
         return factors;
     }
 
-    // The energies of red, green and blue in both parts of a line, with their mirror images. `less`
-    // is subtracted first.
-    std::array<double, 2> energiesOf(const widths::SliceLine &at, std::size_t line,
-                                     const Values &values, const Values *less) const {
-        std::array<double, 2> energies{};
+    // The energy of red, green and blue in a line, with its mirror image. `less` is subtracted
+    // first.
+    double energyOf(const widths::SliceLine &line, std::size_t place, const Values &values,
+                    const Values *less) const {
+        double energy = 0.0;
         for (std::size_t lane = 0; lane < std::size_t(stripLanes); ++lane) {
             std::array<std::complex<double>, 3> channels{};
             for (std::size_t image = 0; image < m_images; ++image) {
-                const std::size_t re = line * stripFloats + lane, im = re + stripLanes;
+                const std::size_t re = place * stripFloats + lane, im = re + stripLanes;
                 std::complex<double> value(values[image][re], values[image][im]);
                 if (less != nullptr)
                     value -= std::complex<double>((*less)[image][re], (*less)[image][im]);
@@ -122,11 +122,11 @@ private:
                     channels[c] += m_inputs.mixing.imageColor(image)[c] * value;
             }
             // Column 0 holds both halves of its rows.
-            const double weight = at.strip == 0 && lane == 0 ? 1.0 : 2.0;
+            const double weight = line.strip == 0 && lane == 0 ? 1.0 : 2.0;
             for (const auto &channel : channels)
-                energies[lane < std::size_t(at.split) ? 0 : 1] += weight * std::norm(channel);
+                energy += weight * std::norm(channel);
         }
-        return energies;
+        return energy;
     }
 
     const FrameInputs &m_inputs;
@@ -149,8 +149,7 @@ widths::WidthMap FrameWidths::choose(const widths::AdaptiveWidths &adaptive,
     ones.columns.fill(1.0F);
     m_columnPhase.assign(std::size_t(tiles.strips), ones);
     m_columnPhase.resize(2 * m_columnPhase.size(), Strip{});
-    m_rowPhase.assign(std::size_t(tiles.perSide + 1) * SliceTiles::rows + 1,
-                      float(inputs.mixing.unit));
+    m_rowPhase.assign(std::size_t(tiles.perSide) * SliceTiles::rows + 1, float(inputs.mixing.unit));
     FrameJob job = readingJob(inputs, spectrum, image);
     job.stripCount = tiles.strips;
     job.columnPhase = m_columnPhase.front().columns.data();
@@ -162,7 +161,7 @@ widths::WidthMap FrameWidths::choose(const widths::AdaptiveWidths &adaptive,
          ++width)
         by.push_back(width);
     const auto measureBy = [&](std::span<const int> widths, LineReader::Lines lines) {
-        std::vector<widths::LineErrors> errors(lines.size());
+        std::vector<widths::ErrorsByWidth> errors(lines.size());
         constexpr int together = LineReader::linesTogether;
         forEach((int(lines.size()) + together - 1) / together, [&](int part) {
             const std::size_t first = std::size_t(part) * together,
@@ -177,10 +176,10 @@ widths::WidthMap FrameWidths::choose(const widths::AdaptiveWidths &adaptive,
     std::vector<widths::SliceLine> lowest;
     const int last = std::min(SliceTiles::rows / 2, plane.rows / 2 - 1);
     for (int row = -last; row <= last; ++row)
-        lowest.push_back({0, row});
+        lowest.push_back({0, row < 0 ? -1 : 0, row < 0 ? row + SliceTiles::rows : row, 0});
     double energy = 0.0;
-    for (const widths::LineErrors &row : measureBy(std::array{0, by.back()}, lowest))
-        energy += row[0][0];
+    for (const widths::ErrorsByWidth &row : measureBy(std::array{0, by.back()}, lowest))
+        energy += row[0];
     const double tolerance = adaptive.tolerance * scene::detailGain(image),
                  budget = tolerance * tolerance * energy;
     const std::vector<float> energies = widths::tileEnergies(

@@ -17,7 +17,7 @@ namespace pellucid::render {
 
 struct FrameInputs;
 
-/// Chooses the widths that read a frame. It reads a few diagonals of the slice by every width, as
+/// Chooses the widths that read a frame. It reads a few lines of the slice by every width, as
 /// frames do, with cue and light. It keeps what successive frames share. Not thread-safe.
 class FrameWidths {
 public:

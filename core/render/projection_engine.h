@@ -41,7 +41,7 @@ struct EngineParts {
     EngineSpectra spectra;
     std::vector<ChannelWeights> channelWeights; ///< one entry per field
     plan::FieldOfView fieldOfView;
-    /// What frames choose their kernel widths from; null: the layout's own kernel reads everything.
+    /// The data for choosing kernel widths; null: the layout's own kernel reads everything.
     std::shared_ptr<const widths::AdaptiveWidths> adaptive;
 };
 

@@ -9,7 +9,7 @@
 
 namespace pellucid::widths {
 
-/// What each frame chooses its kernel widths from.
+/// The data for choosing the kernel widths of frames.
 struct AdaptiveWidths {
     using Energies = std::vector<std::shared_ptr<const BlockEnergies>>;
 

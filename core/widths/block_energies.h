@@ -27,7 +27,7 @@ public:
     /// The size of the periodic grid, in cells.
     const volume::GridSize &padded() const { return m_padded; }
 
-    /// What the vector code reads. *Units*: cells.
+    /// The data for the vector code. *Units*: cells.
     struct Table {
         int step;                       ///< of a block along x; `side` along y and z
         int columns, rows, planes;      ///< of blocks

@@ -10,32 +10,31 @@
 
 namespace pellucid::widths {
 
-/// Sixteen neighbouring frequencies, one in each column of a strip. A diagonal crosses every row
-/// and column of a tile's size: the brightest frequencies often form a line, which may be a row or
-/// a column.
+/// Sixteen frequencies of a tile, one in each column. Unless they are in one row, one in each row,
+/// too: bright frequencies that lie on a line have at most 6 of them.
 struct SliceLine {
-    int strip = 0;
-    int row = 0;   ///< of the first one
-    int slope = 0; ///< rows from one to the next
-    /// The frequencies before this one are in one tile, the others in the next.
-    int split = SliceTiles::columns;
+    int strip = 0, tile = 0;
+    int first = 0; ///< the row of column 0, from the tile's first row
+    int rise = 0;  ///< rows from a column to the next, modulo those of the tile; 0 or odd
+
+    int rowOf(int column) const {
+        return tile * SliceTiles::rows + (first + rise * column) % SliceTiles::rows;
+    }
 };
 
-/// The squared errors of the two parts of a line by the width that reads them: their distance from
-/// what the widest kernel reads, with that of their mirror images. Width 0 reads nothing.
-/// *Units*: as the energies.
+/// The squared errors of a line by the width that reads it: its distance from what the widest
+/// kernel reads, with that of its mirror image. Width 0 reads nothing. *Units*: as the energies.
 using ErrorsByWidth = std::array<double, fourier::Kernel::largestWidth + 1>;
-using LineErrors = std::array<ErrorsByWidth, 2>;
 
 /// Measures lines by all the widths. *Shape*: the result has an entry for each line.
-using MeasureLines = std::function<std::vector<LineErrors>(std::span<const SliceLine>)>;
+using MeasureLines = std::function<std::vector<ErrorsByWidth>(std::span<const SliceLine>)>;
 
 /// Chooses the widths of a slice's tiles. Most frequencies of a picture have almost no energy: a
 /// narrow kernel is accurate enough for them, or they need not be read. The error of a width is
 /// roughly a constant share of the energy around it, so the fastest choice for a given error uses
 /// each width within a range of energies. The ranges are measured: every width reads a few
-/// diagonals, most of them where the best choice has equal errors, and the ranges move up until the
-/// measured error plus three standard errors reaches the budget. The widest kernel always reads the
+/// lines, half of them where the best choice has equal errors, and the ranges move up until the
+/// measured error plus a margin reaches the budget. The widest kernel always reads the
 /// tiles around frequency 0. *Shape*: `energies` as `tileEnergies`; `widths`: 0, then ascending to
 /// the widest. *Units*: `budget` is the squared error, a sum over both halves of the plane, in
 /// units of the energies. *Source*: REFERENCES.md, eq. 6.
