@@ -157,7 +157,6 @@ Row plannedRow(const std::string &suite, const std::string &name, const volume::
             fourier::storageName(plan.spectrum.storage),
             threads > 0 ? threads : thisMachine().threads};
     row.predictedError = plan.predictedError;
-    row.predictedMax = plan.predictedMaximum;
     if (scene.interpolation.isPlanned())
         row.tolerance = scene.tolerance;
     return row;

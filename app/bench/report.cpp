@@ -39,7 +39,6 @@ json rowJson(const Row &r) {
             {"bytes", figure(r.bytes)},
             {"predicted_error", figure(r.predictedError)},
             {"rel_l2", figure(r.relativeL2)},
-            {"predicted_max", figure(r.predictedMax)},
             {"max_error", figure(r.maxError)},
             {"psnr_db", figure(r.psnrDb)},
             {"ray_sum_ms", figure(r.raySumMs)},

@@ -29,8 +29,8 @@ struct Row {
     int threads = 1;
     std::optional<double> prepareMs = {}, fft3dMs = {}, sliceMs = {}, transformMs = {},
                           frameMs = {};
-    std::optional<double> bytes = {}, predictedError = {}, relativeL2 = {}, predictedMax = {},
-                          maxError = {}, psnrDb = {};
+    std::optional<double> bytes = {}, predictedError = {}, relativeL2 = {}, maxError = {},
+                          psnrDb = {};
     std::optional<double> raySumMs = {}, raySumMsamplesPerSecond = {}, raySumRelativeL2 = {},
                           shearWarpMs = {};
     /// On a card: the time to submit a frame, and the time of a frame of one pixel.

@@ -164,9 +164,8 @@ void measureFigure(const Report &report, const Figure &figure, HeadAndTruth &sub
         parts = partsOf(image, level, reference.image(camera, how.scene.image), truth);
     }
     fillError(row, worst);
-    // The plan predicts neither for this field nor for this grid.
+    // The plan's prediction is for neither this field nor this grid.
     row.predictedError.reset();
-    row.predictedMax.reset();
     row.note = figure.premultiplied ? "premultiplied; " : "not premultiplied; ";
     // Slices through the cells themselves have ghosts that exactly equal the darkening.
     if (!figure.alongAxes)

@@ -195,7 +195,6 @@ void measureTransforms(const Report &report, const PublishedTransforms &publishe
     Truth truth(head, how.scene.camera, 1);
     Row ours = measure("thesis", "4.5 ours", head, truth, how);
     ours.predictedError.reset();
-    ours.predictedMax.reset();
     Row fftw = ours;
     fftw.name = "4.5 FFTW";
     fftw.transformMs = fftwTransformMs(n);

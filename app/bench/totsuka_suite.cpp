@@ -183,7 +183,6 @@ private:
                              m_subject.field.values.lattice().size(), plan, scene, 1);
         row.engine = "scalar";
         row.predictedError.reset();
-        row.predictedMax.reset();
         return row;
     }
 

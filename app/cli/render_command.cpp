@@ -308,9 +308,7 @@ private:
     }
 
     json errorJson() const {
-        const std::optional<double> maximum = m_renderer->largestMaximum();
         return {{"relative_l2", m_renderer->renderer().predictedError()},
-                {"maximum", maximum ? json(*maximum) : json(nullptr)},
                 {"whole", m_renderer->wereWhole()}};
     }
 

@@ -225,10 +225,4 @@ json Renderer::planJson(const picture::FrameTimes &last) const {
                          m_lattice, last.widthShares);
 }
 
-std::optional<double> Renderer::predictedMaximum() const {
-    if (isExact() || !m_wasWhole)
-        return std::nullopt;
-    return m_fitting.plan.predictedMaximum;
-}
-
 } // namespace pellucid::cli

@@ -81,9 +81,6 @@ public:
     const error::StatedError &lastError() const { return m_lastError; }
     /// Whether the last image showed all of the fields.
     bool wasWhole() const { return m_wasWhole; }
-    /// The predicted largest error of a pixel of the last image over its largest pixel. None for
-    /// the exact reference, nor for an image of a part, whose largest pixel may be small.
-    std::optional<double> predictedMaximum() const;
 
 private:
     // The fields, and what is made from them for cue and light.

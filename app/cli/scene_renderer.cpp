@@ -161,15 +161,10 @@ std::string SceneRenderer::missedText(double error, bool isWhole) const {
 
 void SceneRenderer::takeErrors() {
     const error::StatedError &error = m_renderer->lastError();
-    const bool isFirst = m_pictures++ == 0;
     m_viewError = std::max(m_viewError, error.relative);
     if (error.isMeasured() && (!m_measured || error.relative > m_measured->relative))
         m_measured = error;
     m_isWhole = m_isWhole && m_renderer->wasWhole();
-    const std::optional<double> here = m_renderer->predictedMaximum();
-    m_maximum = here && (isFirst || m_maximum)
-                    ? std::optional(std::max(*here, m_maximum.value_or(0.0)))
-                    : std::nullopt;
 }
 
 } // namespace pellucid::cli

@@ -73,11 +73,10 @@ public:
     const picture::FrameTimes &times() const { return m_times; }
 
     /// For all pictures together: the largest error that is known of one, the largest measured
-    /// error, whether each showed the whole volume, and the largest error of a pixel if so.
+    /// error, and whether each showed the whole volume.
     double largestError() const { return m_viewError; }
     const std::optional<error::StatedError> &largestMeasured() const { return m_measured; }
     bool wereWhole() const { return m_isWhole; }
-    std::optional<double> largestMaximum() const { return m_maximum; }
 
 private:
     void makeFields(const MemoryLimit &memory);
@@ -102,11 +101,9 @@ private:
     std::optional<Renderer> m_renderer;                            ///< refers to the planned scene
     double m_fieldMs = 0.0, m_prepareMs = 0.0;
     picture::FrameTimes m_times;
-    int m_pictures = 0;
     double m_viewError = 0.0;
     std::optional<error::StatedError> m_measured;
     bool m_isWhole = true;
-    std::optional<double> m_maximum;
 };
 
 } // namespace pellucid::cli

@@ -100,7 +100,7 @@ public:
         m_result.massMm3 = m_mass * m_lattice.cellVolumeMm3();
         m_result.energyMm3 = m_energy * m_lattice.cellVolumeMm3();
         if (m_energy > 0.0)
-            m_spread.roughness = squaredSecondDifferences(m_field, m_box) / 16.0 / m_energy;
+            m_roughness = squaredSecondDifferences(m_field, m_box) / 16.0 / m_energy;
         if (isPositive())
             boundAnyView(balls);
         m_result.spread = std::make_shared<const EnergySpread>(std::move(m_spread));
@@ -278,7 +278,7 @@ private:
         m_spread.peakedness = std::max(1.0, largestLineIntegral(m_maxima, m_side, m_lattice) /
                                                 (m_result.massMm3 * minEnergy));
         const double depthMm = 2.0 * m_spread.radiusMm + m_lattice.longestStepMm();
-        m_spread.roughestView = depthMm * m_spread.roughness * m_result.energyMm3 /
+        m_spread.roughestView = depthMm * m_roughness * m_result.energyMm3 /
                                 (m_result.massMm3 * m_result.massMm3 * minEnergy);
     }
 
@@ -292,6 +292,7 @@ private:
     std::vector<Layer> m_layers;
     std::array<LayerMaxima, 3> m_maxima;
     double m_energy = 0.0, m_mass = 0.0, m_smallest = 0.0; ///< of the field's samples
+    double m_roughness = 0.0; ///< the share of the energy near the highest frequencies, at most
     EnergyMarginals m_result;
     EnergySpread m_spread;
 };

@@ -19,13 +19,11 @@ struct EnergySpread {
     std::vector<std::vector<double>> byDistance;
     double distanceStepMm = 1.0;
     double shortestStepMm = 1.0, longestStepMm = 1.0; ///< of the lattice
-    /// An upper bound on the share of the field's energy near the highest frequencies of the
-    /// lattice: a sixteenth of the energy of the second differences along the three axes, which
-    /// weights a frequency f by sum_d sin^4(pi f_d).
-    double roughness = 1.0;
-    /// An upper bound on the share of a projection's energy at these frequencies, in any view of a
-    /// field without negative samples: |P g|^2 <= depth |g|^2 for the part g that passes, and |P
-    /// f|^2 has the lower bounds below. Infinite for a field with negative samples.
+    /// An upper bound on the share of a projection's energy near the highest frequencies of the
+    /// lattice, in any view of a field without negative samples: |P g|^2 <= depth |g|^2, and |P
+    /// f|^2 has the lower bounds below. The energy of g is at most a sixteenth of that of the
+    /// second differences along the three axes, which weights a frequency f by sum_d sin^4(pi f_d).
+    /// Infinite for a field with negative samples.
     double roughestView = std::numeric_limits<double>::infinity();
     /// The sum of the squared energy shares of blocks of samples: 1 for a point, 1/blocks for a
     /// uniform field.

@@ -105,14 +105,9 @@ private:
 
 } // namespace
 
-AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy) {
-    const int samples = int(energy.size());
-    const double maxEnergy = *std::max_element(energy.begin(), energy.end());
+AxisError axisError(const fourier::Kernel &kernel, int padded, int samples) {
     AxisError error;
     for (const BlockRange &range : blockRanges(samples)) {
-        double brightest = 0.0;
-        for (int n = range.first; n <= range.last; ++n)
-            brightest = std::max(brightest, energy[std::size_t(n)]);
         // Amplitudes grow outward, so both ends of a block bound it.
         BlockAmplitudes worst;
         for (const int n : {range.first, range.last}) {
@@ -122,9 +117,6 @@ AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector
             worst.inPhase = std::max(worst.inPhase, at.inPhase);
             worst.inverse = std::max(worst.inverse, at.inverse);
         }
-        if (maxEnergy > 0.0)
-            error.brightest =
-                std::max(error.brightest, std::sqrt(worst.aliases * brightest / maxEnergy));
         error.blocks.push_back(worst);
     }
     error.kernelEnergy = kernel.energy();
@@ -145,21 +137,18 @@ void addMomentError(AxisError &error, const fourier::Kernel &kernel,
         const double middle = (double(n) + 0.5) * slabs.samples / double(count) - 0.5;
         const double x = (middle - slabs.samples / 2) / padded; // NOLINT: the wrap voxel is whole
         const double h = kernel.apodisation(x);
-        double squares = 0.0;
         for (std::size_t p = 0; p < periods.size(); ++p) {
             const double ideal = periods[p] == 0 ? x : 0.0;
             apart[p][n] = moment.response(x + periods[p]) / h - ideal;
-            squares += apart[p][n] * apart[p][n];
         }
         const std::complex<double> left = onGrid(moment, x) / h - std::complex<double>(0.0, x);
         real[n] = left.real();
         imaginary[n] = left.imag();
-        error.brightestMoment = std::max(error.brightestMoment, std::sqrt(squares));
     }
     double aliases = 0.0;
     for (const auto &weights : apart)
         aliases += slabs.energy(weights);
-    error.moment = std::max(aliases, slabs.energy(real) + slabs.energy(imaginary));
+    error.moment = std::max({error.moment, aliases, slabs.energy(real) + slabs.energy(imaginary)});
 }
 
 double cueRms(const shading::DepthCue &cue) {
@@ -271,19 +260,6 @@ static double roundingNoise(const std::array<AxisError, 3> &axes, const EnergyMa
             inverse *= axes[d].isShort ? 1.0 : axes[d].blocks[at[d]].inverse;
         return inverse;
     });
-}
-
-double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                      const EnergyMarginals &field, const CueWeight &cue) {
-    double aliases = 0.0, moment = 0.0;
-    for (std::size_t d = 0; d < axes.size(); ++d) {
-        aliases += axes[d].brightest;
-        moment = std::max(moment, cue.moments[d] * axes[d].brightestMoment);
-    }
-    const double rounding = relativeRounding(storage);
-    return cue.aliases *
-               (aliases + 4.5 * std::sqrt(0.2 * rounding * rounding * roundingNoise(axes, field))) +
-           moment;
 }
 
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,

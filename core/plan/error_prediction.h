@@ -28,21 +28,18 @@ struct BlockAmplitudes {
 /// The errors of one axis of a layout.
 struct AxisError {
     std::vector<BlockAmplitudes> blocks; ///< see `blockRanges`
-    /// The brightest alias: the largest amplitude r, times the square root of e relative to the
-    /// brightest part of the axis.
-    double brightest = 0.0;
-    double kernelEnergy = 1.0; ///< integral H^2
-    bool isShort = false;      ///< so few samples that the cells of their spectrum round alike
+    double kernelEnergy = 1.0;           ///< integral H^2
+    bool isShort = false; ///< so few samples that the cells of their spectrum round alike
     /// The error of the moment kernel of a linear cue, as the larger of two energies w^T C w, with
     /// C of `SlabProducts` and k the kernel's response. In views along the axis, w is the
     /// difference between the sum over the taps and i x; in views close to it, w is k(x)/h(x) - x
-    /// and k(x + m)/h(x). And the largest of these amplitudes. *Units*: periods.
-    double moment = 0.0, brightestMoment = 0.0;
+    /// and k(x + m)/h(x). *Units*: periods.
+    double moment = 0.0;
 };
 
-/// *Shape*: one energy per sample of the axis. *Units*: `padded` in samples.
-AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy);
-/// Adds the error of the moment kernel of a linear cue.
+/// The errors of an axis with this many samples. *Units*: `padded` in samples.
+AxisError axisError(const fourier::Kernel &kernel, int padded, int samples);
+/// Raises `error.moment` to that of this field, for a linear cue.
 void addMomentError(AxisError &error, const fourier::Kernel &kernel,
                     const fourier::MomentKernel &moment, int padded, const SlabProducts &slabs);
 
@@ -77,11 +74,5 @@ CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice
 /// rounding to float and summing, 3e-7.
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
                             const EnergyMarginals &field, double share, const CueWeight &cue = {});
-
-/// A rough estimate of the largest error of a pixel relative to the largest pixel: the brightest
-/// aliases of the axes, plus the rounding at 4.5 standard deviations in an image whose mean square
-/// is a fifth of its squared peak. Next to metal it shows what the relative L2 error hides.
-double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                      const EnergyMarginals &field, const CueWeight &cue = {});
 
 } // namespace pellucid::plan

@@ -6,7 +6,7 @@
 namespace pellucid::plan {
 
 /// The sum of the squared second differences of a field along all three axes, from which
-/// `EnergySpread::roughness` follows. The field is zero outside the box.
+/// `EnergySpread::roughestView` follows. The field is zero outside the box.
 double squaredSecondDifferences(const volume::Field &field, const volume::VoxelBox &box);
 
 } // namespace pellucid::plan

@@ -6,7 +6,6 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/plan/error_prediction.h"
 #include "core/plan/field_summary.h"
@@ -40,8 +39,6 @@ private:
     int m_samples;
     std::size_t m_axis;
     std::span<const FieldSummary> m_fields;
-    /// The energy of the axis by distance from the wrap voxel in its middle.
-    std::vector<double> m_folded;
     std::map<std::pair<std::string, double>, std::unique_ptr<KernelCandidate>> m_cache;
 };
 

@@ -115,16 +115,15 @@ public:
         return finished();
     }
 
-    // The fastest plan of the same storage that predicts at most `limit`, if it takes less than
-    // `price` times the time of the last one. *Requires*: `plan` has met the tolerance; called
-    // once.
-    std::optional<RenderPlan> stricter(double limit, double price) {
+    // The fastest plan of the same storage that predicts at most `limit`. *Requires*: `plan` has
+    // met the tolerance; called once.
+    std::optional<RenderPlan> stricter(double limit) {
         m_limit = limit;
         m_storages = {m_best->spectrum.storage};
-        m_bestTime *= price;
+        m_bestTime = std::numeric_limits<double>::infinity();
         m_best.reset();
         search(false);
-        return m_best ? std::optional(finished()) : std::nullopt;
+        return std::isinf(m_bestTime) ? std::nullopt : std::optional(finished());
     }
 
 private:
@@ -184,14 +183,6 @@ private:
             worst = std::max(worst, predictRelativeError(layout.errors, layout.spectrum.storage,
                                                          field.energy, m_imageShare, weight));
         return m_errorFactor * worst;
-    }
-    double maximumError(const Layout &layout) const {
-        const CueWeight weight = weightOf(layout.spectrum);
-        double worst = 0.0;
-        for (const FieldSummary &field : m_fields)
-            worst = std::max(worst, predictMaximum(layout.errors, layout.spectrum.storage,
-                                                   field.energy, weight));
-        return m_composition.together * worst;
     }
     // More taps and wider cells cost time that nothing else can save.
     bool mayBeFaster(const fourier::KernelChoice &choice, fourier::Storage storage) const {
@@ -274,9 +265,7 @@ private:
             frameTime(planned.grid, m_scene.camera, m_fields.front().lattice, layout.spectrum);
         const bool meets = predicted <= m_limit, unmet = std::isinf(m_bestTime);
         if (meets ? time < m_bestTime : unmet && (!m_best || predicted < m_best->predictedError)) {
-            m_best = RenderPlan{layout.spectrum, planned.fieldOfView, predicted,
-                                maximumError(layout) + planned.folded, bytes};
-            m_best->together = m_composition.together;
+            m_best = RenderPlan{layout.spectrum, planned.fieldOfView, predicted, bytes};
             if (meets)
                 m_bestTime = time;
         }
@@ -313,14 +302,6 @@ private:
     std::size_t m_minBytes = std::numeric_limits<std::size_t>::max();
 };
 
-// The largest of any field: 1.1 for white noise, .01 to .03 for most scans, see EnergySpread.
-double roughnessOf(std::span<const FieldSummary> fields) {
-    double roughness = 0.0;
-    for (const FieldSummary &field : fields)
-        roughness = std::max(roughness, field.energy.spread->roughness);
-    return roughness;
-}
-
 } // namespace
 
 RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, const Budget &budget) {
@@ -330,11 +311,10 @@ RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, cons
 namespace {
 
 // Errors are predicted for the image without amplified detail, whose factor raises them at most by
-// its gain, because it is nowhere below 1. The largest pixel becomes no smaller.
+// its gain, because it is nowhere below 1.
 RenderPlan withDetail(RenderPlan plan, const scene::ImageDefinition &image) {
     const double gain = scene::detailGain(image);
     plan.predictedError *= gain;
-    plan.predictedMaximum *= scene::detailPeakGain(image);
     plan.image = image;
     return plan;
 }
@@ -343,17 +323,14 @@ RenderPlan planWithoutDetail(const scene::Scene &scene, std::span<const FieldSum
                              const Composition &composition, const Budget &budget) {
     Planner planner(scene, fields, composition, budget);
     RenderPlan plan = planner.plan();
-    // A stricter limit leaves error for narrower kernels. In smooth fields they read most
-    // frequencies, so that more padding or a wider kernel pays off: on three scans and two phantoms
-    // up to twice the time of one width, on noise none of it.
-    constexpr double share = 0.8;
-    const double limit = share * scene.tolerance,
-                 price = 1.1 + 0.9 * std::max(0.0, 1.0 - 3.0 * roughnessOf(fields));
-    if (!scene.interpolation.isUniform && !scene.shading.cue.hasMoments() &&
-        plan.predictedError <= scene.tolerance && plan.predictedError > limit) {
-        if (auto stricter = planner.stricter(limit, price))
+    // Half of the squared error is for narrower kernels. Four fifths of the tolerance for the plan
+    // gave the same frames within a tenth; with all of it, frames took up to twice as long. The
+    // storage stays: float cells would double the memory.
+    const double half = std::sqrt(0.5) * scene.tolerance;
+    if (!scene.interpolation.isUniform && plan.predictedError <= scene.tolerance &&
+        plan.predictedError > half)
+        if (auto stricter = planner.stricter(half))
             return std::move(*stricter);
-    }
     return plan;
 }
 
@@ -373,23 +350,15 @@ RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> f
 
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
                  std::span<const FieldSummary> fields) {
-    // A small remainder saves too little time.
-    constexpr double margin = 0.95, leastShare = 0.1;
-    // The error is at edges. In six real volumes and phantoms the worst pixel was off by 1.2
-    // to 10.4 times it, relative to the brightest pixel.
-    constexpr double atEdges = 12.0;
     // Both for the image without amplified detail.
     const double gain = scene::detailGain(scene.image);
     const double tolerance = scene.tolerance / gain, error = plan.predictedError / gain;
-    const double remaining =
-        margin * std::sqrt(std::max(0.0, tolerance * tolerance - error * error));
-    if (scene.interpolation.isUniform || plan.spectrum.width() < 2 ||
-        remaining < leastShare * tolerance)
+    if (scene.interpolation.isUniform || plan.spectrum.width() < 2 || error >= tolerance)
         return;
-    plan.adaptiveError = gain * remaining;
-    plan.adaptiveTolerance = remaining * std::sqrt(imageShare(scene.camera, fields));
-    plan.predictedError = gain * std::hypot(error, remaining);
-    plan.predictedMaximum += scene::detailPeakGain(scene.image) * atEdges * remaining;
+    const double rest = std::sqrt(tolerance * tolerance - error * error);
+    plan.adaptiveError = gain * rest;
+    plan.adaptiveTolerance = rest * std::sqrt(imageShare(scene.camera, fields));
+    plan.predictedError = scene.tolerance;
 }
 
 } // namespace pellucid::plan

@@ -27,8 +27,6 @@ struct RenderPlan {
     FieldOfView fieldOfView;
     /// Relative L2 error of the image, predicted from the fields.
     double predictedError = 0.0;
-    /// Predicted largest error of a pixel over the largest pixel, see predictMaximum.
-    double predictedMaximum = 0.0;
     /// The largest number of bytes held at once by the spectra, their preparation and the frames of
     /// the planned camera.
     std::size_t bytes = 0;
@@ -40,13 +38,14 @@ struct RenderPlan {
     /// The same, relative to the whole projection, of which the image may show a part.
     double adaptiveTolerance = 0.0;
     scene::ImageDefinition image; ///< for which these are
-    int together = 1;             ///< of the composition
 };
 
 /// The cheapest choice of kernel, padding of each axis, storage and slice grid whose predicted
-/// error is within the scene's tolerance. If none is, or none of those fits the budget: the most
-/// accurate that fits. Values that the scene's `interpolation` sets are not changed. *Throws*
-/// Error{outOfMemory} if nothing fits the budget, Error{usage} if the scene is invalid.
+/// error is within the scene's tolerance. Unless one kernel reads everything, the plan takes half
+/// of the squared tolerance where it can; `adaptWidths` spends the rest. If no plan is within the
+/// tolerance, or none of those fits the budget: the most accurate that fits. Values that the
+/// scene's `interpolation` sets are not changed. *Throws* Error{outOfMemory} if nothing fits the
+/// budget, Error{usage} if the scene is invalid.
 RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field,
                       const Budget &budget = {});
 

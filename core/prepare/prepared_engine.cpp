@@ -95,9 +95,6 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                 plan.predictedError =
                     std::hypot(plan.predictedError,
                                scene::detailGain(scene.image) * composition.errorFactor() * lost);
-                plan.predictedMaximum =
-                    std::max(plan.predictedMaximum,
-                             scene::detailPeakGain(scene.image) * composition.together * lost);
                 plan.bytes += held;
                 const volume::GridSize size =
                     fitting.reduced->fields.front().values.lattice().size();

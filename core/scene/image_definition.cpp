@@ -39,10 +39,6 @@ double detailGain(const ImageDefinition &definition) {
     return 1.0 + definition.detail;
 }
 
-double detailPeakGain(const ImageDefinition &definition) {
-    return 1.0 + 2.0 * definition.detail;
-}
-
 double reconstructionFactor(const ImageDefinition &definition, double q) {
     const double s = sinc(q);
     switch (definition.reconstruction) {

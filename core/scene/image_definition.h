@@ -34,9 +34,6 @@ double defaultDetailMm(double radiusMm);
 double detailFactor(const ImageDefinition &definition, double perMm);
 /// By how much the factor can raise a relative error: it is nowhere below 1.
 double detailGain(const ImageDefinition &definition);
-/// By how much it can raise the error of a pixel: the sum of the filter's absolute weights, 1 + 2
-/// A.
-double detailPeakGain(const ImageDefinition &definition);
 
 /// t(q): 1 below q = 1 - F, then a raised cosine that falls to 0 at q = 1, then 0.
 double rollOffFactor(double rollOff, double q);

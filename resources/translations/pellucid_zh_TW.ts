@@ -6081,14 +6081,6 @@ Open it beside?</source>
         <translation>誤差</translation>
     </message>
     <message>
-        <source>Worst pixel</source>
-        <translation>最差像素</translation>
-    </message>
-    <message>
-        <source>Predicted largest error of a pixel, relative to the brightest pixel of the whole</source>
-        <translation>預測的最大像素誤差，相對於整體影像的最亮像素</translation>
-    </message>
-    <message>
         <source>Plan</source>
         <translation>計畫</translation>
     </message>

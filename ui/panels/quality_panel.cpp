@@ -92,7 +92,7 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_more->setProperty("role", "link");
     m_more->setCheckable(true);
     m_more->setToolTip(tr("Override what the planner chose"));
-    const std::array<QWidget *, 9> expert{m_kernel,    m_padding, m_storage, m_largest, m_padded,
+    const std::array<QWidget *, 8> expert{m_kernel,    m_padding, m_storage, m_padded,
                                           m_tolerance, m_model,   m_widths,  m_leftOut};
     const auto showExpert = [form, expert](bool isShown) {
         for (QWidget *widget : expert)
@@ -150,9 +150,6 @@ void QualityPanel::addFigures(QFormLayout *form) {
     m_error = addFigure(form, tr("Error"), "predictedErrorLabel",
                         tr("Predicted relative error of a picture of the whole from any side; the "
                            "error of the picture shown is beside it"));
-    m_largest = addFigure(
-        form, tr("Worst pixel"), "predictedMaximumLabel",
-        tr("Predicted largest error of a pixel, relative to the brightest pixel of the whole"));
     m_plan = addFigure(form, tr("Plan"), "planLabel", tr("Kernel, storage and memory in use"));
     m_padded = addFigure(form, tr("Padded"), "paddingLabel",
                          tr("Padded size relative to the field's, along columns, rows and slices"));
@@ -277,8 +274,7 @@ void QualityPanel::showScene() {
 }
 
 void QualityPanel::clearPlan() {
-    for (PlainLabel *label :
-         {m_time, m_error, m_largest, m_plan, m_padded, m_model, m_widths, m_leftOut})
+    for (PlainLabel *label : {m_time, m_error, m_plan, m_padded, m_model, m_widths, m_leftOut})
         label->setText(QString::fromUtf8("\xe2\x80\x93"));
     m_reason->clear();
     m_shownFrame.reset();
@@ -290,13 +286,10 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
     const plan::RenderPlan &plan = shown.prepared.plan;
     const auto &spectrum = plan.spectrum;
     const bool missed = plan.predictedError > m_document.scene().tolerance;
-    // A coarse picture lacks detail of the study, which the plan does not include.
-    const bool isCoarse = shown.prepared.isCoarse;
-    const QString unknown = tr("not known yet");
-    // Of a sum of layers no bound is known.
+    // No bound is known for a coarse picture, which lacks detail of the study, or for a sum of
+    // layers.
     const auto bound = prepare::boundOf(shown.prepared, m_document.scene().image);
-    m_error->setText(bound ? tr("at most %1").arg(percent(bound->relative)) : unknown);
-    m_largest->setText(isCoarse ? unknown : percent(plan.predictedMaximum));
+    m_error->setText(bound ? tr("at most %1").arg(percent(bound->relative)) : tr("not known yet"));
     const volume::GridSize box = spectrum.box.size();
     const auto padding = [&](int d) {
         return QString::number(double(spectrum.padded[d]) / box[d], 'f', 2);

@@ -61,8 +61,7 @@ private:
     QPushButton *m_more;
     QComboBox *m_quality, *m_reconstruction, *m_kernel, *m_padding, *m_storage;
     QLineEdit *m_tolerance;
-    PlainLabel *m_time, *m_error, *m_largest, *m_plan, *m_padded, *m_model, *m_widths, *m_leftOut,
-        *m_reason;
+    PlainLabel *m_time, *m_error, *m_plan, *m_padded, *m_model, *m_widths, *m_leftOut, *m_reason;
     picture::FrameTimes m_times; ///< of the last frame that is no draft
 };
 

@@ -101,7 +101,7 @@ TEST(EnergyMarginals, OfARampAreThoseOfItsValues) {
     EXPECT_EQ(a.axis, b.axis);
     EXPECT_EQ(a.massMm3, b.massMm3);
     EXPECT_EQ(a.energyMm3, b.energyMm3);
-    EXPECT_EQ(a.spread->roughness, b.spread->roughness);
+    EXPECT_EQ(a.spread->roughestView, b.spread->roughestView);
     EXPECT_EQ(a.spread->peakedness, b.spread->peakedness);
     EXPECT_EQ(a.spread->byDistance, b.spread->byDistance);
     const auto slabs = plan::slabProducts(ramp, box),

@@ -101,8 +101,18 @@ TEST(RenderPlan, FieldsThatAddUpCostTheirErrorTimesTheRootOfTheirNumber) {
                together = plan::planRender(scene, summaries, {2, 2});
     EXPECT_NEAR(together.predictedError, std::sqrt(2.0) * apart.predictedError,
                 1e-3 * apart.predictedError);
-    EXPECT_GT(together.predictedMaximum, 1.9 * apart.predictedMaximum);
-    EXPECT_EQ(together.together, 2);
+}
+
+TEST(RenderPlan, TakesHalfOfTheSquaredToleranceUnlessOneKernelReadsEverything) {
+    const volume::Lattice lattice = volume::Lattice::centred({48, 48, 48}, {1, 1, 1});
+    const auto summary = plan::summarise(test::noiseField(lattice));
+    for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+        auto scene = sceneFor(lattice);
+        scene.tolerance = tolerance;
+        EXPECT_LE(plan::planRender(scene, summary).predictedError, std::sqrt(0.5) * tolerance);
+        scene.interpolation.isUniform = true;
+        EXPECT_LE(plan::planRender(scene, summary).predictedError, tolerance);
+    }
 }
 
 TEST(RenderPlan, LeavesErrorForNarrowKernels) {
