@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -42,11 +41,10 @@ public:
     static Kernel kaiserBessel(int width, double padding);
     /// LS: the piecewise polynomial of degree max(3, w) with the least energy in the aliases of a
     /// field, one by one and in phase (REFERENCES.md); w = 2..7. From width 3 on it has about half
-    /// the error of ES or KB with the same taps, and needs fewer multiplications. `energy` is the
-    /// distribution of f^2 from the middle of the axis (first) to its ends (last), which are at
-    /// 1/(2 padding) of the period. Half of the weight is distributed evenly, so that faint parts
-    /// near the ends are preserved, too; all of it, if `energy` is empty.
-    static Kernel leastAliasing(int width, double padding, std::span<const double> energy = {});
+    /// the error of ES or KB with the same taps, and needs fewer multiplications. The field fills
+    /// the axis evenly, up to 1/(2 padding) of the period, for the padding rounded down to eighths.
+    /// Kernels are kept: each takes milliseconds once.
+    static Kernel leastAliasing(int width, double padding);
     /// A narrower kernel for a spectrum that was prepared for `wide`: its response is as close to
     /// the apodisation of `wide` over the field, with as little aliasing, as its width allows.
     /// `padding` is that of the axis.
@@ -93,8 +91,8 @@ struct KernelChoice {
     bool operator==(const KernelChoice &) const = default;
 };
 
-/// The kernel that is chosen, tuned for a padding; `leastAliasing` for an energy, too.
-Kernel makeKernel(const KernelChoice &choice, double padding, std::span<const double> energy = {});
+/// The kernel that is chosen, tuned for a padding.
+Kernel makeKernel(const KernelChoice &choice, double padding);
 /// "nearest", "trilinear", "catmull-rom", "b-spline", "hamming-sinc", "ES2".."ES7", "KB2".."KB7",
 /// "LS2".."LS7", in any case. *Throws* Error{usage}.
 KernelChoice kernelFromName(const std::string &name);

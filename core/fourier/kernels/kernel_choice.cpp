@@ -28,7 +28,7 @@ constexpr std::array<Named, 8> names{{{"nearest", KernelFamily::nearest, 1},
 
 } // namespace
 
-Kernel makeKernel(const KernelChoice &choice, double padding, std::span<const double> energy) {
+Kernel makeKernel(const KernelChoice &choice, double padding) {
     switch (choice.family) {
     case KernelFamily::nearest:
         return Kernel::nearest();
@@ -47,7 +47,7 @@ Kernel makeKernel(const KernelChoice &choice, double padding, std::span<const do
     case KernelFamily::leastAliasing:
         break;
     }
-    return Kernel::leastAliasing(choice.width, padding, energy);
+    return Kernel::leastAliasing(choice.width, padding);
 }
 
 KernelChoice kernelFromName(const std::string &name) {

@@ -22,10 +22,9 @@ Vector coefficientsFor(const PiecewiseBasis &basis, const Kernel &kernel, double
     for (int i = 0; i < positions; ++i) {
         const Real x = (i + Real(0.5)) / positions / (2 * Real(padding));
         const Real h = kernel.apodisation(double(x)), weight = 1 / (h * h);
-        fit.add(basis.transforms(x), x * h, weight);
+        const std::vector<Vector> near = basis.transforms(x, farthest);
         for (int m = -farthest; m <= farthest; ++m)
-            if (m != 0)
-                fit.add(basis.transforms(x + m), 0, weight);
+            fit.add(near[std::size_t(m + farthest)], m == 0 ? x * h : 0, weight);
         for (const Real c : offsetsOnGrid(kernel.width())) {
             const auto [real, imaginary] = basis.transformsAt(c, x);
             fit.add(real, 0, weight);

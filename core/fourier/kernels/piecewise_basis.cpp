@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "core/fourier/kernels/kernel.h"
@@ -79,7 +80,7 @@ PiecewiseBasis::PiecewiseBasis(int width, int degree, Parity parity)
     }
 }
 
-Vector PiecewiseBasis::transforms(Real x) const {
+std::vector<Vector> PiecewiseBasis::transforms(Real x, int farthest) const {
     static const GaussLegendre<Real> quadrature(20);
     static const std::vector<Vector> polynomials = [] {
         std::vector<Vector> values;
@@ -87,21 +88,39 @@ Vector PiecewiseBasis::transforms(Real x) const {
             values.push_back(legendre(Kernel::largestWidth, c));
         return values;
     }();
-    std::vector<Vector> sums((m_width + 1) / 2, Vector(std::size_t(m_degree) + 1, 0));
-    for (std::size_t g = 0; g < quadrature.at.size(); ++g) {
-        const Vector &p = polynomials[g];
-        for (std::size_t k = 0; k < sums.size(); ++k) {
+    const auto waveAt = [](Real turns) {
+        return std::complex<Real>(cosOfTurns(turns), sinOfTurns(turns));
+    };
+    std::vector<Vector> all(std::size_t(2 * farthest + 1), Vector(m_at.size(), 0));
+    std::vector<Vector> sums(all.size(), Vector(std::size_t(m_degree) + 1, 0));
+    for (int k = 0; k < (m_width + 1) / 2; ++k) {
+        for (Vector &sum : sums)
+            std::fill(sum.begin(), sum.end(), 0);
+        for (std::size_t g = 0; g < quadrature.at.size(); ++g) {
+            const Vector &p = polynomials[g];
             const Real t = Real(k) - Real(m_width - 1) / 2 + quadrature.at[g];
-            const Real wave = quadrature.weight[g] *
-                              (m_parity == Parity::even ? cosOfTurns(t * x) : sinOfTurns(t * x));
-            for (int n = 0; n <= m_degree; ++n)
-                sums[k][n] += wave * p[n];
+            // From one alias to the next the wave turns by t.
+            const std::complex<Real> turn = waveAt(t);
+            std::complex<Real> wave = quadrature.weight[g] * waveAt(t * (x - Real(farthest)));
+            for (Vector &sum : sums) {
+                const Real value = m_parity == Parity::even ? wave.real() : wave.imag();
+                for (int n = 0; n <= m_degree; ++n)
+                    sum[n] += value * p[n];
+                wave = {wave.real() * turn.real() - wave.imag() * turn.imag(),
+                        wave.real() * turn.imag() + wave.imag() * turn.real()};
+            }
         }
+        const Real sides = 2 * k == m_width - 1 ? 1 : 2;
+        for (std::size_t n = 0; n < m_at.size(); ++n)
+            if (m_at[n].first == k)
+                for (std::size_t m = 0; m < all.size(); ++m)
+                    all[m][n] = sides * sums[m][std::size_t(m_at[n].second)];
     }
-    Vector result;
-    for (const auto &[k, n] : m_at)
-        result.push_back((2 * k == m_width - 1 ? 1 : 2) * sums[k][n]);
-    return result;
+    return all;
+}
+
+Vector PiecewiseBasis::transforms(Real x) const {
+    return transforms(x, 0).front();
 }
 
 std::pair<Vector, Vector> PiecewiseBasis::transformsAt(Real c, Real x) const {
@@ -141,7 +160,7 @@ std::vector<Real> offsetsOnGrid(int width) {
 }
 
 double fittedPadding(double padding) {
-    return std::clamp(padding, 1.0, 2.5);
+    return std::clamp(std::floor(8.0 * padding) / 8.0, 1.05, 4.0);
 }
 
 BasisFit::BasisFit(std::size_t count) : m_matrix(count, Vector(count, 0)), m_right(count, 0) {}

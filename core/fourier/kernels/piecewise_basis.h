@@ -25,6 +25,8 @@ public:
     /// The transform of each coefficient's part of the kernel at x: the integral of the part times
     /// cos(2 pi t x), or times sin if the parity is odd. *Units*: x in periods.
     Vector transforms(Real x) const;
+    /// The same at x + m for m from -farthest to farthest. *Shape*: [m + farthest].
+    std::vector<Vector> transforms(Real x, int farthest) const;
     /// The sum of exp(i 2 pi t x) times each coefficient's part over the taps that a frequency at
     /// offset c reads: real and imaginary part. At c = -1/2 the first tap is on the edge and has no
     /// partner.
@@ -41,7 +43,9 @@ private:
 /// The offsets c of a frequency on the grid: at -1/2 the first tap of an even width is on the edge,
 /// and so is that of an odd width where the frequency is between two cells.
 std::vector<PiecewiseBasis::Real> offsetsOnGrid(int width);
-/// The padding that kernels are fitted for: short axes are padded more than necessary.
+/// The padding that kernels are fitted for: that of the axis, rounded down to eighths, so that the
+/// axes of all volumes share a few kernels; from 1.05, where a field leaves some margin, to 4, the
+/// most that a scene may ask for.
 double fittedPadding(double padding);
 
 /// A least-squares fit of the coefficients of a basis.

@@ -145,6 +145,11 @@ TEST(Kernels, LeastAliasingHasLeast) {
               0.5 * aliases(Kernel::exponentialSemicircle(4, 1.5), 1.5));
 }
 
+TEST(Kernels, OfTheLeastAliasingAreSharedByPaddingsWithinAnEighth) {
+    EXPECT_EQ(Kernel::leastAliasing(5, 1.55).pairs(), Kernel::leastAliasing(5, 1.5).pairs());
+    EXPECT_NE(Kernel::leastAliasing(5, 1.49).pairs(), Kernel::leastAliasing(5, 1.5).pairs());
+}
+
 TEST(Kernels, NamesRoundTripAndBadOnesAreRefused) {
     for (const char *name :
          {"nearest", "trilinear", "catmull-rom", "b-spline", "hamming-sinc", "ES4", "KB7", "LS2"})
