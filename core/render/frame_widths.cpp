@@ -98,8 +98,15 @@ private:
         return rows;
     }
     const float *rollOff(const widths::SliceLine &line, float *factors) const {
+        const int column = line.strip * stripLanes, row = line.tile * SliceTiles::rows,
+                  last = row + SliceTiles::rows - 1;
+        const double farthest =
+            std::hypot(2.0 * (column + stripLanes - 1) / m_job.columns,
+                       2.0 * std::max(std::abs(row), std::abs(last)) / m_job.rows);
+        if (m_inputs.radial.detail <= 0.0 && farthest <= 1.0 - m_inputs.radial.rollOffShare)
+            return nullptr;
         for (int lane = 0; lane < stripLanes; ++lane) {
-            const double radius = std::hypot(2.0 * (line.strip * stripLanes + lane) / m_job.columns,
+            const double radius = std::hypot(2.0 * (column + lane) / m_job.columns,
                                              2.0 * line.rowOf(lane) / m_job.rows);
             factors[lane] = float(radius < 1.0 ? m_inputs.radial.at(radius) : 0.0);
         }

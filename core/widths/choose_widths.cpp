@@ -15,7 +15,7 @@ namespace {
 constexpr int linesDrawn = 64;
 // The margin of the estimated error, in standard errors.
 constexpr double standardErrors = 3.0;
-// If none of n lines is bright, 99 times in 100 fewer than this many in n of all lines are: it is
+// If none of n lines is bright, at most this many in n of all lines are, with 99 % confidence:
 // -ln .01.
 constexpr double unseenLines = 4.6;
 
@@ -59,7 +59,7 @@ public:
     }
 
 private:
-    // Of the lattices of 16 points with one in each row and column, these spread them best.
+    // These rises put one frequency in each row and spread all 16 best.
     static constexpr std::array<int, 4> rises{3, 5, 11, 13};
 
     // 0 in the tiles that the widest kernel always reads.
@@ -119,7 +119,7 @@ std::vector<Step> stepsFor(std::span<const Drawn> drawn, std::span<const ErrorsB
     return steps;
 }
 
-// What a line adds to the error of a choice.
+// The error that a line adds to a choice.
 struct LineError {
     double measured = 0.0;
     double unseen = 0.0; ///< if the line is as bright as the table has it
