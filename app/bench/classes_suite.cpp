@@ -36,11 +36,11 @@ void reportMany(const Report &report, const LookSubject &subject) {
         return classify::shownFields(subject.volume, subject.window, coloredClasses(count),
                                      nullptr);
     };
-    const auto three = prepare::prepareEngine(subject.scene, fieldsOf(3), {});
+    const auto three = prepare::prepareEngine({subject.scene, fieldsOf(3)});
     for (const std::size_t count : {std::size_t(24), std::size_t(104)}) {
         const double start = millisecondsNow();
         const classify::ShownFields fields = fieldsOf(count);
-        const auto many = prepare::prepareEngine(subject.scene, fields, {});
+        const auto many = prepare::prepareEngine({subject.scene, fields});
         Row row = plannedRow("classes", fmt::format("{} colored classes, settled", count),
                              subject.volume.lattice().size(), many.plan, subject.scene, 0);
         row.prepareMs = millisecondsNow() - start;

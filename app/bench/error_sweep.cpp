@@ -40,7 +40,7 @@ void sweepField(const Trial &trial, std::uint64_t seed,
     for (const double tolerance : tolerances) {
         scene.tolerance = tolerance;
         scene.camera.orientation = views.front().orientation;
-        const auto prepared = prepare::prepareEngine(scene, fields, {});
+        const auto prepared = prepare::prepareEngine({scene, fields});
         for (std::size_t view = 0; view < views.size(); ++view) {
             scene.camera.orientation = views[view].orientation;
             const auto picture = prepared.engine->render(scene.camera, scene.image);

@@ -156,7 +156,7 @@ Trial trialOf(const Candidate &candidate, PictureKind pictures) {
 Verdict judge(const Trial &trial) {
     const scene::Scene &scene = trial.scene;
     const classify::ShownFields fields{{trial.field}, {}};
-    const auto prepared = prepare::prepareEngine(scene, fields, {});
+    const auto prepared = prepare::prepareEngine({scene, fields});
     const auto picture = prepared.engine->render(scene.camera, scene.image, scene.shading);
     const auto truth =
         scene.shading.isPlain()

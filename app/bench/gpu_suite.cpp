@@ -77,7 +77,7 @@ public:
         const classify::ShownFields fields{{m_subject.field}, {}};
         scene::Scene scene{.camera = m_camera, .shading = of.shading, .tolerance = of.tolerance};
         scene.interpolation.storage = of.storage;
-        const auto prepared = prepare::prepareEngine(scene, fields, {});
+        const auto prepared = prepare::prepareEngine({scene, fields});
         Row row = plannedRow("gpu", of.name + " " + m_subject.name,
                              m_subject.field.values.lattice().size(), prepared.plan, scene, 0);
         fillTimes(row, *prepared.engine, scene, m_views);

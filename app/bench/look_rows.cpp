@@ -37,9 +37,9 @@ public:
           m_fields(shownFields()), m_mixture(classify::mixtureOf(look)),
           m_exact(reference::shadedImage(m_fields, {}, truthCamera(subject), subject.scene.image)),
           m_plain(prepare::prepareEngine(
-              subject.scene,
-              classify::ShownFields{{classify::densityField(subject.volume, subject.window)}, {}},
-              {})) {}
+              {subject.scene,
+               classify::ShownFields{{classify::densityField(subject.volume, subject.window)},
+                                     {}}})) {}
 
     void report(const Report &report) const {
         report(settled());
@@ -67,7 +67,7 @@ private:
     Row settled() const {
         const double start = millisecondsNow();
         // Includes the fields, which a change of a range recomputes.
-        const auto prepared = prepare::prepareEngine(m_subject.scene, shownFields(), {});
+        const auto prepared = prepare::prepareEngine({m_subject.scene, shownFields()});
         Row row = plannedRow(m_suite, m_name + ", settled", m_subject.volume.lattice().size(),
                              prepared.plan, m_subject.scene, 0);
         row.prepareMs = millisecondsNow() - start;
@@ -160,7 +160,7 @@ ShadedFrames measureShaded(const std::string &suite, const std::string &name,
                            const classify::ShownFields &fields, const scene::Scene &scene,
                            render::ProjectionEngine &plain) {
     const double start = millisecondsNow();
-    ShadedFrames frames{{}, prepare::prepareEngine(scene, fields, {})};
+    ShadedFrames frames{{}, prepare::prepareEngine({scene, fields})};
     const double prepareMs = millisecondsNow() - start;
     render::ProjectionEngine &engine = *frames.prepared.engine;
     Row row = plannedRow(suite, name, fields.channels.front().values.lattice().size(),

@@ -207,7 +207,7 @@ void fillError(Row &row, const ImageError &error) {
 Row measure(const std::string &suite, const std::string &name, const Subject &subject, Truth &truth,
             const Measurement &how) {
     const classify::DensityField &field = subject.field;
-    const plan::FieldSummary summary = plan::summarise(field);
+    const field::Summary summary = field::summarise(field);
     auto plan = plan::planRender(how.scene, summary);
     if (!how.fieldOfView)
         plan::adaptWidths(plan, how.scene, {&summary, 1});

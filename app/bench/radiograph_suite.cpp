@@ -26,8 +26,8 @@ void measureCase(const Report &report, const std::string &name, const volume::Vo
     scene.camera.pixelMm = pixelMm;
     scene.plannedFor = scene::PlannedFor::volume;
     const auto prepared = prepare::prepareEngine(
-        scene, classify::shownFields(volume, classify::defaultFieldWindow(volume), look, nullptr),
-        {});
+        {scene,
+         classify::shownFields(volume, classify::defaultFieldWindow(volume), look, nullptr)});
     render::ProjectionEngine &engine = *prepared.engine;
     const double start = millisecondsNow();
     scene.tone.exposure =

@@ -82,7 +82,7 @@ double raySumError(const SpatialVolume &volume, Truth &truth, double stepMm) {
 // The engines of a plan and of the plan with one width of kernel, each with threads of its own.
 struct Engines {
     Engines(const Subject &subject, const scene::Scene &scene) {
-        const plan::FieldSummary summary = plan::summarise(subject.field);
+        const field::Summary summary = field::summarise(subject.field);
         auto plan = plan::planRender(scene, summary);
         plan::adaptWidths(plan, scene, {&summary, 1});
         const auto spectrum = std::make_shared<const fourier::Spectrum>(

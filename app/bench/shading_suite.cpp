@@ -39,7 +39,7 @@ void runShadingSuite(const Report &report) {
         const LookSubject subject(side);
         const classify::ShownFields fields{{classify::densityField(subject.volume, subject.window)},
                                            {}};
-        const auto plain = prepare::prepareEngine(subject.scene, fields, {});
+        const auto plain = prepare::prepareEngine({subject.scene, fields});
         for (const auto &[name, shading] : cases()) {
             scene::Scene scene = subject.scene;
             scene.shading = shading;

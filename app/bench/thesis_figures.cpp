@@ -22,11 +22,11 @@ namespace {
 // and so as a spectrum without padding. The engine's own slice is finer, so that no copy of the
 // projection reaches the image; its samples are between the cells even in a view along an axis.
 plan::FieldOfView fieldOfViewOfImage(const scene::Camera &camera, const volume::Lattice &lattice) {
-    plan::EnergySpread spread = plan::evenSpread(lattice, lattice.bounds());
+    field::EnergySpread spread = field::evenSpread(lattice, lattice.bounds());
     // A quarter of a pixel less, so that rounding does not add one.
     spread.radiusMm = (0.5 * camera.width - 0.25) * camera.pixelMm -
                       scene::reconstructionReach({}) * lattice.longestStepMm();
-    plan::FieldOfView fieldOfView{{std::make_shared<const plan::EnergySpread>(spread)}, 1e9};
+    plan::FieldOfView fieldOfView{{std::make_shared<const field::EnergySpread>(spread)}, 1e9};
     assert(plan::sliceGrid(camera, fieldOfView, lattice, {}) ==
            (plan::SliceGrid{camera.width, camera.height}));
     return fieldOfView;
@@ -139,7 +139,7 @@ Subject darkenedHead(const Figure &figure, const Subject &head,
 
 void measureFigure(const Report &report, const Figure &figure, HeadAndTruth &subject) {
     const Measurement how = thesisMeasurement(subject.head, figure.kernel);
-    const auto plan = plan::planRender(how.scene, plan::summarise(subject.head.field));
+    const auto plan = plan::planRender(how.scene, field::summarise(subject.head.field));
     const Subject darkened = darkenedHead(figure, subject.head, plan.spectrum);
     const volume::Field &field = darkened.field.values;
     Row row = plannedRow("thesis", figure.name, field.lattice().size(), plan, how.scene, 0);

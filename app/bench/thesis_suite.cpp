@@ -177,7 +177,7 @@ Row cardRow(const Card &card, const Row &ours, const Measurement &how, const Sub
         return row;
     }
     row.engine = "gpu, " + card.passes->device().capabilities().renderer;
-    const auto plan = plan::planRender(how.scene, plan::summarise(head.field));
+    const auto plan = plan::planRender(how.scene, field::summarise(head.field));
     const auto spectrum = std::make_shared<const fourier::Spectrum>(
         fourier::Spectrum::prepare(head.field.values, plan.spectrum));
     row.transformMs = cardTransformMs(card, how.scene, spectrum, *how.fieldOfView);

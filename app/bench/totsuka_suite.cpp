@@ -111,7 +111,7 @@ private:
         scene::Scene scene = m_scene;
         scene.interpolation = interpolation;
         const classify::ShownFields fields{{m_subject.field}, {}};
-        const auto plain = prepare::prepareEngine(scene, fields, {});
+        const auto plain = prepare::prepareEngine({scene, fields});
         scene.shading = theirShading(m_published);
         ShadedFrames frames = measureShaded(suite, name, fields, scene, *plain.engine);
         frames.row.note = timesText(m_published) + "; here " + frames.row.note;

@@ -166,7 +166,7 @@ private:
                 renderer.image(scene.camera, error::isChecked(output.check, view, cameras.size())
                                                  ? SceneRenderer::Check::measure
                                                  : SceneRenderer::Check::none);
-            const error::StatedError &error = renderer.renderer().lastError();
+            const error::StatedError &error = renderer.lastError();
             // A measurement says more than a bound.
             if (view == 0 || (error.isMeasured() && !largest.isMeasured()) ||
                 (error.isMeasured() == largest.isMeasured() && error.relative > largest.relative))
@@ -176,7 +176,7 @@ private:
                 worst = m_missed;
             add(output, scene, image, files[files.size() > 1 ? view : 0], int(view), error);
         }
-        made.predictedError = renderer.renderer().predictedError();
+        made.predictedError = renderer.bound()->relative; // its fields are never reduced
         if (largest.isMeasured())
             made.measuredError = largest.relative;
         m_missed = worst;

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "app/cli/card_choice.h"
 #include "app/cli/commands.h"
-#include "app/cli/renderer.h"
 #include "core/batch/done_record.h"
 #include "core/batch/memory_shares.h"
 #include "core/batch/recipe.h"

@@ -58,8 +58,7 @@ json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
             {"reason", plan.reason.english()}};
 }
 
-json exactPlanJson(std::size_t images, std::size_t bytes, double predictedError,
-                   const std::string &reason) {
+json exactPlanJson(int images, const plan::RenderPlan &plan) {
     return {{"model",
              {{"spectra", json::array()},
               {"slices", 0},
@@ -67,16 +66,16 @@ json exactPlanJson(std::size_t images, std::size_t bytes, double predictedError,
               {"combination", "each image is evaluated by itself, in double precision"},
               {"multiply_adds", nullptr},
               {"transform_operations", nullptr},
-              {"bytes", {{"spectra", bytes}, {"frame", nullptr}}},
+              {"bytes", {{"spectra", plan.bytes}, {"frame", nullptr}}},
               {"left_out", json::array()}}},
             {"kernel", "KB12"},
             {"taps", 12 * 12 * 12},
             {"padding", 2.0},
             {"storage", "f64"},
-            {"predicted_error", predictedError},
+            {"predicted_error", plan.predictedError},
             {"adaptive_error", 0.0},
             {"kernel_widths", json::object()},
-            {"reason", reason}};
+            {"reason", plan.reason.english()}};
 }
 
 } // namespace pellucid::cli

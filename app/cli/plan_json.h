@@ -17,8 +17,7 @@ nlohmann::json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
                         const plan::FrameFields &fields, const volume::Lattice &lattice,
                         std::span<const double> widthShares);
 
-/// The same keys for the exact reference. `reason`: why it renders the images.
-nlohmann::json exactPlanJson(std::size_t images, std::size_t bytes, double predictedError,
-                             const std::string &reason);
+/// The same keys for the exact reference, see `prepare::PreparedEngine::exact`.
+nlohmann::json exactPlanJson(int images, const plan::RenderPlan &plan);
 
 } // namespace pellucid::cli

@@ -183,7 +183,7 @@ private:
             task::Progress(m_context.stop).check();
             Stopwatch watch;
             labels.instanceNumber = frame + 1;
-            labels.derivation = derivationText(m_renderer->renderer().lastError());
+            labels.derivation = derivationText(m_renderer->lastError());
             const fs::path &file = m_outs[std::size_t(frame)];
             writeImage(turn ? turn->aside(file) : file, image, turned, volume().lattice(), labels);
             m_writeMs += watch.lapMs();
@@ -229,8 +229,7 @@ private:
             Stopwatch watch;
             stack.write(image.samples);
             m_writeMs += watch.lapMs();
-            views.push_back(
-                geometryJson(camera, volume().lattice(), m_renderer->renderer().lastError()));
+            views.push_back(geometryJson(camera, volume().lattice(), m_renderer->lastError()));
         }
         stack.commit();
         writeGeometry(both.aside(geometryPath(out)), m_scene.camera, views);
@@ -241,9 +240,9 @@ private:
         json skipped = json::array();
         for (const auto &s : m_input.skipped)
             skipped.push_back({{"path", s.path.string()}, {"reason", s.reason.english()}});
-        std::puts(jsonText({{"engine", m_renderer->renderer().description()},
-                            {"device", m_renderer->renderer().isOnCard() ? "gpu" : "cpu"},
-                            {"engine_reason", m_renderer->renderer().engineReason()},
+        std::puts(jsonText({{"engine", m_renderer->description()},
+                            {"device", m_renderer->isOnCard() ? "gpu" : "cpu"},
+                            {"engine_reason", m_renderer->engineReason()},
                             {"size", {m_scene.camera.width, m_scene.camera.height}},
                             {"pixel_mm", m_scene.camera.pixelMm},
                             {"frames", frames()},
@@ -253,9 +252,9 @@ private:
                             {"window", {m_renderer->window().low, m_renderer->window().high}},
                             {"shading", json::parse(shading::toJson(m_scene.shading))},
                             {"milliseconds", timesJson()},
-                            {"bytes", m_renderer->renderer().bytes()},
-                            {"card_bytes", m_renderer->renderer().cardBytes()},
-                            {"plan", m_renderer->renderer().planJson(m_renderer->times())},
+                            {"bytes", m_renderer->bytes()},
+                            {"card_bytes", m_renderer->cardBytes()},
+                            {"plan", m_renderer->planJson()},
                             {"tolerance", m_scene.tolerance},
                             {"predicted_error", errorJson()},
                             {"measured_error", measuredJson(m_renderer->largestMeasured())},
@@ -308,7 +307,8 @@ private:
     }
 
     json errorJson() const {
-        return {{"relative_l2", m_renderer->renderer().predictedError()},
+        const auto bound = m_renderer->bound();
+        return {{"relative_l2", bound ? json(bound->relative) : json()},
                 {"whole", m_renderer->wereWhole()}};
     }
 

@@ -5,9 +5,12 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "app/cli/input.h"
+#include "app/cli/plan_json.h"
 #include "app/cli/scene_fields.h"
+#include "core/error/shown_part.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
 
@@ -20,7 +23,7 @@ using task::ErrorCode;
 SceneRenderer::SceneRenderer(const scene::Scene &scene, Subject subject, const MemoryLimit &memory,
                              const CardChoice &card, const Context &context)
     : m_scene(scene), m_planned(scene), m_subject(std::move(subject)), m_card(card),
-      m_context(context) {
+      m_context(context), m_progress(context.stop) {
     if (memory.isGiven)
         m_given = memory.bytes;
     makeFields(memory);
@@ -31,10 +34,8 @@ void SceneRenderer::makeFields(const MemoryLimit &memory) {
     Stopwatch watch;
     const volume::Volume &volume = m_subject.volume;
     m_window = windowFor(m_scene, volume);
-    const std::size_t samples = volume.lattice().size().count();
-    const std::size_t forLight = prepare::bytesForLight(m_scene.shading, volume.lattice().size(),
-                                                        classify::channelsOf(m_scene.look));
-    m_held = volume.bytes() + classify::peakBytes(m_scene.look, samples) + forLight;
+    m_held = volume.bytes() +
+             prepare::bytesForFields(m_scene.look, m_scene.shading, volume.lattice().size());
     if (m_given && *m_given < m_held)
         throw Error(
             ErrorCode::outOfMemory,
@@ -43,15 +44,10 @@ void SceneRenderer::makeFields(const MemoryLimit &memory) {
             m_subject.path);
     m_fields = fieldsFor(m_scene, volume, m_subject.segments, m_context);
     m_whyEmpty = cli::whyEmpty(m_scene, volume, m_fields);
-    if (!memory.decides) {
-        m_budget.bytes = std::numeric_limits<std::size_t>::max();
-        m_limit = std::size_t(*memory.bytes - std::min<std::uint64_t>(*memory.bytes, m_held));
-        m_fieldMs = watch.lapMs();
-        return;
-    }
+    m_budget.decides = memory.decides;
     // If the program asked for more than is available, the system would kill it.
-    m_budget.bytes = system::availableMemoryBytes();
-    m_budget.bytes -= std::min(m_budget.bytes, forLight); // not allocated yet
+    if (memory.decides)
+        m_budget.bytes = system::availableMemoryBytes();
     if (memory.bytes)
         m_budget.bytes =
             std::min(m_budget.bytes,
@@ -62,15 +58,17 @@ void SceneRenderer::makeFields(const MemoryLimit &memory) {
 void SceneRenderer::prepare() {
     Stopwatch watch;
     try {
-        m_renderer.reset();
+        m_onCard.reset();
+        m_prepared.reset();
         if (m_fields.channels.empty()) // this is not the first plan
             m_fields = fieldsFor(m_scene, m_subject.volume, m_subject.segments, m_context);
         // Another plan may need them, and steps of classes take long.
         classify::ShownFields fields = m_fields;
         if (!classify::haveRegions(m_scene.look.classes))
             m_fields = {};
-        m_renderer.emplace(m_planned, std::move(fields), m_budget, m_context, m_limit);
-        m_renderer->use(m_card);
+        m_prepared = prepare::prepareEngine(
+            {m_planned, std::move(fields), m_budget, std::nullopt, true}, m_progress);
+        useCard();
     } catch (const Error &error) {
         if (error.code() != ErrorCode::outOfMemory || !m_given)
             throw;
@@ -83,13 +81,56 @@ void SceneRenderer::prepare() {
     m_prepareMs += watch.lapMs();
 }
 
+void SceneRenderer::useCard() {
+    if (isExact()) {
+        m_card.reason = m_prepared->plan.reason.english();
+        if (m_card.isRequired)
+            throw cardRefused(
+                {ErrorCode::noSuchDevice, because::inWords(m_card.reason + ", on the processor")});
+        return;
+    }
+    if (!m_card.passes)
+        return;
+    try {
+        m_onCard = gpu::copyToCard(m_card.passes, *m_prepared->engine, m_progress);
+    } catch (const Error &error) {
+        if (m_card.isRequired)
+            throw cardRefused(error);
+        m_card.reason = error.reason().english();
+    }
+}
+
+void SceneRenderer::requireRoomFor(const scene::Camera &camera) const {
+    if (isExact() || m_budget.decides)
+        return; // the exact reference needs the same for every camera of this size
+    const auto framesOf = [&](const scene::Camera &one) {
+        return plan::frameBytes(
+            plan::sliceGrid(one, m_prepared->plan.fieldOfView, m_prepared->lattice, m_scene.image),
+            one, images());
+    };
+    prepare::requireWithin(bytes() - std::min(bytes(), framesOf(m_scene.camera)) + framesOf(camera),
+                           m_budget);
+}
+
+int SceneRenderer::images() const {
+    return prepare::compositionOf(classify::channelsOf(m_scene.look), m_scene.shading).images;
+}
+
+std::optional<error::StatedError> SceneRenderer::bound() const {
+    return prepare::boundOf(*m_prepared, m_scene.image);
+}
+
+bool SceneRenderer::isWithinBound() const {
+    const auto known = bound();
+    return known && known->relative <= m_scene.tolerance;
+}
+
 // Whether the last picture misses the tolerance although the plan keeps it, and a closer plan may
 // help.
 bool SceneRenderer::mayPlanCloser() const {
-    const error::StatedError &error = m_renderer->lastError();
-    return error.isMeasured() && error.relative > m_scene.tolerance &&
-           m_renderer->predictedError() <= m_scene.tolerance && !m_renderer->isReduced() &&
-           m_scene.interpolation.isPlanned() && m_scene.plannedFor != scene::PlannedFor::volume;
+    return m_lastError.isMeasured() && m_lastError.relative > m_scene.tolerance &&
+           isWithinBound() && m_scene.interpolation.isPlanned() &&
+           m_scene.plannedFor != scene::PlannedFor::volume;
 }
 
 classify::ShownFields SceneRenderer::studyFields() const {
@@ -101,45 +142,96 @@ classify::ShownFields SceneRenderer::studyFields() const {
 // The plan is for the whole volume. The error of a part that contains little is known only after
 // rendering it; if it misses the tolerance, plan again with a smaller one.
 picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera, Check check) {
-    task::Progress(m_context.stop).check();
-    const auto make = [&] {
-        picture::ProjectionImage image = m_renderer->image(camera, m_times);
-        if (check == Check::measure)
-            m_renderer->measure(camera, studyFields());
-        return image;
-    };
-    picture::ProjectionImage image = make();
+    m_progress.check();
+    picture::ProjectionImage image = make(camera, check);
     for (int tries = 0; tries < 3 && mayPlanCloser(); ++tries) {
-        m_planned.tolerance *= 0.8 * m_scene.tolerance / m_renderer->lastError().relative;
+        m_planned.tolerance *= 0.8 * m_scene.tolerance / m_lastError.relative;
         prepare();
-        image = make();
+        image = make(camera, check);
     }
     takeErrors();
     return image;
 }
 
+picture::ProjectionImage SceneRenderer::make(const scene::Camera &camera, Check check) {
+    std::optional<picture::ProjectionImage> image = imageOfCard(camera);
+    if (!image)
+        image = m_prepared->projector().render(camera, m_scene.image, m_scene.shading, &m_times);
+    m_wasWhole = error::showsAllOf(m_prepared->plan.spectrum.box, m_prepared->lattice, camera);
+    const auto known = bound();
+    if (known)
+        m_lastError = *known;
+    // Nothing here is more exact than the exact reference.
+    if (!isExact() && (check == Check::measure || !known))
+        measure(camera);
+    return std::move(*image);
+}
+
+std::optional<picture::ProjectionImage> SceneRenderer::imageOfCard(const scene::Camera &camera) {
+    if (!m_onCard)
+        return std::nullopt;
+    try {
+        return m_onCard->render(camera, m_scene.image, m_scene.shading, &m_times);
+    } catch (const Error &error) {
+        // The card was lost, or is too small for this image: the processor takes over, unless the
+        // user requires the card.
+        if (m_card.isRequired)
+            throw cardRefused(error);
+        m_card.reason = error.reason().english();
+        m_onCard.reset();
+        return std::nullopt;
+    }
+}
+
+void SceneRenderer::measure(const scene::Camera &camera) {
+    render::ProjectionEngine &maker = m_onCard ? *m_onCard : *m_prepared->engine;
+    m_lastError = prepare::measuredError(maker, studyFields(), camera, m_scene.image,
+                                         m_scene.shading, {}, m_progress);
+}
+
+std::string SceneRenderer::description() const {
+    const picture::Projector &maker = m_onCard ? *m_onCard : m_prepared->projector();
+    return maker.description().english();
+}
+
+nlohmann::json SceneRenderer::planJson() const {
+    const plan::RenderPlan &plan = m_prepared->plan;
+    if (isExact())
+        return exactPlanJson(images(), plan);
+    const render::EngineParts parts = m_prepared->engine->parts();
+    nlohmann::json json = cli::planJson(
+        plan, m_scene,
+        {int(parts.spectra.fields.size()), m_prepared->of, render::colorsOf(parts.channelWeights)},
+        m_prepared->lattice, m_times.widthShares);
+    if (!bound()) // the plan is for reduced fields
+        json["predicted_error"] = nullptr;
+    return json;
+}
+
 const scene::Exposure &SceneRenderer::exposure() {
     if (!m_scene.tone.exposure)
-        m_scene.tone.exposure = m_renderer->exposure(picture::backgroundOf(m_subject.volume));
+        m_scene.tone.exposure = picture::measureExposure(
+            m_prepared->projector(), m_prepared->lattice, m_scene.image, m_scene.shading,
+            m_scene.tone, picture::backgroundOf(m_subject.volume));
     return *m_scene.tone.exposure;
 }
 
 std::vector<std::string> SceneRenderer::warnings() const {
     std::vector<std::string> warnings;
-    if (m_renderer->isReduced())
-        warnings.push_back(m_renderer->reason());
+    if (m_prepared->isCoarse)
+        warnings.push_back(m_prepared->plan.reason.english());
     if (!m_whyEmpty.empty())
         warnings.push_back(m_whyEmpty);
     // `reference` selects the exact method; its nominal tolerance is no target.
-    if (m_renderer->predictedError() > m_scene.tolerance &&
-        !(m_renderer->isExact() && m_scene.tolerance == scene::referenceTolerance))
+    if (const auto known = bound();
+        known && !isWithinBound() && !(isExact() && m_scene.tolerance == scene::referenceTolerance))
         warnings.push_back(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted",
-                                       m_scene.tolerance, m_renderer->predictedError()));
+                                       m_scene.tolerance, known->relative));
     return warnings;
 }
 
 std::string SceneRenderer::warningOfView() const {
-    return missedText(m_renderer->lastError().relative, m_renderer->wasWhole());
+    return missedText(m_lastError.relative, m_wasWhole);
 }
 
 std::string SceneRenderer::warningOfViews() const {
@@ -147,8 +239,7 @@ std::string SceneRenderer::warningOfViews() const {
 }
 
 std::string SceneRenderer::missedText(double error, bool isWhole) const {
-    const bool isMissed =
-        error > m_scene.tolerance && m_renderer->predictedError() <= m_scene.tolerance;
+    const bool isMissed = error > m_scene.tolerance && (m_prepared->isCoarse || isWithinBound());
     if (!isMissed)
         return {};
     return isWhole ? fmt::format("the tolerance of {:.2g} is not met: {:.2g} was measured for this "
@@ -160,11 +251,10 @@ std::string SceneRenderer::missedText(double error, bool isWhole) const {
 }
 
 void SceneRenderer::takeErrors() {
-    const error::StatedError &error = m_renderer->lastError();
-    m_viewError = std::max(m_viewError, error.relative);
-    if (error.isMeasured() && (!m_measured || error.relative > m_measured->relative))
-        m_measured = error;
-    m_isWhole = m_isWhole && m_renderer->wasWhole();
+    m_viewError = std::max(m_viewError, m_lastError.relative);
+    if (m_lastError.isMeasured() && (!m_measured || m_lastError.relative > m_measured->relative))
+        m_measured = m_lastError;
+    m_isWhole = m_isWhole && m_wasWhole;
 }
 
 } // namespace pellucid::cli

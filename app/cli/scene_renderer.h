@@ -3,16 +3,18 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/cli/card_choice.h"
 #include "app/cli/commands.h"
-#include "app/cli/renderer.h"
 #include "core/classify/shown_fields.h"
 #include "core/picture/exposure.h"
+#include "core/prepare/prepared_engine.h"
 #include "core/scene/scene.h"
 #include "core/segment/segment_set.h"
 
@@ -36,27 +38,38 @@ struct MemoryLimit {
     bool decides = true;
 };
 
-/// Makes pictures of one scene from any direction, within its tolerance. Plans again if a part of
-/// the volume misses it.
+/// Makes pictures of one scene from any direction, within its tolerance: by an engine on the
+/// processor or on the card or, where no plan keeps the tolerance, by the exact reference. Plans
+/// again if a part of the volume misses it.
 class SceneRenderer {
 public:
     /// *Throws* Error{outOfMemory}, naming the path; Error{noSuchDevice}; Cancelled.
     SceneRenderer(const scene::Scene &scene, Subject subject, const MemoryLimit &memory,
                   const CardChoice &card, const Context &context);
-    SceneRenderer(const SceneRenderer &) = delete; // the renderer refers to the planned scene
-    SceneRenderer &operator=(const SceneRenderer &) = delete;
 
-    /// *Throws* as `Renderer::requireRoomFor`.
-    void requireRoomFor(const scene::Camera &camera) const { m_renderer->requireRoomFor(camera); }
+    /// *Throws* Error{outOfMemory} if the pictures of a camera need more than the limit, although
+    /// those of the scene's camera do not.
+    void requireRoomFor(const scene::Camera &camera) const;
     /// Whether the error of a picture is measured, or only bounded.
     enum class Check { none, measure };
-    /// A picture whose measured error exceeds the tolerance is planned again, more closely.
+    /// A picture whose measured error exceeds the tolerance is planned again, more closely. The
+    /// error is always measured if the fields were reduced to fit the memory.
     /// *Throws* Error{outOfMemory}, Cancelled.
     picture::ProjectionImage image(const scene::Camera &camera, Check check = Check::none);
     /// The scene's own exposure or, measured once, that of the study.
     const scene::Exposure &exposure();
 
-    const Renderer &renderer() const { return *m_renderer; }
+    /// Describes the engine that makes the images, one line.
+    std::string description() const;
+    /// Why this engine was chosen, one line.
+    const std::string &engineReason() const { return m_card.reason; }
+    bool isOnCard() const { return m_onCard != nullptr; }
+    /// Bytes of the spectra on the card; 0 without a card.
+    std::size_t cardBytes() const { return m_onCard ? m_onCard->textures().bytes() : 0; }
+    /// Bytes that the plan needs.
+    std::size_t bytes() const { return m_prepared->plan.bytes; }
+    /// The plan, and the model of the last frame.
+    nlohmann::json planJson() const;
     classify::FieldWindow window() const { return m_window; }
     /// Warnings about the whole volume, a line each.
     std::vector<std::string> warnings() const;
@@ -72,6 +85,11 @@ public:
     /// Of the last picture.
     const picture::FrameTimes &times() const { return m_times; }
 
+    /// An upper bound on the error of any view of the whole volume, see `prepare::boundOf`.
+    std::optional<error::StatedError> bound() const;
+    /// The error of the last picture as measured, or the bound.
+    const error::StatedError &lastError() const { return m_lastError; }
+
     /// For all pictures together: the largest error that is known of one, the largest measured
     /// error, and whether each showed the whole volume.
     double largestError() const { return m_viewError; }
@@ -81,7 +99,14 @@ public:
 private:
     void makeFields(const MemoryLimit &memory);
     void prepare();
+    void useCard();
+    int images() const; ///< transforms in a frame
+    bool isExact() const { return m_prepared->exact != nullptr; }
+    bool isWithinBound() const;
     bool mayPlanCloser() const;
+    picture::ProjectionImage make(const scene::Camera &camera, Check check);
+    std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera);
+    void measure(const scene::Camera &camera);
     void takeErrors();
     std::string missedText(double error, bool isWhole) const;
     classify::ShownFields studyFields() const;
@@ -92,15 +117,18 @@ private:
     std::optional<std::uint64_t> m_given; ///< bytes
     CardChoice m_card;
     Context m_context;
+    task::Progress m_progress;
     classify::FieldWindow m_window;
     std::size_t m_held = 0;         ///< bytes of the volume, its fields and their preparation
-    classify::ShownFields m_fields; ///< until the renderer takes them; with steps, longer
+    classify::ShownFields m_fields; ///< until an engine takes them; with steps, longer
     std::string m_whyEmpty;         ///< a warning, or empty
     plan::Budget m_budget;
-    std::size_t m_limit = std::numeric_limits<std::size_t>::max(); ///< of the plan's bytes
-    std::optional<Renderer> m_renderer;                            ///< refers to the planned scene
+    std::optional<prepare::PreparedEngine> m_prepared; ///< on the processor
+    std::shared_ptr<gpu::GpuEngine> m_onCard;          ///< the same on the card, if used
     double m_fieldMs = 0.0, m_prepareMs = 0.0;
     picture::FrameTimes m_times;
+    error::StatedError m_lastError;
+    bool m_wasWhole = true; ///< the last picture showed all of the fields
     double m_viewError = 0.0;
     std::optional<error::StatedError> m_measured;
     bool m_isWhole = true;

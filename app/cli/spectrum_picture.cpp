@@ -15,7 +15,6 @@
 #include "core/files/image_files.h"
 #include "core/prepare/prepared_engine.h"
 #include "core/render/spectrum_slice.h"
-#include "core/scene/planning_scene.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
 
@@ -57,9 +56,8 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
     const classify::ShownFields fields = fieldsFor(scene, volume, segments, context);
     if (const std::string why = whyEmpty(scene, volume, fields); !why.empty())
         throw Error(ErrorCode::unusable, because::inWords(why));
-    const auto prepared = prepare::prepareEngine(
-        scene::planningScene(scene, fields.channels.front().values.lattice()), fields,
-        {system::availableMemoryBytes()}, progress);
+    const auto prepared =
+        prepare::prepareEngine({scene, fields, {system::availableMemoryBytes()}}, progress);
     std::vector<std::string> warnings = englishTexts(volume.notes().warnings);
     const auto warnOf = [&](const std::string &text) {
         warnings.push_back(text);
@@ -67,7 +65,7 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
     };
     for (const std::string &text : lookWarnings(command, preset, scene, volume))
         warnOf(text);
-    if (prepared.reduction > 1) // the volume was averaged to fit in memory
+    if (prepared.isCoarse) // the volume was averaged to fit in memory
         warnOf(prepared.plan.reason.english());
     const int side = std::max({scene.camera.width, scene.camera.height, 2});
     const render::SpectrumSlice slice =
@@ -81,6 +79,7 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
     json skipped = json::array();
     for (const auto &s : input.skipped)
         skipped.push_back({{"path", s.path.string()}, {"reason", s.reason.english()}});
+    const auto bound = prepare::boundOf(prepared, scene.image);
     const fourier::SpectrumLayout &layout = prepared.plan.spectrum;
     std::puts(jsonText({{"size", {side, side}},
                         {"step_per_mm", slice.stepPerMm},
@@ -94,7 +93,7 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
                           {"padded", sizeJson(layout.padded)},
                           {"box", sizeJson(layout.box.size())},
                           {"storage", fourier::storageName(layout.storage)},
-                          {"predicted_error", prepared.plan.predictedError},
+                          {"predicted_error", bound ? json(bound->relative) : json()},
                           {"reason", prepared.plan.reason.english()}}},
                         {"warnings", warnings},
                         {"skipped", skipped}})

@@ -23,7 +23,7 @@ constexpr double viewMargin = 1.5;
 // out.
 constexpr double sparseMargin = 12.0, boundedMargin = 1.5;
 
-double roundingMargin(const EnergySpread &spread) {
+double roundingMargin(const field::EnergySpread &spread) {
     const double alike =
         std::isinf(spread.peakedness) ? 1.0 : std::min(1.0, 2.5 * spread.concentration);
     return boundedMargin + (sparseMargin - boundedMargin) * alike;
@@ -70,20 +70,20 @@ BlockAmplitudes amplitudesAt(const fourier::Kernel &kernel, double x) {
 // class counts with its largest value.
 class LargestMean {
 public:
-    LargestMean(const EnergyMarginals &field) : m_field(field) {}
+    LargestMean(const field::EnergyMarginals &field) : m_field(field) {}
 
     template <class F> double of(const F &value) const {
         const double peakedness = m_field.spread->peakedness;
         if (std::isinf(peakedness)) {
             double sum = 0.0;
-            for (const FieldBlock &block : m_field.blocks)
+            for (const field::Block &block : m_field.blocks)
                 sum += double(block.energy) * value(block.at);
             return viewMargin * sum;
         }
         constexpr int classes = 256;
         constexpr double octaves = 64.0, perOctave = classes / octaves;
         std::array<double, classes> share{}, most{};
-        for (const FieldBlock &block : m_field.blocks) {
+        for (const field::Block &block : m_field.blocks) {
             const double v = value(block.at);
             const int n =
                 std::clamp(int(perOctave * (std::log2(std::max(v, 1e-18)) + 58.0)), 0, classes - 1);
@@ -100,14 +100,14 @@ public:
     }
 
 private:
-    const EnergyMarginals &m_field;
+    const field::EnergyMarginals &m_field;
 };
 
 } // namespace
 
 AxisError axisError(const fourier::Kernel &kernel, int padded, int samples) {
     AxisError error;
-    for (const BlockRange &range : blockRanges(samples)) {
+    for (const field::BlockRange &range : field::blockRanges(samples)) {
         // Amplitudes grow outward, so both ends of a block bound it.
         BlockAmplitudes worst;
         for (const int n : {range.first, range.last}) {
@@ -125,7 +125,8 @@ AxisError axisError(const fourier::Kernel &kernel, int padded, int samples) {
 }
 
 void addMomentError(AxisError &error, const fourier::Kernel &kernel,
-                    const fourier::MomentKernel &moment, int padded, const SlabProducts &slabs) {
+                    const fourier::MomentKernel &moment, int padded,
+                    const field::SlabProducts &slabs) {
     // Beyond the second alias the responses fall fast.
     constexpr std::array<int, 5> periods{0, -1, 1, -2, 2};
     const auto count = std::size_t(slabs.slabs);
@@ -176,7 +177,7 @@ namespace {
 
 // Distance of the centre of the energy from the centre of the lattice, mm.
 double middleOffsetMm(const volume::Lattice &lattice, const volume::VoxelBox &box,
-                      const EnergyMarginals &energy) {
+                      const field::EnergyMarginals &energy) {
     const std::array<int, 3> first{box.lo.i, box.lo.j, box.lo.k};
     glm::dvec3 middle(0.0);
     for (int d = 0; d < 3; ++d) {
@@ -196,8 +197,8 @@ double middleOffsetMm(const volume::Lattice &lattice, const volume::VoxelBox &bo
 // The smallest root mean square of the cue over the depths of the energy, over the directions of
 // its profiles. The profiles contain distances but not sides: both sides count alike, or, if the
 // energy is on one side, only the darker one.
-double minRms(const std::function<double(double)> &cue, const EnergySpread &spread, double radiusMm,
-              double offsetMm) {
+double minRms(const std::function<double(double)> &cue, const field::EnergySpread &spread,
+              double radiusMm, double offsetMm) {
     double least = 1.0;
     for (const auto &shares : spread.byDistance) {
         double both = 0.0, darker = 0.0, all = 0.0, squares = 0.0;
@@ -223,7 +224,7 @@ constexpr double darkest = 0.002;
 } // namespace
 
 CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice, double radiusMm,
-                    const fourier::SpectrumLayout &layout, const EnergyMarginals &energy) {
+                    const fourier::SpectrumLayout &layout, const field::EnergyMarginals &energy) {
     CueWeight weight;
     if (!cue.isActive())
         return weight;
@@ -250,7 +251,8 @@ static double relativeRounding(fourier::Storage storage) {
     return storage == fourier::Storage::binary16 ? 2.1e-4 : 3e-7;
 }
 
-static double roundingNoise(const std::array<AxisError, 3> &axes, const EnergyMarginals &field) {
+static double roundingNoise(const std::array<AxisError, 3> &axes,
+                            const field::EnergyMarginals &field) {
     double energy = 1.0;
     for (const AxisError &axis : axes)
         energy *= axis.isShort ? 1.0 : axis.kernelEnergy;
@@ -263,7 +265,8 @@ static double roundingNoise(const std::array<AxisError, 3> &axes, const EnergyMa
 }
 
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                            const EnergyMarginals &field, double share, const CueWeight &cue) {
+                            const field::EnergyMarginals &field, double share,
+                            const CueWeight &cue) {
     const double aliases = LargestMean(field).of([&](const auto &at) {
         double sum = 0.0;
         for (std::size_t d = 0; d < axes.size(); ++d)

@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "core/field/energy_marginals.h"
+#include "core/field/slab_products.h"
 #include "core/fourier/kernels/moment_kernel.h"
 #include "core/fourier/spectrum.h"
-#include "core/plan/energy_marginals.h"
-#include "core/plan/slab_products.h"
 #include "core/shading/slice_shading.h"
 
 namespace pellucid::plan {
@@ -27,11 +27,11 @@ struct BlockAmplitudes {
 
 /// The errors of one axis of a layout.
 struct AxisError {
-    std::vector<BlockAmplitudes> blocks; ///< see `blockRanges`
+    std::vector<BlockAmplitudes> blocks; ///< see `field::blockRanges`
     double kernelEnergy = 1.0;           ///< integral H^2
     bool isShort = false; ///< so few samples that the cells of their spectrum round alike
     /// The error of the moment kernel of a linear cue, as the larger of two energies w^T C w, with
-    /// C of `SlabProducts` and k the kernel's response. In views along the axis, w is the
+    /// C of `field::SlabProducts` and k the kernel's response. In views along the axis, w is the
     /// difference between the sum over the taps and i x; in views close to it, w is k(x)/h(x) - x
     /// and k(x + m)/h(x). *Units*: periods.
     double moment = 0.0;
@@ -41,7 +41,8 @@ struct AxisError {
 AxisError axisError(const fourier::Kernel &kernel, int padded, int samples);
 /// Raises `error.moment` to that of this field, for a linear cue.
 void addMomentError(AxisError &error, const fourier::Kernel &kernel,
-                    const fourier::MomentKernel &moment, int padded, const SlabProducts &slabs);
+                    const fourier::MomentKernel &moment, int padded,
+                    const field::SlabProducts &slabs);
 
 /// The root mean square of a cue over all depths, including those far beyond the volume, where
 /// aliases occur. A linear cue, whose own aliases count separately, is averaged over the depths of
@@ -60,19 +61,20 @@ struct CueWeight {
 /// *Shape*: `energy` holds the samples of the layout's box. *Units*: `radiusMm` is the R of the
 /// cue.
 CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice, double radiusMm,
-                    const fourier::SpectrumLayout &layout, const EnergyMarginals &energy);
+                    const fourier::SpectrumLayout &layout, const field::EnergyMarginals &energy);
 
 /// An upper bound on the relative L2 error of an image in any direction. The error is the
 /// projection of f (a - 1). For parts f_b of a field without negative samples
 ///   |P(f w)|^2 <= sum_b max_b(w)^2 <P f_b, P f>, since <P f_a, P f_b> >= 0,
-/// and each <P f_b, P f> / |P f|^2 is at most `EnergySpread::peakedness` times the part's share of
-/// the mass: the worst parts get the largest shares that they can have. Parts of a field with
-/// negative samples can cancel; for these it is the expected error, times a margin. Aliases of
+/// and each <P f_b, P f> / |P f|^2 is at most `field::EnergySpread::peakedness` times the part's
+/// share of the mass: the worst parts get the largest shares that they can have. Parts of a field
+/// with negative samples can cancel; for these it is the expected error, times a margin. Aliases of
 /// several axes add up in amplitude, as where they overlap each other or the projection: every
 /// slice grid has views close to that. `share`: the image's share of the projection's energy.
 /// Rounding to binary16 has an error of 2.1e-4 of each cell, spread evenly over the period;
 /// rounding to float and summing, 3e-7.
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                            const EnergyMarginals &field, double share, const CueWeight &cue = {});
+                            const field::EnergyMarginals &field, double share,
+                            const CueWeight &cue = {});
 
 } // namespace pellucid::plan

@@ -35,8 +35,8 @@ double tailEnergy(double rollOff, double r) {
 // E was compared with exact sums for combs of 8 to 256 samples at frequencies throughout the
 // roll-off, for F = 0.01 to 0.5: below 1e-2 they are 0.2 to 0.95 times this bound. No length counts
 // as shorter than `minLength`.
-double regularTailEnergy(const EnergySpread &spread, double rollOff, double bandMm, double period,
-                         double side, double pan, double minLength = 0.0) {
+double regularTailEnergy(const field::EnergySpread &spread, double rollOff, double bandMm,
+                         double period, double side, double pan, double minLength = 0.0) {
     // The least that second differences pass of a frequency in the roll-off. The minimum is along
     // an axis of the lattice or midway between all three.
     const double f = std::numbers::pi *
@@ -91,7 +91,7 @@ double tailInImage(double rollOff, int period, int side, double offset) {
     return 0.5 * (tail(reach - offset) + tail(reach + offset));
 }
 
-double foldedTailEnergy(const EnergySpread &spread, const scene::ImageDefinition &image,
+double foldedTailEnergy(const field::EnergySpread &spread, const scene::ImageDefinition &image,
                         double pixelMm, int period, int side, double pan) {
     double most = 0.0;
     for (const auto &shares : spread.byDistance) {
@@ -121,13 +121,13 @@ double foldedTailEnergy(const EnergySpread &spread, const scene::ImageDefinition
            2.0 * std::sqrt(imageTails * latticeTails); // amplitudes add up
 }
 
-double shareInImage(const scene::Camera &camera, const EnergySpread &spread) {
+double shareInImage(const scene::Camera &camera, const field::EnergySpread &spread) {
     const double area = double(camera.width) * camera.height * camera.pixelMm * camera.pixelMm;
     return spread.shadowMm2 > area ? area / spread.shadowMm2 : 1.0;
 }
 
 double predictFoldedTails(const scene::ImageDefinition &image, const scene::Camera &camera,
-                          int columns, int rows, const EnergySpread &spread) {
+                          int columns, int rows, const field::EnergySpread &spread) {
     const glm::dvec2 pan = camera.panMm / camera.pixelMm;
     const double folded =
         foldedTailEnergy(spread, image, camera.pixelMm, columns, camera.width, pan.x) +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/plan/energy_marginals.h"
+#include "core/field/energy_marginals.h"
 #include "core/scene/camera.h"
 #include "core/scene/image_definition.h"
 
@@ -22,14 +22,14 @@ double tailInImage(double rollOff, int period, int side, double offset);
 /// by cos(pi F r/2)/(1 - (F r)^2). A point has all frequencies in equal measure; in a smooth
 /// projection only the part at the edge of the band has tails, which is the roughness of its
 /// energy.
-double foldedTailEnergy(const EnergySpread &spread, const scene::ImageDefinition &image,
+double foldedTailEnergy(const field::EnergySpread &spread, const scene::ImageDefinition &image,
                         double pixelMm, int period, int side, double pan);
 
 /// The share of a projection's energy in the image of a camera, by its area.
-double shareInImage(const scene::Camera &camera, const EnergySpread &spread);
+double shareInImage(const scene::Camera &camera, const field::EnergySpread &spread);
 
 /// The relative L2 error that the tails along both axes make in the image of a camera.
 double predictFoldedTails(const scene::ImageDefinition &image, const scene::Camera &camera,
-                          int columns, int rows, const EnergySpread &spread);
+                          int columns, int rows, const field::EnergySpread &spread);
 
 } // namespace pellucid::plan

@@ -8,7 +8,7 @@
 
 namespace pellucid::plan {
 
-KernelCandidates::KernelCandidates(int axis, std::span<const FieldSummary> fields, LinearCue cue)
+KernelCandidates::KernelCandidates(int axis, std::span<const field::Summary> fields, LinearCue cue)
     : m_cue(cue), m_samples(fields.front().support.size()[axis]), m_axis(std::size_t(axis)),
       m_fields(fields) {}
 
@@ -29,10 +29,10 @@ KernelCandidate KernelCandidates::make(const fourier::KernelChoice &choice, doub
         moment.emplace(kernel, double(padded) / m_samples);
     AxisError error = axisError(kernel, padded, m_samples);
     if (moment)
-        for (const FieldSummary &field : m_fields)
+        for (const field::Summary &field : m_fields)
             addMomentError(error, kernel, *moment, padded,
                            field.slabs ? (*field.slabs)[m_axis]
-                                       : evenSlabProducts(field.energy.axis[m_axis]));
+                                       : field::evenSlabProducts(field.energy.axis[m_axis]));
     return {std::move(kernel), padded, std::move(error)};
 }
 

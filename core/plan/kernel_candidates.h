@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "core/field/summary.h"
 #include "core/plan/error_prediction.h"
-#include "core/plan/field_summary.h"
 
 namespace pellucid::plan {
 
@@ -27,7 +27,7 @@ enum class LinearCue { none, present };
 class KernelCandidates {
 public:
     /// *Requires*: the fields outlive this object.
-    KernelCandidates(int axis, std::span<const FieldSummary> fields, LinearCue cue);
+    KernelCandidates(int axis, std::span<const field::Summary> fields, LinearCue cue);
 
     /// The kernel of a choice for at least this padding, with the error of the worst field.
     const KernelCandidate &at(const fourier::KernelChoice &choice, double padding);
@@ -38,7 +38,7 @@ private:
     LinearCue m_cue;
     int m_samples;
     std::size_t m_axis;
-    std::span<const FieldSummary> m_fields;
+    std::span<const field::Summary> m_fields;
     std::map<std::pair<std::string, double>, std::unique_ptr<KernelCandidate>> m_cache;
 };
 

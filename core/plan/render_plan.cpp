@@ -30,11 +30,11 @@ struct PlannedGrid {
 };
 
 // The slice grids worth trying, smallest first.
-std::vector<PlannedGrid> planGrids(const scene::Scene &scene, std::span<const FieldSummary> fields,
-                                   double errorFactor) {
+std::vector<PlannedGrid> planGrids(const scene::Scene &scene,
+                                   std::span<const field::Summary> fields, double errorFactor) {
     const scene::Camera &camera = scene.camera;
     FieldOfView fieldOfView;
-    for (const FieldSummary &field : fields)
+    for (const field::Summary &field : fields)
         fieldOfView.spreads.push_back(field.energy.spread);
     std::vector<PlannedGrid> grids;
     for (const double share : {0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1}) {
@@ -52,9 +52,9 @@ std::vector<PlannedGrid> planGrids(const scene::Scene &scene, std::span<const Fi
 }
 
 // The smallest share of any field.
-double imageShare(const scene::Camera &camera, std::span<const FieldSummary> fields) {
+double imageShare(const scene::Camera &camera, std::span<const field::Summary> fields) {
     double share = 1.0;
-    for (const FieldSummary &field : fields)
+    for (const field::Summary &field : fields)
         share = std::min(share, shareInImage(camera, *field.energy.spread));
     return share;
 }
@@ -85,9 +85,9 @@ task::Reason reasonFor(const RenderPlan &plan, const scene::Scene &scene, bool o
 // The search for the best plan: kernels, storages, paddings and slice grids, each tried in turn.
 class Planner {
 public:
-    Planner(const scene::Scene &scene, std::span<const FieldSummary> fields,
+    Planner(const scene::Scene &scene, std::span<const field::Summary> fields,
             const Composition &composition, const Budget &budget)
-        : m_scene(scene), m_limit(scene.tolerance), m_fields(fields), m_composition(composition),
+        : m_scene(scene), m_fields(fields), m_composition(composition),
           m_errorFactor(composition.errorFactor()), m_budget(budget),
           m_kernels(
               choices<fourier::KernelChoice>(scene.interpolation.kernel, {{leastAliasing, 3},
@@ -103,35 +103,36 @@ public:
                  KernelCandidates(1, fields, cueOf(scene)),
                  KernelCandidates(2, fields, cueOf(scene))},
           m_grids(planGrids(scene, fields, m_errorFactor)),
-          m_imageShare(imageShare(scene.camera, fields)) {}
+          m_imageShare(imageShare(scene.camera, fields)) {
+        // Half of the squared error is for narrower kernels, if it can be. Four fifths of the
+        // tolerance for the plan gave the same frames within a tenth; with all of it, frames took
+        // up to twice as long.
+        if (!scene.interpolation.isUniform)
+            m_limits.push_back(std::sqrt(0.5) * scene.tolerance);
+        m_limits.push_back(scene.tolerance);
+    }
 
+    // Binary16 where it meets the tolerance: float cells take twice the memory. The first searches
+    // skip kernels that no padding makes good enough, because making a kernel takes milliseconds.
     RenderPlan plan() {
-        // The first pass skips kernels that no padding makes good enough, because making a kernel
-        // takes milliseconds.
-        search(false);
-        if (std::isinf(m_bestTime))
-            search(true);
+        for (const auto storage : m_storages)
+            for (const double limit : m_limits)
+                if (search(storage, limit))
+                    return finished();
+        for (const auto storage : m_storages)
+            search(storage, m_scene.tolerance, true);
         requirePlan();
         return finished();
     }
 
-    // The fastest plan of the same storage that predicts at most `limit`. *Requires*: `plan` has
-    // met the tolerance; called once.
-    std::optional<RenderPlan> stricter(double limit) {
-        m_limit = limit;
-        m_storages = {m_best->spectrum.storage};
-        m_bestTime = std::numeric_limits<double>::infinity();
-        m_best.reset();
-        search(false);
-        return std::isinf(m_bestTime) ? std::nullopt : std::optional(finished());
-    }
-
 private:
-    void search(bool thorough) {
-        for (const auto storage : m_storages)
-            for (const auto &choice : m_kernels)
-                if (mayBeFaster(choice, storage) && (thorough || !isHopeless(choice, storage)))
-                    considerPaddings(choice, storage);
+    // Returns whether a plan predicts at most `limit`.
+    bool search(fourier::Storage storage, double limit, bool thorough = false) {
+        m_limit = limit;
+        for (const auto &choice : m_kernels)
+            if (mayBeFaster(choice, storage) && (thorough || !isHopeless(choice, storage)))
+                considerPaddings(choice, storage);
+        return !std::isinf(m_bestTime);
     }
     RenderPlan finished() const {
         RenderPlan plan = *m_best;
@@ -166,7 +167,7 @@ private:
     // The largest weight of any field.
     CueWeight weightOf(const fourier::SpectrumLayout &layout) const {
         CueWeight worst;
-        for (const FieldSummary &field : m_fields) {
+        for (const field::Summary &field : m_fields) {
             const CueWeight weight = cueWeight(
                 m_scene.shading.cue, field.lattice,
                 field.depthRadiusMm.value_or(field.lattice.radiusMm()), layout, field.energy);
@@ -179,7 +180,7 @@ private:
     double relativeError(const Layout &layout) const {
         const CueWeight weight = weightOf(layout.spectrum);
         double worst = 0.0;
-        for (const FieldSummary &field : m_fields)
+        for (const field::Summary &field : m_fields)
             worst = std::max(worst, predictRelativeError(layout.errors, layout.spectrum.storage,
                                                          field.energy, m_imageShare, weight));
         return m_errorFactor * worst;
@@ -283,8 +284,9 @@ private:
     }
 
     const scene::Scene &m_scene;
-    double m_limit;                         ///< the error that a plan may predict
-    std::span<const FieldSummary> m_fields; ///< on one lattice, in one box
+    std::vector<double> m_limits; ///< of the error, in the order in which they are tried
+    double m_limit = 0.0;         ///< the error that a plan may predict in this search
+    std::span<const field::Summary> m_fields; ///< on one lattice, in one box
     Composition m_composition;
     double m_errorFactor;
     Budget m_budget;
@@ -304,7 +306,8 @@ private:
 
 } // namespace
 
-RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, const Budget &budget) {
+RenderPlan planRender(const scene::Scene &scene, const field::Summary &field,
+                      const Budget &budget) {
     return planRender(scene, {&field, 1}, Composition{}, budget);
 }
 
@@ -319,37 +322,22 @@ RenderPlan withDetail(RenderPlan plan, const scene::ImageDefinition &image) {
     return plan;
 }
 
-RenderPlan planWithoutDetail(const scene::Scene &scene, std::span<const FieldSummary> fields,
-                             const Composition &composition, const Budget &budget) {
-    Planner planner(scene, fields, composition, budget);
-    RenderPlan plan = planner.plan();
-    // Half of the squared error is for narrower kernels. Four fifths of the tolerance for the plan
-    // gave the same frames within a tenth; with all of it, frames took up to twice as long. The
-    // storage stays: float cells would double the memory.
-    const double half = std::sqrt(0.5) * scene.tolerance;
-    if (!scene.interpolation.isUniform && plan.predictedError <= scene.tolerance &&
-        plan.predictedError > half)
-        if (auto stricter = planner.stricter(half))
-            return std::move(*stricter);
-    return plan;
-}
-
 } // namespace
 
-RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields,
+RenderPlan planRender(const scene::Scene &scene, std::span<const field::Summary> fields,
                       const Composition &composition, const Budget &budget) {
     scene::validate(scene);
     // The filter would need room around the projection many times its size.
-    for (const FieldSummary &field : fields)
+    for (const field::Summary &field : fields)
         if (scene.image.detail > 0.0 && scene.image.detailMm > field.lattice.radiusMm())
             throw task::Error(task::ErrorCode::usage, task::because::detailIsLargerThanTheVolume);
     scene::Scene plain = scene;
     plain.tolerance /= scene::detailGain(scene.image);
-    return withDetail(planWithoutDetail(plain, fields, composition, budget), scene.image);
+    return withDetail(Planner(plain, fields, composition, budget).plan(), scene.image);
 }
 
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
-                 std::span<const FieldSummary> fields) {
+                 std::span<const field::Summary> fields) {
     // Both for the image without amplified detail.
     const double gain = scene::detailGain(scene.image);
     const double tolerance = scene.tolerance / gain, error = plan.predictedError / gain;

@@ -6,9 +6,9 @@
 #include <limits>
 #include <span>
 
+#include "core/field/summary.h"
 #include "core/fourier/spectrum.h"
 #include "core/plan/error_prediction.h"
-#include "core/plan/field_summary.h"
 #include "core/plan/slice_grid.h"
 #include "core/scene/scene.h"
 #include "core/task/reason.h"
@@ -18,6 +18,9 @@ namespace pellucid::plan {
 /// The memory that a plan may use.
 struct Budget {
     std::size_t bytes = std::numeric_limits<std::size_t>::max();
+    /// Whether the plan is chosen to fit. If not, one that does not fit is refused: pictures are
+    /// then the same whatever the memory.
+    bool decides = true;
 };
 
 /// How an image of a scene is computed, what it costs, and how far from the exact integral it will
@@ -46,7 +49,7 @@ struct RenderPlan {
 /// tolerance, or none of those fits the budget: the most accurate that fits. Values that the
 /// scene's `interpolation` sets are not changed. *Throws* Error{outOfMemory} if nothing fits the
 /// budget, Error{usage} if the scene is invalid.
-RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field,
+RenderPlan planRender(const scene::Scene &scene, const field::Summary &field,
                       const Budget &budget = {});
 
 /// How the images of fields make a picture.
@@ -63,11 +66,12 @@ struct Composition {
 
 /// The same for fields whose spectra share a layout, so that a slice can be their weighted sum. The
 /// errors are those of the worst field, for the composition; the bytes are the sum.
-RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields,
+RenderPlan planRender(const scene::Scene &scene, std::span<const field::Summary> fields,
                       const Composition &composition, const Budget &budget = {});
 
 /// Spends the rest of the tolerance on narrower kernels and on leaving frequencies out. Each frame
 /// measures where. *Shape*: the fields of the plan.
-void adaptWidths(RenderPlan &plan, const scene::Scene &scene, std::span<const FieldSummary> fields);
+void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
+                 std::span<const field::Summary> fields);
 
 } // namespace pellucid::plan

@@ -41,7 +41,7 @@ std::size_t frameBytes(const SliceGrid &grid, const scene::Camera &camera, int i
 }
 
 FieldOfView fieldOfViewOf(const volume::Lattice &lattice, const volume::VoxelBox &box) {
-    return {{std::make_shared<const EnergySpread>(evenSpread(lattice, box))}};
+    return {{std::make_shared<const field::EnergySpread>(field::evenSpread(lattice, box))}};
 }
 
 SliceGrid sliceGrid(const scene::Camera &camera, const FieldOfView &fieldOfView,

@@ -19,7 +19,7 @@ struct SliceGrid {
 struct FieldOfView {
     /// The extents of the fields whose spectra are summed: each is zero beyond its radius. At least
     /// one.
-    std::vector<std::shared_ptr<const EnergySpread>> spreads;
+    std::vector<std::shared_ptr<const field::EnergySpread>> spreads;
     /// The limit on the roll-off tails that fold back, relative L2.
     double aliasingLimit = 3e-4;
 };

@@ -10,6 +10,7 @@
 
 #include "core/classify/coarse_field.h"
 #include "core/render/frame_job.h"
+#include "core/scene/planning_scene.h"
 #include "core/task/error.h"
 
 namespace pellucid::prepare {
@@ -20,9 +21,13 @@ constexpr std::size_t maxSamples = std::size_t(1) << 25;
 constexpr int minSamples = 32;
 constexpr render::ChannelWeights none{0.0, 0.0, 0.0};
 
-int minReduction(const volume::GridSize &size) {
+// The least reduction of so many fields to `maxSamples` and to half of the budget: the fields alone
+// must leave memory for their spectra.
+int leastReduction(const volume::GridSize &size, std::size_t count, std::size_t budget) {
+    const std::size_t most = std::min(maxSamples, budget / 2 / sizeof(float) / count);
     int reduction = 1;
-    while (size.count() / (std::size_t(reduction) * reduction * reduction) > maxSamples)
+    while (size.count() / (std::size_t(reduction) * reduction * reduction) > most &&
+           std::max({size.i, size.j, size.k}) / (reduction + 1) >= minSamples)
         ++reduction;
     return reduction;
 }
@@ -36,69 +41,36 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
                                             const FieldOf &fieldOf, const plan::Budget &budget,
                                             const task::Progress &progress,
                                             const std::optional<shading::ShadingScale> &given) {
-    std::vector<classify::DensityField> fields;
-    int reduction = 1, longest = 0;
-    shading::ShadingScale scale; // of the volume, whatever the reduction
-    const auto reduce = [&](std::size_t n) {
-        fields[n] = classify::coarseField(fields[n], (longest + reduction - 1) / reduction);
-    };
-    const auto held = [&] {
-        std::size_t sum = 0;
-        for (const classify::DensityField &field : fields)
-            sum += field.values.samples().bytes();
-        return sum;
-    };
+    ShadedFields layers;
+    int reduction = 1;
+    std::size_t taken =
+        count * sizeof(float) * std::size_t(scene.camera.width) * std::size_t(scene.camera.height);
     for (std::size_t n = 0; n < count; ++n) {
-        fields.push_back(fieldOf(n, progress.part(0.5 * double(n) / double(count),
-                                                  0.5 * double(n + 1) / double(count))));
-        const volume::GridSize size = fields.back().values.lattice().size();
+        classify::DensityField field = fieldOf(
+            n, progress.part(0.5 * double(n) / double(count), 0.5 * double(n + 1) / double(count)));
+        const volume::Lattice &lattice = field.values.lattice();
+        const volume::GridSize size = lattice.size();
         if (n == 0) {
-            longest = std::max({size.i, size.j, size.k});
-            scale = given.value_or(shading::shadingScale(fields.back().values.lattice()));
-            reduction = minReduction(size);
+            layers.scale = given.value_or(shading::shadingScale(lattice));
+            reduction = leastReduction(size, count, budget.bytes);
         }
         if (reduction > 1)
-            reduce(n);
-        // The fields alone must leave memory for their spectra.
-        while (held() > budget.bytes / 2 && longest / (reduction + 1) >= minSamples) {
-            progress.check();
-            ++reduction;
-            for (std::size_t m = 0; m <= n; ++m)
-                reduce(m);
-        }
+            field = classify::coarseField(
+                field, (std::max({size.i, size.j, size.k}) + reduction - 1) / reduction);
+        taken += field.values.samples().bytes();
+        layers.fields.push_back(std::move(field));
     }
-    const std::size_t keptBytes =
-        count * sizeof(float) * std::size_t(scene.camera.width) * std::size_t(scene.camera.height);
-    for (;;) {
-        progress.check();
-        const std::size_t taken = held() + keptBytes;
-        try {
-            const auto summaries = summarise({fields, {}, scale}, scene.shading.cue);
-            // Projections of layers are kept and summed: they must not depend on the weights.
-            scene::Scene uniform = scene;
-            uniform.interpolation.isUniform = true;
-            plan::RenderPlan plan =
-                plan::planRender(uniform, summaries, {render::FrameJob::maxImages, 1},
-                                 {budget.bytes > taken ? budget.bytes - taken : 0});
-            render::EngineSpectra spectra{{}, {}, scale};
-            for (std::size_t n = 0; n < count; ++n) {
-                const double done = 0.5 + 0.5 * double(n) / double(count);
-                spectra.fields.push_back(std::make_shared<const fourier::Spectrum>(
-                    fourier::Spectrum::prepare(fields[n].values, plan.spectrum,
-                                               progress.part(done, done + 0.5 / double(count)))));
-            }
-            auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
-            return std::shared_ptr<LayerSet>(
-                new LayerSet(std::move(engine), std::move(plan), reduction));
-        } catch (const task::Error &error) {
-            if (error.code() != task::ErrorCode::outOfMemory ||
-                longest / (reduction + 1) < minSamples)
-                throw;
-        }
-        ++reduction;
-        for (std::size_t n = 0; n < count; ++n)
-            reduce(n);
-    }
+    // Projections of layers are kept and summed: they must not depend on the weights.
+    scene::Scene uniform = scene::planningScene(scene, layers.fields.front().values.lattice());
+    uniform.interpolation.isUniform = true;
+    FittingPlan fitting =
+        planWithin(uniform, std::move(layers), {render::FrameJob::maxImages, 1},
+                   {budget.bytes - std::min(budget.bytes, taken)}, progress.part(0.5, 1.0));
+    auto engine = std::make_shared<render::CpuEngine>(
+        spectraOf(std::move(fitting.fields), fitting.plan, progress.part(0.5, 1.0)),
+        fitting.plan.fieldOfView);
+    return std::shared_ptr<LayerSet>(
+        new LayerSet(std::move(engine), std::move(fitting.plan), reduction * fitting.reduction));
 }
 
 void LayerSet::keep(std::size_t layer) {

@@ -5,7 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/classify/coarse_field.h"
+#include "core/plan/folded_tails.h"
+#include "core/reference/exact_engine.h"
+#include "core/scene/planning_scene.h"
 #include "core/task/error.h"
 
 namespace pellucid::prepare {
@@ -14,98 +19,91 @@ namespace {
 
 constexpr int minSamples = 32;
 
-double energy(const classify::DensityField &field) {
-    const volume::VoxelBox &box = field.support;
-    const int columns = box.size().i;
-    std::vector<float> buffer(columns);
-    double sum = 0.0;
-    for (int k = box.lo.k; k < box.hi.k; ++k)
-        for (int j = box.lo.j; j < box.hi.j; ++j) {
-            const float *const row = field.values.row({box.lo.i, j, k}, columns, buffer.data());
-            for (int i = 0; i < columns; ++i)
-                sum += double(row[i]) * double(row[i]);
-        }
-    return sum;
+std::size_t bytesOf(const ShadedFields &fields) {
+    std::size_t bytes = 0;
+    for (const auto *const samples : {&fields.fields, &fields.gradients})
+        for (const classify::DensityField &field : *samples)
+            bytes += field.values.samples().bytes();
+    return bytes;
 }
 
-// The detail that averages lose: the energy of the differences between samples and their means,
-// relative to the field's.
-double lostDetail(const classify::DensityField &field, const classify::DensityField &means) {
-    const double all = energy(field);
-    const double kept = energy(means) * (means.values.lattice().cellVolumeMm3() /
-                                         field.values.lattice().cellVolumeMm3());
-    return all > 0.0 ? std::sqrt(std::max(0.0, 1.0 - kept / all)) : 0.0;
+// If the image itself is too large for the memory, a coarser field does not help.
+void requireImageFits(const scene::Scene &scene, const field::Summary &field, int images,
+                      std::size_t bytes) {
+    const plan::SliceGrid least =
+        plan::sliceGrid(scene.camera, {{field.energy.spread}, 1.0}, field.lattice, scene.image);
+    const std::size_t frame = plan::frameBytes(least, scene.camera, images);
+    if (frame > bytes)
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          task::because::imageNeedsMemory(scene.camera.width, scene.camera.height,
+                                                          (frame >> 20) + 1, bytes >> 20));
+}
+
+// The error of the exact reference: rounding (about 1e-10 in double precision, or that of a shaded
+// field's float samples) and the tails of the roll-off that fold back from its period.
+double exactError(const scene::Scene &scene, const std::vector<field::Summary> &summaries,
+                  const plan::Composition &composition) {
+    const double rounding = scene.shading.isPlain() ? 1e-10 : 6e-8;
+    double worst = 0.0;
+    for (const field::Summary &summary : summaries) {
+        const reference::Period period =
+            reference::periodOf(summary.lattice, scene.camera, scene.image);
+        const double tails = plan::predictFoldedTails(scene.image, scene.camera, period.columns,
+                                                      period.rows, *summary.energy.spread);
+        worst = std::max(worst, std::hypot(rounding, tails));
+    }
+    return composition.errorFactor() * worst;
+}
+
+// The gradient is that of the means, so that no sample becomes darker than black.
+ShadedFields reduced(const ShadedFields &fields, int reduction, const shading::Shading &shading) {
+    const volume::GridSize n = fields.fields.front().values.lattice().size();
+    classify::ShownFields means{{}, fields.colors};
+    for (const classify::DensityField &field : fields.fields)
+        means.channels.push_back(
+            classify::coarseField(field, (std::max({n.i, n.j, n.k}) + reduction - 1) / reduction));
+    return shadedFields(std::move(means), shading, fields.scale);
 }
 
 } // namespace
 
-FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
-                       std::span<const plan::FieldSummary> summaries, const plan::Budget &budget,
+void requireWithin(std::size_t needed, const plan::Budget &budget) {
+    if (needed > budget.bytes)
+        throw task::Error(
+            task::ErrorCode::outOfMemory,
+            task::because::inWords(fmt::format("the pictures need {} MB, but only {} MB are left",
+                                               (needed >> 20) + 1, budget.bytes >> 20)));
+}
+
+FittingPlan planWithin(const scene::Scene &scene, ShadedFields fields,
+                       const plan::Composition &composition, const plan::Budget &budget,
                        const task::Progress &progress) {
     scene::validate(scene);
-    const std::vector<classify::DensityField> &fields = shaded.fields;
-    const plan::Composition composition = compositionOf(fields.size(), scene.shading);
-    // If the image itself is too large for the memory, a coarser field does not help.
-    const plan::SliceGrid least =
-        plan::sliceGrid(scene.camera, {{summaries.front().energy.spread}, 1.0},
-                        summaries.front().lattice, scene.image);
-    const std::size_t frame = plan::frameBytes(least, scene.camera, composition.images);
-    if (frame > budget.bytes)
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          task::because::imageNeedsMemory(scene.camera.width, scene.camera.height,
-                                                          (frame >> 20) + 1, budget.bytes >> 20));
-    try {
-        FittingPlan fitting{plan::planRender(scene, summaries, composition, budget), {}, 1};
-        plan::adaptWidths(fitting.plan, scene, summaries);
-        return fitting;
-    } catch (const task::Error &error) {
-        if (error.code() != task::ErrorCode::outOfMemory)
-            throw;
-        const volume::GridSize n = fields.front().values.lattice().size();
-        const int longest = std::max({n.i, n.j, n.k});
-        for (int reduction = 2; longest / reduction >= minSamples; ++reduction) {
-            std::vector<classify::DensityField> reduced;
-            std::size_t held = 0; // the samples need memory too
-            double lost = 0.0;
-            for (const classify::DensityField &field : fields) {
-                progress.check();
-                reduced.push_back(
-                    classify::coarseField(field, (longest + reduction - 1) / reduction));
-                lost = std::max(lost, lostDetail(field, reduced.back()));
-            }
-            // The gradient is that of the means, so that no sample becomes darker than black.
-            ShadedFields coarse =
-                shadedFields({std::move(reduced), shaded.colors}, scene.shading, shaded.scale);
-            for (const auto *const samples : {&coarse.fields, &coarse.gradients})
-                for (const classify::DensityField &field : *samples)
-                    held += field.values.samples().bytes();
-            // A gradient over a longer step has less energy; a low pass leaves out no more than
-            // that.
-            for (std::size_t g = 0; g < coarse.gradients.size(); ++g)
-                lost = std::max(lost, lostDetail(shaded.gradients[g], coarse.gradients[g]));
-            if (held >= budget.bytes)
-                continue;
-            try {
-                scene::Scene uniform = scene; // its error is that of the lost detail
-                uniform.interpolation.isUniform = true;
-                FittingPlan fitting{plan::planRender(uniform, summarise(coarse, scene.shading.cue),
-                                                     composition, {budget.bytes - held}),
-                                    std::move(coarse), reduction};
-                plan::RenderPlan &plan = fitting.plan;
-                plan.predictedError =
-                    std::hypot(plan.predictedError,
-                               scene::detailGain(scene.image) * composition.errorFactor() * lost);
+    const volume::GridSize n = fields.fields.front().values.lattice().size();
+    const int longest = std::max({n.i, n.j, n.k});
+    const std::size_t bytes = budget.decides ? budget.bytes : plan::Budget{}.bytes;
+    for (int reduction = 1;; ++reduction) {
+        progress.check();
+        ShadedFields fitting = reduction == 1 ? fields : reduced(fields, reduction, scene.shading);
+        // The means need memory too, beside the samples.
+        const std::size_t held = reduction == 1 ? 0 : bytesOf(fitting);
+        const auto summaries = summarise(fitting, scene.shading.cue);
+        requireImageFits(scene, summaries.front(), composition.images, bytes);
+        try {
+            plan::RenderPlan plan =
+                plan::planRender(scene, summaries, composition, {bytes - std::min(bytes, held)});
+            plan::adaptWidths(plan, scene, summaries);
+            if (reduction > 1) {
+                const volume::GridSize size = fitting.fields.front().values.lattice().size();
                 plan.bytes += held;
-                const volume::GridSize size =
-                    fitting.reduced->fields.front().values.lattice().size();
                 plan.reason = task::because::reduced(size.i, size.j, size.k, n.i, n.j, n.k);
-                return fitting;
-            } catch (const task::Error &smaller) {
-                if (smaller.code() != task::ErrorCode::outOfMemory)
-                    throw;
             }
+            return {std::move(plan), std::move(fitting), summaries, reduction};
+        } catch (const task::Error &error) {
+            if (error.code() != task::ErrorCode::outOfMemory ||
+                longest / (reduction + 1) < minSamples)
+                throw;
         }
-        throw;
     }
 }
 
@@ -125,10 +123,10 @@ std::shared_ptr<const widths::AdaptiveWidths> adaptiveWidths(const render::Engin
         energiesOf(spectra.gradients), plan.adaptiveTolerance});
 }
 
-std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan::RenderPlan &plan,
-                                              const task::Progress &progress) {
-    render::EngineSpectra spectra{{}, {}, channels.scale};
-    const double count = double(channels.fields.size() + channels.gradients.size());
+render::EngineSpectra spectraOf(ShadedFields fields, const plan::RenderPlan &plan,
+                                const task::Progress &progress) {
+    render::EngineSpectra spectra{{}, {}, fields.scale};
+    const double count = double(fields.fields.size() + fields.gradients.size());
     double done = 0.0;
     const auto prepare = [&](classify::DensityField &field) {
         const task::Progress part = progress.part(done / count, (done + 1.0) / count);
@@ -136,54 +134,74 @@ std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan:
         return std::make_shared<const fourier::Spectrum>(
             fourier::Spectrum::prepare(std::exchange(field.values, {}), plan.spectrum, part));
     };
-    for (classify::DensityField &field : channels.fields)
+    for (classify::DensityField &field : fields.fields)
         spectra.fields.push_back(prepare(field));
-    for (classify::DensityField &gradient : channels.gradients)
+    for (classify::DensityField &gradient : fields.gradients)
         spectra.gradients.push_back(prepare(gradient));
-    auto widths = adaptiveWidths(spectra, plan, progress);
-    auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
-    engine->setWidths(std::move(widths));
+    return spectra;
+}
+
+std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan::RenderPlan &plan,
+                                              const task::Progress &progress) {
     std::vector<render::ChannelWeights> weights;
     for (std::size_t n = 0; n < channels.fields.size(); ++n) {
         const classify::Color &color = channels.colors[n];
         weights.push_back({color.red, color.green, color.blue});
     }
+    render::EngineSpectra spectra = spectraOf(std::move(channels), plan, progress);
+    auto widths = adaptiveWidths(spectra, plan, progress);
+    auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
+    engine->setWidths(std::move(widths));
     engine->setChannelWeights(std::move(weights));
     return engine;
 }
 
-PreparedEngine prepareEngine(const scene::Scene &scene, ShadedFields fields,
-                             const plan::Budget &budget, const task::Progress &progress) {
-    const auto summaries = summarise(fields, scene.shading.cue);
-    FittingPlan fitting = planWithin(scene, fields, summaries, budget, progress);
-    const plan::SpectrumOf of =
-        fields.fields.size() > 1 ? plan::SpectrumOf::color : plan::SpectrumOf::look;
-    if (fitting.reduced)
-        fields = std::move(*fitting.reduced);
-    auto engine = makeEngine(std::move(fields), fitting.plan, progress);
-    const std::size_t bytes = engine->bytes();
-    const bool canBeLit = engine->canBeLit();
-    return {std::move(engine),
-            std::move(fitting.plan),
-            bytes,
-            canBeLit,
-            false,
-            of,
-            fitting.reduction,
-            {}};
-}
-
-PreparedEngine prepareEngine(const scene::Scene &scene, classify::ShownFields fields,
-                             const plan::Budget &budget, const task::Progress &progress,
-                             const std::optional<shading::ShadingScale> &scale) {
+PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progress) {
+    classify::ShownFields &fields = request.fields;
+    const std::size_t channels = fields.channels.size();
     const volume::Lattice lattice = fields.channels.front().values.lattice();
-    const std::size_t light = bytesForLight(scene.shading, lattice.size(), fields.channels.size());
-    ShadedFields shaded =
-        shadedFields(std::move(fields), scene.shading,
-                     scale.value_or(shading::shadingScale(lattice)), progress.part(0.0, 0.1));
-    return prepareEngine(scene, std::move(shaded),
-                         {budget.bytes > light ? budget.bytes - light : 0},
-                         progress.part(0.1, 1.0));
+    const scene::Scene scene = scene::planningScene(request.scene, lattice);
+    const plan::Composition composition = compositionOf(channels, scene.shading);
+    plan::Budget budget = request.budget;
+    budget.bytes -= std::min(budget.bytes, bytesForLight(scene.shading, lattice.size(), channels));
+    const bool mayBeExact = request.mayBeExact && scene.interpolation.isPlanned() &&
+                            scene.plannedFor == scene::PlannedFor::picture;
+    classify::ShownFields ofExact = mayBeExact ? fields : classify::ShownFields{};
+    FittingPlan fitting =
+        planWithin(scene,
+                   shadedFields(std::move(fields), scene.shading,
+                                request.scale.value_or(shading::shadingScale(lattice)),
+                                progress.part(0.0, 0.1)),
+                   composition, budget, progress.part(0.1, 1.0));
+    PreparedEngine prepared{
+        .plan = std::move(fitting.plan),
+        .lattice = fitting.fields.fields.front().values.lattice(),
+        .isCoarse = fitting.reduction > 1,
+        .of = channels > 1 ? plan::SpectrumOf::color : plan::SpectrumOf::look,
+    };
+    if (mayBeExact && prepared.plan.predictedError > scene.tolerance && !prepared.isCoarse) {
+        const std::size_t bytes = reference::ExactEngine::bytes(
+            lattice, fitting.summaries.front().support, std::size_t(composition.images),
+            scene.camera, scene.image, scene.shading);
+        if (bytes <= budget.bytes || !budget.decides) {
+            requireWithin(bytes, budget);
+            prepared.plan.predictedError = exactError(scene, fitting.summaries, composition);
+            prepared.plan.bytes = prepared.bytes = bytes;
+            prepared.plan.reason =
+                task::because::inWords("no engine meets the tolerance: the exact reference does");
+            fitting.fields = {};
+            prepared.exact = std::make_shared<reference::ExactEngine>(
+                std::move(ofExact), scene.shading, progress.part(0.1, 1.0));
+            return prepared;
+        }
+    }
+    requireWithin(prepared.plan.bytes, budget);
+    ofExact = {};
+    auto engine = makeEngine(std::move(fitting.fields), prepared.plan, progress.part(0.1, 1.0));
+    prepared.bytes = engine->bytes();
+    prepared.canBeLit = engine->canBeLit();
+    prepared.engine = std::move(engine);
+    return prepared;
 }
 
 std::optional<error::StatedError> boundOf(const PreparedEngine &prepared,
@@ -201,11 +219,12 @@ PreparedEngine withoutLight(const PreparedEngine &prepared) {
     auto engine = std::make_shared<render::CpuEngine>(std::move(parts.spectra), parts.fieldOfView);
     engine->setWidths(std::move(parts.adaptive));
     engine->setChannelWeights(std::move(parts.channelWeights));
-    const std::size_t bytes = engine->bytes();
-    plan::RenderPlan plan = prepared.plan;
-    plan.bytes -= prepared.bytes - bytes;
-    return {std::move(engine), std::move(plan),    bytes,         false, prepared.isCoarse,
-            prepared.of,       prepared.reduction, prepared.study};
+    PreparedEngine unlit = prepared;
+    unlit.bytes = engine->bytes();
+    unlit.plan.bytes -= prepared.bytes - unlit.bytes;
+    unlit.canBeLit = false;
+    unlit.engine = std::move(engine);
+    return unlit;
 }
 
 } // namespace pellucid::prepare

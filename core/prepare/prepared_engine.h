@@ -14,35 +14,55 @@
 
 namespace pellucid::prepare {
 
-/// A plan that fits in memory, if necessary for reduced fields.
+/// What an engine is made for.
+struct EngineRequest {
+    scene::Scene scene; ///< planned for as `scene::planningScene` says
+    /// Those of the scene's look, in its crop. Each is released as soon as its samples are
+    /// transformed.
+    classify::ShownFields fields;
+    plan::Budget budget = {};
+    /// That of the volume, if the fields come from a coarser one.
+    std::optional<shading::ShadingScale> scale = {};
+    /// Whether the exact reference makes the pictures if no plan keeps the tolerance: not if memory
+    /// is short, the scene sets the interpolation, or the plan is for the whole volume.
+    bool mayBeExact = false;
+};
+
+/// A plan that fits in memory, and the fields that it is for: those given, or means of `reduction`
+/// samples along each axis.
 struct FittingPlan {
     plan::RenderPlan plan;
-    /// The fields to render instead of the originals: means of up to `reduction` samples an axis.
-    std::optional<ShadedFields> reduced;
+    ShadedFields fields;
+    std::vector<field::Summary> summaries; ///< of the fields
     int reduction = 1;
 };
 
 /// Plans within the budget. What does not fit is reduced in this order: storage, padding,
-/// resolution. The predicted error of a reduced field includes the lost detail, as its share of the
-/// field's energy: projections lose less, because they also average. *Shape*: the fields'
-/// summaries. *Throws* Error{outOfMemory} if 32 samples a side do not fit either, or if the image
-/// itself is too large; Cancelled.
-FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &fields,
-                       std::span<const plan::FieldSummary> summaries, const plan::Budget &budget,
+/// resolution. The plan's error is that of the images of the reduced fields; what these lack is
+/// measured in each picture. *Throws* Error{outOfMemory} if 32 samples a side do not fit either, or
+/// if the image itself is too large; Cancelled.
+FittingPlan planWithin(const scene::Scene &scene, ShadedFields fields,
+                       const plan::Composition &composition, const plan::Budget &budget,
                        const task::Progress &progress = {});
 
-/// An engine, ready to render.
+/// *Throws* Error{outOfMemory} if pictures need more bytes than the budget has.
+void requireWithin(std::size_t needed, const plan::Budget &budget);
+
+/// What makes the pictures of a look.
 struct PreparedEngine {
-    std::shared_ptr<render::ProjectionEngine> engine;
-    plan::RenderPlan plan;
-    std::size_t bytes = 0; ///< of the spectra
+    std::shared_ptr<render::ProjectionEngine> engine; ///< null if the exact reference makes them
+    std::shared_ptr<picture::Projector> exact;        ///< null if an engine makes them
+    plan::RenderPlan plan;   ///< for the exact reference: its error, bytes and reason
+    volume::Lattice lattice; ///< of the prepared fields
+    std::size_t bytes = 0;   ///< of the spectra
     bool canBeLit = false;
     /// Whether the prepared fields are coarser than the study, which the plan's error does not
     /// include.
     bool isCoarse = false;
     plan::SpectrumOf of = plan::SpectrumOf::look;
-    int reduction = 1; ///< of the fields, because of the memory
     StudyFields study; ///< what its pictures are measured against; empty: nothing
+
+    picture::Projector &projector() const { return engine ? *engine : *exact; }
 };
 
 /// The data for choosing the kernel widths of a plan's frames; null if one width reads everything.
@@ -51,20 +71,18 @@ std::shared_ptr<const widths::AdaptiveWidths> adaptiveWidths(const render::Engin
                                                              const plan::RenderPlan &plan,
                                                              const task::Progress &progress = {});
 
-/// Makes an engine for the channels of a look from spectra that were prepared by one plan and share
-/// a layout. Each field is released as soon as its samples are transformed.
+/// The spectra of fields by one plan; each field is released as soon as its samples are
+/// transformed.
+render::EngineSpectra spectraOf(ShadedFields fields, const plan::RenderPlan &plan,
+                                const task::Progress &progress = {});
+
+/// Makes an engine for the channels of a look, see `spectraOf`.
 std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan::RenderPlan &plan,
                                               const task::Progress &progress = {});
 
-/// Plans within the budget and prepares the spectra; the fields are released as by `makeEngine`.
-/// *Throws* Error{outOfMemory}, Cancelled.
-PreparedEngine prepareEngine(const scene::Scene &scene, ShadedFields fields,
-                             const plan::Budget &budget, const task::Progress &progress = {});
-/// First computes what the scene's light needs. `scale`: that of the volume, if the fields come
-/// from a coarser one. *Throws* as above.
-PreparedEngine prepareEngine(const scene::Scene &scene, classify::ShownFields fields,
-                             const plan::Budget &budget, const task::Progress &progress = {},
-                             const std::optional<shading::ShadingScale> &scale = std::nullopt);
+/// Computes what the scene's light needs, plans and prepares. *Throws* Error{outOfMemory},
+/// Cancelled.
+PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progress = {});
 
 /// What is known of the error of whole pictures before it is measured: the plan's bound. Not set
 /// for the sum of layers, and for fields that are coarser than the study.

@@ -34,16 +34,21 @@ std::size_t bytesForLight(const shading::Shading &shading, const volume::GridSiz
     return shading.isLit() ? fields * larger.count() * sizeof(float) : 0;
 }
 
-std::vector<plan::FieldSummary> summarise(const ShadedFields &fields,
-                                          const shading::DepthCue &cue) {
+std::size_t bytesForFields(const classify::Look &look, const shading::Shading &shading,
+                           const volume::GridSize &size) {
+    return classify::peakBytes(look, size.count()) +
+           bytesForLight(shading, size, classify::channelsOf(look));
+}
+
+std::vector<field::Summary> summarise(const ShadedFields &fields, const shading::DepthCue &cue) {
     std::vector<classify::DensityField> all = fields.fields;
     all.insert(all.end(), fields.gradients.begin(), fields.gradients.end());
-    std::vector<plan::FieldSummary> summaries =
-        plan::summarise(std::span<const classify::DensityField>(all));
+    std::vector<field::Summary> summaries =
+        field::summarise(std::span<const classify::DensityField>(all));
     if (cue.hasMoments())
         for (std::size_t n = 0; n < all.size(); ++n)
-            summaries[n].slabs = plan::slabProducts(all[n].values, summaries[n].support);
-    for (plan::FieldSummary &summary : summaries)
+            summaries[n].slabs = field::slabProducts(all[n].values, summaries[n].support);
+    for (field::Summary &summary : summaries)
         summary.depthRadiusMm = fields.scale.radiusMm;
     return summaries;
 }

@@ -29,8 +29,13 @@ ShadedFields shadedFields(classify::ShownFields fields, const shading::Shading &
 std::size_t bytesForLight(const shading::Shading &shading, const volume::GridSize &size,
                           std::size_t channels);
 
+/// An upper bound on the bytes held at once, besides the volume, while the fields of a look and
+/// what its shading needs are made.
+std::size_t bytesForFields(const classify::Look &look, const shading::Shading &shading,
+                           const volume::GridSize &size);
+
 /// Summaries of the fields, then of the gradients, with what a plan with this cue needs.
-std::vector<plan::FieldSummary> summarise(const ShadedFields &fields, const shading::DepthCue &cue);
+std::vector<field::Summary> summarise(const ShadedFields &fields, const shading::DepthCue &cue);
 
 /// The picture of a look of this many fields, see `classify::ShownFields`.
 plan::Composition compositionOf(std::size_t fields, const shading::Shading &shading);

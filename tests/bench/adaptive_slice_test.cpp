@@ -17,7 +17,7 @@ protected:
         scene.interpolation = {fourier::kernelFromName("ES3"), 1.25, fourier::Storage::float32};
         spectrum = std::make_unique<fourier::Spectrum>(fourier::Spectrum::prepare(
             subject.field.values,
-            plan::planRender(scene, plan::summarise(subject.field)).spectrum));
+            plan::planRender(scene, field::summarise(subject.field)).spectrum));
         slices = std::make_unique<bench::AdaptiveSlice>(*spectrum);
     }
 

@@ -19,7 +19,7 @@ TEST(Performance, TheDefaultFrameBeatsTheRaySum) {
     const volume::Lattice &lattice = subject.field.values.lattice();
     scene::Scene scene;
     scene.camera = bench::squareCamera(lattice, 128);
-    const auto plan = plan::planRender(scene, plan::summarise(subject.field));
+    const auto plan = plan::planRender(scene, field::summarise(subject.field));
     render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
                                  fourier::Spectrum::prepare(subject.field.values, plan.spectrum)),
                              plan.fieldOfView);

@@ -64,7 +64,7 @@ struct Work {
              [this](const task::Progress &progress) {
                  scene::Scene scene;
                  scene.tolerance = 1e-4;
-                 prepare::prepareEngine(scene, fields, {}, progress);
+                 prepare::prepareEngine({scene, fields}, progress);
              }},
             {"writing", [this](const task::Progress &progress) {
                  fs::remove(out);

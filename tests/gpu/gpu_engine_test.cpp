@@ -34,7 +34,7 @@ protected:
     static double difference(const scene::Scene &asked, const classify::ShownFields &fields,
                              std::size_t maxTextureBytes = std::size_t(1) << 30) {
         scene::Scene scene = asked;
-        const auto prepared = prepare::prepareEngine(scene, fields, {});
+        const auto prepared = prepare::prepareEngine({scene, fields});
         const render::EngineParts parts = prepared.engine->parts();
         gpu::GpuEngine engine(
             gpu::SpectrumTextures::upload(card, parts.spectra, {}, maxTextureBytes),
@@ -109,7 +109,7 @@ TEST_F(GpuEngine, NarrowKernelsReadASmoothField) {
     scene::Scene scene = sceneOf(fields);
     scene.tolerance = 1e-2;
     EXPECT_LE(difference(scene, fields), withinBinary16);
-    const auto parts = prepare::prepareEngine(scene, fields, {}).engine->parts();
+    const auto parts = prepare::prepareEngine({scene, fields}).engine->parts();
     ASSERT_TRUE(parts.adaptive);
     gpu::GpuEngine engine(gpu::SpectrumTextures::upload(card, parts.spectra, {}, 1U << 30U),
                           parts.channelWeights, parts.fieldOfView, parts.adaptive);
@@ -206,7 +206,7 @@ TEST_F(GpuEngine, LayersWithMovingShares) {
         fields.push_back(test::noiseField(lattice, n));
     scene::Scene scene{.camera = scene::defaultCamera(lattice)};
     scene.interpolation.kernel = fourier::kernelFromName("LS4"); // as in sceneOf
-    const auto plan = plan::planRender(scene, plan::summarise(fields), {3});
+    const auto plan = plan::planRender(scene, field::summarise(fields), {3});
     render::EngineSpectra spectra;
     for (const auto &field : fields)
         spectra.fields.push_back(std::make_shared<const fourier::Spectrum>(
@@ -242,7 +242,7 @@ TEST_F(GpuEngine, ASpectrumInSeveralTextures) {
     const auto fields = tiltedNoise();
     scene::Scene scene = sceneOf(fields);
     scene.interpolation.storage = Storage::float32;
-    const auto prepared = prepare::prepareEngine(scene, fields, {});
+    const auto prepared = prepare::prepareEngine({scene, fields});
     const auto whole = gpu::SpectrumTextures::upload(card, prepared.engine->parts().spectra);
     ASSERT_EQ(whole->layout().slabs, 1);
     const std::size_t bytes = whole->bytes();
@@ -273,7 +273,7 @@ TEST_F(GpuEngine, LightsGoOut) {
     const auto fields = tiltedNoise();
     scene::Scene scene = sceneOf(fields);
     scene.shading.lights.push_back({{1, 0, 0}});
-    const auto prepared = prepare::prepareEngine(scene, fields, {});
+    const auto prepared = prepare::prepareEngine({scene, fields});
     const auto lit = gpu::copyToCard(card, *prepared.engine);
     const auto unlit = lit->withoutLight();
     EXPECT_LT(unlit->textures().bytes(), lit->textures().bytes());
@@ -287,7 +287,7 @@ TEST_F(GpuEngine, LightsGoOut) {
 TEST_F(GpuEngine, PicturesKeepTheirPixels) {
     const auto fields = tiltedNoise();
     scene::Scene scene = sceneOf(fields);
-    const auto prepared = prepare::prepareEngine(scene, fields, {});
+    const auto prepared = prepare::prepareEngine({scene, fields});
     const auto engine = gpu::copyToCard(card, *prepared.engine);
     std::vector<std::shared_ptr<const gpu::CardPicture>> held;
     std::vector<picture::Samples> first;
@@ -308,7 +308,7 @@ TEST_F(GpuEngine, PicturesKeepTheirPixels) {
 TEST_F(GpuEngine, TooLargeSpectraAndSlicesAreRefused) {
     const auto fields = tiltedNoise();
     scene::Scene scene = sceneOf(fields);
-    const auto prepared = prepare::prepareEngine(scene, fields, {});
+    const auto prepared = prepare::prepareEngine({scene, fields});
     const auto expectTooLarge = [](const std::function<void()> &what) {
         try {
             what();
@@ -338,7 +338,7 @@ TEST_F(GpuEngine, TooLargeSpectraAndSlicesAreRefused) {
 
 TEST_F(GpuEngine, CopyingCanBeCancelled) {
     const auto fields = tiltedNoise();
-    const auto prepared = prepare::prepareEngine(sceneOf(fields), fields, {});
+    const auto prepared = prepare::prepareEngine({sceneOf(fields), fields});
     std::stop_source stop;
     stop.request_stop();
     EXPECT_THROW(gpu::copyToCard(card, *prepared.engine, task::Progress(stop.get_token())),

@@ -124,7 +124,7 @@ TEST_F(CardTone, DrawsPicturesOfTheCard) {
         classify::primaries};
     for (const auto &fields : {grey, colored, mixed, three}) {
         const scene::Scene scene{.camera = scene::defaultCamera(lattice)};
-        const auto prepared = prepare::prepareEngine(scene, fields, {});
+        const auto prepared = prepare::prepareEngine({scene, fields});
         const auto engine = gpu::copyToCard(card, *prepared.engine);
         const auto picture = engine->renderOnCard(scene.camera, scene.image);
         EXPECT_EQ(picture->layers(), int(fields.channels.size()));

@@ -218,7 +218,7 @@ private slots:
         scene::Scene scene;
         scene.camera = scene::defaultCamera(lattice);
         const auto prepared = prepare::prepareEngine(
-            scene, classify::ShownFields{{classify::densityField(volume, {-900, 2000})}, {}}, {});
+            {scene, classify::ShownFields{{classify::densityField(volume, {-900, 2000})}, {}}});
         auto lost = std::make_shared<std::atomic<bool>>(false);
         const auto card = std::make_shared<gpu::FramePasses>(
             std::make_shared<gpu::Device>(std::make_unique<FragileContext>(lost)));
@@ -310,11 +310,12 @@ private slots:
         connect(&copier, &ui::CardCopier::engineReady, this,
                 [&](const ui::ShownEngine &engine) { shown.push_back(engine); });
         const auto show = [&](double share) {
-            copier.show({std::make_shared<prepare::MixtureEngine>(
+            copier.show({.engine = std::make_shared<prepare::MixtureEngine>(
                              layers, std::vector<render::ChannelWeights>{{share, 0.5, 0.5},
                                                                          {0.1, share, 0.0},
                                                                          {0.0, 0.2, 0.7}}),
-                         layers->plan(), layers->bytes()},
+                         .plan = layers->plan(),
+                         .bytes = layers->bytes()},
                         ui::EngineStage::live);
         };
         show(1.0);

@@ -164,7 +164,7 @@ private slots:
         scene::Scene scene;
         scene.camera = scene::defaultCamera(lattice);
         const auto engine = prepare::prepareEngine(
-            scene, classify::ShownFields{{classify::densityField(volume, {-900, 2000})}, {}}, {});
+            {scene, classify::ShownFields{{classify::densityField(volume, {-900, 2000})}, {}}});
         ui::KeptStudies kept;
         ui::KeptStudy study{
             .volume = volume, .scene = scene, .preparedFor = ui::PreparedFor(), .engine = engine};

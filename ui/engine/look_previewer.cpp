@@ -43,7 +43,7 @@ QImage pictureOf(const volume::Volume &volume, const classify::FieldWindow &wind
     scene::Scene scene = pictureScene(volume.lattice());
     scene.shading = shading;
     auto fields = classify::shownFields(volume, window, look, &steps, progress);
-    const auto prepared = prepare::prepareEngine(scene, std::move(fields), {}, progress, scale);
+    const auto prepared = prepare::prepareEngine({scene, std::move(fields), {}, scale}, progress);
     const auto image = prepared.engine->render(scene.camera, scene.image, scene.shading);
     scene::Tone tone;
     tone.exposure =

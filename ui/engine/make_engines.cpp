@@ -7,7 +7,6 @@
 #include "core/classify/coarse_field.h"
 #include "core/classify/layers.h"
 #include "core/classify/shown_fields.h"
-#include "core/scene/planning_scene.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
 
@@ -26,7 +25,7 @@ bool isLarge(const volume::Volume &volume) {
 }
 
 // One engine serves every view of the pane.
-scene::Scene planningScene(const volume::Volume &volume, const prepare::PreparedFor &wanted) {
+scene::Scene sceneOf(const prepare::PreparedFor &wanted) {
     scene::Scene scene;
     scene.plannedFor = scene::PlannedFor::volume;
     scene.tolerance = wanted.tolerance;
@@ -35,7 +34,7 @@ scene::Scene planningScene(const volume::Volume &volume, const prepare::Prepared
     scene.shading.cue = wanted.cue;
     if (wanted.isLit)
         scene.shading.lights.emplace_back();
-    return scene::planningScene(scene, volume.lattice());
+    return scene;
 }
 
 classify::FieldWindow windowOf(const EngineSource &source) {
@@ -51,53 +50,27 @@ classify::ShownFields fieldsOf(const EngineSource &source, const volume::Volume 
         source.wanted.crop);
 }
 
-class EngineMaker {
-public:
-    EngineMaker(const EngineSource &source, const TakeEngine &take, const task::Progress &progress)
-        : m_source(source), m_take(take), m_progress(progress),
-          m_scene(planningScene(source.volume, source.wanted)),
-          m_scale(shading::shadingScale(source.volume.lattice())) {}
+void requireMemory(const EngineSource &source) {
+    const std::size_t needed = prepare::bytesForFields(
+        source.wanted.look, sceneOf(source.wanted).shading, source.volume.lattice().size());
+    if (needed > system::availableMemoryBytes())
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          task::because::fieldsNeedMemory(needed >> 20));
+}
 
-    void make(Detail first) {
-        requireMemory();
-        if (first == Detail::coarse && isLarge(m_source.volume))
-            makeCoarse(coarseSide);
-        take(fieldsOf(m_source, m_source.volume, m_progress.part(0.1, 0.3)), Detail::full,
-             m_progress.part(0.3, 1.0));
-    }
-
-    // The steps of classes take no time on a small volume.
-    void makeCoarse(int side) {
-        take(fieldsOf(m_source, classify::coarseVolume(m_source.volume, side), {}), Detail::coarse,
-             m_progress.part(0.0, 0.1));
-    }
-
-private:
-    void requireMemory() const {
-        const volume::GridSize size = m_source.volume.lattice().size();
-        const classify::Look &look = m_source.wanted.look;
-        const std::size_t needed =
-            classify::peakBytes(look, size.count()) +
-            prepare::bytesForLight(m_scene.shading, size, classify::channelsOf(look));
-        if (needed > system::availableMemoryBytes())
-            throw task::Error(task::ErrorCode::outOfMemory,
-                              task::because::fieldsNeedMemory(needed >> 20));
-    }
-
-    void take(classify::ShownFields fields, Detail detail, const task::Progress &progress) {
-        prepare::PreparedEngine engine = prepare::prepareEngine(
-            m_scene, std::move(fields), {system::availableMemoryBytes()}, progress, m_scale);
-        engine.isCoarse = detail == Detail::coarse;
-        engine.study = studyFields(m_source);
-        m_take(engine, detail);
-    }
-
-    const EngineSource &m_source;
-    const TakeEngine &m_take;
-    const task::Progress m_progress;
-    const scene::Scene m_scene;
-    const shading::ShadingScale m_scale;
-};
+// The engine of the look of a volume: that of the source, or a coarser one.
+prepare::PreparedEngine engineOf(const EngineSource &source, const volume::Volume &volume,
+                                 const task::Progress &progress) {
+    classify::ShownFields fields = fieldsOf(source, volume, progress.part(0.0, 0.2));
+    prepare::PreparedEngine engine =
+        prepare::prepareEngine({sceneOf(source.wanted),
+                                std::move(fields),
+                                {system::availableMemoryBytes()},
+                                shading::shadingScale(source.volume.lattice())},
+                               progress.part(0.2, 1.0));
+    engine.study = studyFields(source);
+    return engine;
+}
 
 } // namespace
 
@@ -109,12 +82,18 @@ prepare::StudyFields studyFields(const EngineSource &source) {
 
 void makeEngine(const EngineSource &source, Detail first, const TakeEngine &take,
                 const task::Progress &progress) {
-    EngineMaker(source, take, progress).make(first);
+    requireMemory(source);
+    if (first == Detail::coarse && isLarge(source.volume))
+        makeCoarseEngine(source, coarseSide, take, progress.part(0.0, 0.1));
+    take(engineOf(source, source.volume, progress.part(0.1, 1.0)), Detail::full);
 }
 
 void makeCoarseEngine(const EngineSource &source, int side, const TakeEngine &take,
                       const task::Progress &progress) {
-    EngineMaker(source, take, progress).makeCoarse(side);
+    prepare::PreparedEngine engine =
+        engineOf(source, classify::coarseVolume(source.volume, side), progress);
+    engine.isCoarse = true;
+    take(engine, Detail::coarse);
 }
 
 void makeLayers(const EngineSource &source, const TakeLayers &take,
@@ -125,7 +104,7 @@ void makeLayers(const EngineSource &source, const TakeLayers &take,
     const auto make = [&](const volume::Volume &of, Detail detail, const task::Progress &part) {
         classify::LayerFields fields(of, window, mixture, &runner);
         take(prepare::LayerSet::prepare(
-                 planningScene(of, source.wanted), fields.count(),
+                 sceneOf(source.wanted), fields.count(),
                  [&](std::size_t n, const task::Progress &p) {
                      return classify::cropped(fields.field(n, p), source.wanted.crop);
                  },

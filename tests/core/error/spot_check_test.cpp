@@ -67,8 +67,8 @@ class Checked {
 public:
     Checked(const classify::DensityField &field, const scene::Scene &scene)
         : m_fields{{field}, {}}, m_scene(scene),
-          m_engine(prepare::prepareEngine(scene::planningScene(scene, field.values.lattice()),
-                                          m_fields, {})
+          m_engine(prepare::prepareEngine(
+                       {scene::planningScene(scene, field.values.lattice()), m_fields})
                        .engine),
           truth(test::relativeL2(m_engine->render(scene.camera, scene.image).samples,
                                  reference::WideKernel(field.values, field.support)
@@ -153,8 +153,7 @@ TEST(SpotCheck, FindsWhatHasSpoiltAPicture) {
     const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
     const auto field = fieldOf(lattice, kinds.front().value);
     const scene::Scene scene = sceneOf(lattice, 1.1e-3);
-    const auto engine =
-        prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {}).engine;
+    const auto engine = prepare::prepareEngine({scene, classify::ShownFields{{field}, {}}}).engine;
     const picture::PeriodPicture whole = engine->renderPeriod(scene.camera, scene.image);
     const auto measured = [&](const std::function<void(picture::Samples &)> &spoil,
                               const error::CheckEffort &effort) {
@@ -209,7 +208,7 @@ TEST(SpotCheck, MeasuresWhatACoarsePictureLacks) {
     const auto field = fieldOf(lattice, kinds.back().value),
                less = fieldOf(coarse, kinds.back().value);
     const scene::Scene scene = sceneOf(lattice, 1.1e-3);
-    const auto engine = prepare::prepareEngine(scene, classify::ShownFields{{less}, {}}, {}).engine;
+    const auto engine = prepare::prepareEngine({scene, classify::ShownFields{{less}, {}}}).engine;
     const auto exact =
         reference::WideKernel(field.values, field.support).image(scene.camera, scene.image);
     const double truth = test::relativeL2(engine->render(scene.camera, scene.image).samples, exact);

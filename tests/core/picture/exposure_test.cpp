@@ -24,9 +24,8 @@ struct Study {
     Study(const volume::Volume &shown, const classify::FieldWindow &window) : volume(shown) {
         scene.camera = scene::defaultCamera(volume.lattice());
         scene.plannedFor = scene::PlannedFor::volume;
-        engine =
-            prepare::prepareEngine(scene, classify::shownFields(volume, window, {}, nullptr), {})
-                .engine;
+        engine = prepare::prepareEngine({scene, classify::shownFields(volume, window, {}, nullptr)})
+                     .engine;
     }
     scene::Exposure exposure(const scene::Tone &tone = {}) const {
         return measureExposure(*engine, volume.lattice(), scene.image, scene.shading, tone,
@@ -154,8 +153,8 @@ TEST(Exposure, FindsTheBoxOfTheBody) {
                                   std::move(samples), volume::ValueUnit::hounsfield);
     study.scene.camera = scene::defaultCamera(study.volume.lattice());
     study.engine =
-        prepare::prepareEngine(study.scene,
-                               classify::shownFields(study.volume, {-900, 2000}, {}, nullptr), {})
+        prepare::prepareEngine(
+            {study.scene, classify::shownFields(study.volume, {-900, 2000}, {}, nullptr)})
             .engine;
     const scene::Exposure exposure = study.exposure();
     const glm::dvec3 low{-40, -10, -30}, high{0, 40, 20};

@@ -26,7 +26,7 @@ protected:
         const auto field = classify::densityField(
             volume::Volume(m_lattice, std::move(samples), volume::ValueUnit::none), {0.0, 1.0});
         m_scene.camera = scene::defaultCamera(m_lattice);
-        m_plan.emplace(plan::planRender(m_scene, plan::summarise(field)));
+        m_plan.emplace(plan::planRender(m_scene, field::summarise(field)));
     }
     plan::FrameModel model(const plan::FrameFields &fields = {}) const {
         return plan::modelFrame(*m_plan, m_scene, fields, m_lattice);

@@ -30,7 +30,7 @@ TEST(RenderPlan, PadsTheSupportOnly) {
     samples[0] = samples[20] = 1.0F; // 21 x 1 x 1 samples
     const volume::Volume values(lattice, samples, volume::ValueUnit::none);
     const auto field = classify::densityField(values, {0, 1});
-    const auto plan = plan::planRender(sceneFor(lattice), plan::summarise(field));
+    const auto plan = plan::planRender(sceneFor(lattice), field::summarise(field));
     EXPECT_GE(plan.spectrum.padded.i, 27); // 1.25 times 21
     EXPECT_LE(plan.spectrum.padded.i, 42); // twice 21
     EXPECT_EQ(plan.spectrum.padded.j, 16); // the minimum
@@ -41,7 +41,7 @@ TEST(RenderPlan, TheSliceGridHoldsEveryDirection) {
     const auto lattice = volume::Lattice::centred({100, 100, 100}, {1, 1, 1});
     const auto field = test::noiseField(lattice);
     auto scene = sceneFor(lattice);
-    const auto plan = plan::planRender(scene, plan::summarise(field));
+    const auto plan = plan::planRender(scene, field::summarise(field));
     // The projection of a cube is up to sqrt(3) N wide. A slice needs half of it plus half the
     // image.
     const auto grid = plan::sliceGrid(scene.camera, plan.fieldOfView, lattice, scene.image);
@@ -55,7 +55,7 @@ TEST(RenderPlan, TheSliceGridHoldsEveryDirection) {
 
 TEST(RenderPlan, ReducesWhatExceedsTheBudgetAndRefusesTheImpossible) {
     const auto lattice = volume::Lattice::centred({64, 64, 64}, {1, 1, 1});
-    const auto summary = plan::summarise(test::noiseField(lattice));
+    const auto summary = field::summarise(test::noiseField(lattice));
     const auto scene = sceneFor(lattice);
     const auto plan = plan::planRender(scene, summary);
     EXPECT_LE(plan.predictedError, scene.tolerance);
@@ -72,7 +72,7 @@ TEST(RenderPlan, ReducesWhatExceedsTheBudgetAndRefusesTheImpossible) {
 
 TEST(RenderPlan, TighterTolerancesTakeMoreTapsAndThenFloatCells) {
     const auto lattice = volume::Lattice::centred({48, 48, 48}, {1, 1, 1});
-    const auto summary = plan::summarise(test::noiseField(lattice));
+    const auto summary = field::summarise(test::noiseField(lattice));
     auto scene = sceneFor(lattice);
     scene.image.rollOff = 1.0; // negligible tails
     int width = 0;
@@ -92,7 +92,7 @@ TEST(RenderPlan, FieldsThatAddUpCostTheirErrorTimesTheRootOfTheirNumber) {
     const volume::Lattice lattice = volume::Lattice::centred({24, 24, 24}, {1, 1, 1});
     const std::vector<classify::DensityField> fields{test::noiseField(lattice, 1),
                                                      test::noiseField(lattice, 2)};
-    const auto summaries = plan::summarise(std::span(fields));
+    const auto summaries = field::summarise(std::span(fields));
     auto scene = sceneFor(lattice);
     scene.tolerance = 0.1;
     scene.image.rollOff = 1.0; // negligible tails
@@ -105,7 +105,7 @@ TEST(RenderPlan, FieldsThatAddUpCostTheirErrorTimesTheRootOfTheirNumber) {
 
 TEST(RenderPlan, TakesHalfOfTheSquaredToleranceUnlessOneKernelReadsEverything) {
     const volume::Lattice lattice = volume::Lattice::centred({48, 48, 48}, {1, 1, 1});
-    const auto summary = plan::summarise(test::noiseField(lattice));
+    const auto summary = field::summarise(test::noiseField(lattice));
     for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
         auto scene = sceneFor(lattice);
         scene.tolerance = tolerance;
@@ -123,7 +123,7 @@ TEST(RenderPlan, LeavesErrorForNarrowKernels) {
         scene.camera.width = scene.camera.height = int(64 / pixelMm);
         scene.tolerance = 1e-2;
         scene.interpolation = {fourier::kernelFromName("LS5"), 2.0, fourier::Storage::float32};
-        const auto summary = plan::summarise(field);
+        const auto summary = field::summarise(field);
         auto plan = plan::planRender(scene, summary);
         plan::adaptWidths(plan, scene, {&summary, 1});
         EXPECT_LE(plan.predictedError, scene.tolerance);
@@ -174,7 +174,7 @@ struct Errors {
 
 Errors errorsOf(const classify::DensityField &field, scene::Scene scene,
                 const std::vector<glm::dquat> &views) {
-    const auto summary = plan::summarise(field);
+    const auto summary = field::summarise(field);
     const auto plan = plan::planRender(scene, summary);
     render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
                                  fourier::Spectrum::prepare(field.values, plan.spectrum)),

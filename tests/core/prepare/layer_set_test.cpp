@@ -110,7 +110,7 @@ TEST_P(Layers, SixteenAlternatingPointsAreWithinTheTolerance) {
                       layers->render(scene.camera, scene.image, {}, channelWeights).samples, exact),
                   scene.tolerance)
             << how;
-    const auto settled = prepare::prepareEngine(scene, fields, {});
+    const auto settled = prepare::prepareEngine({scene, fields});
     EXPECT_LE(test::relativeL2(settled.engine->render(scene.camera, scene.image).samples, exact),
               scene.tolerance);
 }

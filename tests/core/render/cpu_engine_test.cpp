@@ -19,7 +19,7 @@ using scene::Reconstruction;
 using scene::StandardView;
 
 render::CpuEngine engineFor(const classify::DensityField &field, const scene::Scene &scene = {}) {
-    const auto plan = plan::planRender(scene, plan::summarise(field));
+    const auto plan = plan::planRender(scene, field::summarise(field));
     return render::CpuEngine(std::make_shared<const fourier::Spectrum>(
                                  fourier::Spectrum::prepare(field.values, plan.spectrum)),
                              plan.fieldOfView);
@@ -221,7 +221,7 @@ TEST(CpuEngine, AmplifiedDetailKeepsTheTolerance) {
                 scene.camera = cameraFor(field->values.lattice(), StandardView::front, {31, 17, 8});
                 scene.camera.width = scene.camera.height = 26;
                 scene.camera.panMm = {3.0, -2.0};
-                const auto plan = plan::planRender(scene, plan::summarise(*field));
+                const auto plan = plan::planRender(scene, field::summarise(*field));
                 render::CpuEngine engine(
                     std::make_shared<const fourier::Spectrum>(
                         fourier::Spectrum::prepare(field->values, plan.spectrum)),

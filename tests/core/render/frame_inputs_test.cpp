@@ -19,8 +19,7 @@ protected:
         scene::Scene scene;
         scene.camera = camera;
         scene.shading = shading;
-        return prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {})
-            .engine->parts();
+        return prepare::prepareEngine({scene, classify::ShownFields{{field}, {}}}).engine->parts();
     }
     render::FrameInputs inputsOf(const render::EngineParts &parts,
                                  const shading::Shading &shading) {

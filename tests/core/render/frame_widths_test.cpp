@@ -112,7 +112,7 @@ class Narrowed {
 public:
     Narrowed(const scene::Scene &scene, const classify::DensityField &field)
         : m_scene(scene),
-          m_whole(prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {}).engine),
+          m_whole(prepare::prepareEngine({scene, classify::ShownFields{{field}, {}}}).engine),
           m_parts(m_whole->parts()) {
         const auto energiesOf = [](const render::EngineSpectra::Spectra &spectra) {
             widths::AdaptiveWidths::Energies energies;
@@ -241,7 +241,7 @@ TEST(WidthShares, ASmoothFieldReadsLessThanHalfOfTheTaps) {
     scene.interpolation = {};
     scene.tolerance = 1e-2;
     const auto prepared = prepare::prepareEngine(
-        scene, classify::ShownFields{{classify::densityField(blob, {0.0, 1.0})}, {}}, {});
+        {scene, classify::ShownFields{{classify::densityField(blob, {0.0, 1.0})}, {}}});
     picture::FrameTimes times;
     prepared.engine->render(scene.camera, scene.image, {}, &times);
     const auto &shares = times.widthShares;

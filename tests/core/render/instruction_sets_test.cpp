@@ -6,8 +6,8 @@
 
 #include <hwy/targets.h>
 
+#include "core/field/slab_products.h"
 #include "core/plan/error_prediction.h"
-#include "core/plan/slab_products.h"
 #include "core/reference/shaded_field.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/cpu_engine.h"
@@ -39,7 +39,7 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     // The tolerance adds up the kernel's error at padding 2, from the energy of its aliases with
     // all of them inside the image, rounding, and the roll-off's tails that fold back for any
     // field.
-    const auto energy = plan::energyMarginals(field.values, field.support);
+    const auto energy = field::energyMarginals(field.values, field.support);
     std::array<plan::AxisError, 3> axes;
     for (int d = 0; d < 3; ++d)
         axes[d] = plan::axisError(kernel, layout.padded[d], int(energy.axis[d].size()));
@@ -52,7 +52,7 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     for (int d = 0; d < 3; ++d)
         plan::addMomentError(axes[d], kernel,
                              {kernel, double(layout.padded[d]) / field.support.size()[d]},
-                             layout.padded[d], plan::evenSlabProducts(energy.axis[d]));
+                             layout.padded[d], field::evenSlabProducts(energy.axis[d]));
     const auto shaded = reference::shadedField(field, {.cue = cue}, camera.axes(), 0,
                                                shading::shadingScale(lattice));
     const auto exactCued = reference::WideKernel(shaded.values, shaded.support).image(camera, {});

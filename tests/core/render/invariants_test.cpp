@@ -32,7 +32,7 @@ struct Subject {
         scene::Scene scene;
         scene.camera = scene::defaultCamera(f.values.lattice());
         scene.tolerance = tolerance;
-        return plan::planRender(scene, plan::summarise(f));
+        return plan::planRender(scene, field::summarise(f));
     }
 };
 
@@ -139,7 +139,7 @@ TEST(Invariants, ViewsAlongTheGridDoNotDependOnRounding) {
         scene::Scene scene{.camera = scene::defaultCamera(lattice)};
         scene.camera.pixelMm = 0.75 / 2.0;    // thirds of a cell from column to column
         scene.interpolation.isUniform = true; // widths may change wherever the error allows it
-        const auto prepared = prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {});
+        const auto prepared = prepare::prepareEngine({scene, classify::ShownFields{{field}, {}}});
         std::mt19937 random(6);
         std::normal_distribution<double> tiny(0.0, 1e-14);
         for (const auto view :

@@ -37,7 +37,7 @@ TEST(MixedColors, AreWithinTheToleranceOfTheExactPicture) {
             scene.camera.width = width;
             scene.camera.height = height;
             scene.shading = shading;
-            const auto prepared = prepare::prepareEngine(scene, fields, {});
+            const auto prepared = prepare::prepareEngine({scene, fields});
             EXPECT_EQ(prepared.engine->parts().spectra.fields.size(), shading.isLit() ? 3U : 2U);
             const auto picture = prepared.engine->render(scene.camera, scene.image, shading);
             ASSERT_EQ(picture.channels, 3);
@@ -70,7 +70,7 @@ TEST(MixedColors, KeepTheToleranceWhereErrorsAddUp) {
         scene::Scene scene;
         scene.camera = scene::defaultCamera(lattice);
         scene.tolerance = tolerance;
-        const auto prepared = prepare::prepareEngine(scene, fields, {});
+        const auto prepared = prepare::prepareEngine({scene, fields});
         for (const auto view : {scene::StandardView::front, scene::StandardView::left}) {
             scene.camera.orientation = scene::viewOrientation(view);
             const auto picture = prepared.engine->render(scene.camera, scene.image);

@@ -66,7 +66,7 @@ struct Subject {
                  .shading = shading,
                  .tolerance = tolerance,
                  .interpolation = interpolation}),
-          prepared(prepare::prepareEngine(scene, fields, {})) {}
+          prepared(prepare::prepareEngine({scene, fields})) {}
     Subject(classify::DensityField field, const Shading &shading, double tolerance = 1.1e-3,
             const scene::Interpolation &interpolation = {})
         : Subject(classify::ShownFields{{std::move(field)}, {}}, shading, tolerance,
@@ -386,7 +386,7 @@ TEST(Shading, AReducedVolumeIsShadedAlike) {
     const scene::Scene &scene = subject.scene;
     const std::size_t light = prepare::bytesForLight(scene.shading, {72, 70, 40}, 1),
                       budget = subject.prepared.plan.bytes / 3 + light;
-    const auto reduced = prepare::prepareEngine(scene, subject.fields, {budget});
+    const auto reduced = prepare::prepareEngine({scene, subject.fields, {budget}});
     ASSERT_LT(reduced.bytes, subject.prepared.bytes / 2);
     const auto fine = subject.image(someViews().front()).samples;
     const auto coarse = reduced.engine->render(scene.camera, scene.image, scene.shading).samples;

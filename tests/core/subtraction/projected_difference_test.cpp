@@ -60,7 +60,7 @@ TEST(ProjectedDifference, IsTheDifferenceOfTheExactProjections) {
         scene.tolerance = tolerance;
         const auto of = [&](const classify::Look &look) {
             auto fields = classify::shownFields(difference, gained, look, &steps);
-            const auto prepared = prepare::prepareEngine(scene, std::move(fields), {});
+            const auto prepared = prepare::prepareEngine({scene, std::move(fields)});
             return prepared.engine->render(scene.camera, scene.image).samples;
         };
         const auto more = of(gain), less = of(loss);

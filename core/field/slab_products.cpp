@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/plan/slab_products.h"
+#include "core/field/slab_products.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
-namespace pellucid::plan {
+namespace pellucid::field {
 
 namespace {
 
@@ -99,4 +99,4 @@ std::array<SlabProducts, 3> slabProducts(const volume::Field &field, const volum
     return result;
 }
 
-} // namespace pellucid::plan
+} // namespace pellucid::field

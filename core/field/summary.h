@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "core/classify/density_field.h"
-#include "core/plan/energy_marginals.h"
-#include "core/plan/slab_products.h"
+#include "core/field/energy_marginals.h"
+#include "core/field/slab_products.h"
 
-namespace pellucid::plan {
+namespace pellucid::field {
 
 /// What the planner needs to know about a field.
-struct FieldSummary {
+struct Summary {
     volume::Lattice lattice;
     volume::VoxelBox support;
     EnergyMarginals energy;
@@ -24,8 +24,8 @@ struct FieldSummary {
 };
 
 /// The summary of a field in the box of its support.
-FieldSummary summarise(const classify::DensityField &field);
+Summary summarise(const classify::DensityField &field);
 /// Summaries of fields on one lattice that share a plan, each in the box that encloses all of them.
-std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fields);
+std::vector<Summary> summarise(std::span<const classify::DensityField> fields);
 
-} // namespace pellucid::plan
+} // namespace pellucid::field

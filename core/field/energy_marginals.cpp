@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/plan/energy_marginals.h"
+#include "core/field/energy_marginals.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/plan/field_roughness.h"
-#include "core/plan/least_projection_energy.h"
-#include "core/plan/line_integral_bound.h"
+#include "core/field/least_projection_energy.h"
+#include "core/field/line_integral_bound.h"
 #include "core/volume/lane_sum.h"
 
-namespace pellucid::plan {
+namespace pellucid::field {
 
 namespace {
 
@@ -86,6 +86,11 @@ public:
                                  std::size_t(maxima.rows));
             m_result.axis[std::size_t(d)].resize(std::size_t(m_size[d]));
         }
+        for (std::size_t d = 0; d < 3; ++d) {
+            m_ranges[d] = blockRanges(m_size[int(d)]);
+            for (std::size_t n = 0; n < m_ranges[d].size(); ++n)
+                m_blockAt[d].resize(std::size_t(m_ranges[d][n].last) + 1, n);
+        }
         m_spread.shortestStepMm = m_lattice.shortestStepMm();
         m_spread.longestStepMm = m_lattice.longestStepMm();
     }
@@ -96,11 +101,8 @@ public:
         joinLayers();
         m_spread.shadowMm2 = shadowOf(m_lattice, m_box, m_spread.radiusMm);
         const MassInBalls balls = profileBlocks();
-        m_result.blocks = fieldBlocks(m_field, m_box);
         m_result.massMm3 = m_mass * m_lattice.cellVolumeMm3();
         m_result.energyMm3 = m_energy * m_lattice.cellVolumeMm3();
-        if (m_energy > 0.0)
-            m_roughness = squaredSecondDifferences(m_field, m_box) / 16.0 / m_energy;
         if (isPositive())
             boundAnyView(balls);
         m_result.spread = std::make_shared<const EnergySpread>(std::move(m_spread));
@@ -113,8 +115,50 @@ private:
         std::vector<double> alongI, alongJ; // energies
         std::vector<double> blocks;         // energies, [block along j][block along i]
         std::vector<double> blockMass;
+        // Of the blocks of `blockRanges` in each plane, [plane][block along j][block along i].
+        std::vector<double> partEnergy, partMass;
+        double differences = 0.0; // squares of the second differences along all axes
         double least = 0.0;
         double radiusMm = 0.0;
+    };
+
+    // A row of samples and its four neighbours: above and below in the same plane, before and after
+    // in the adjacent planes.
+    struct RowAndNeighbours {
+        const float *here, *above, *below, *before, *after;
+    };
+
+    // Reads rows in order of j. What is outside the box is zero.
+    class RowReader {
+    public:
+        RowReader(const volume::Field &field, const volume::VoxelBox &box)
+            : m_field(field), m_box(box), m_none(std::size_t(box.size().i)) {
+            m_buffers.fill(m_none);
+        }
+        void start(int j, int k) {
+            m_here = at(j - 1, k, (j + 2) % 3);
+            m_below = at(j, k, j % 3);
+        }
+        RowAndNeighbours next(int j, int k) {
+            m_above = std::exchange(m_here, m_below);
+            m_below = at(j + 1, k, (j + 1) % 3);
+            return {m_here, m_above, m_below, at(j, k - 1, 3), at(j, k + 1, 4)};
+        }
+
+    private:
+        const float *at(int j, int k, int buffer) {
+            const volume::GridSize size = m_box.size();
+            return j >= 0 && j < size.j && k >= 0 && k < size.k
+                       ? m_field.row({m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k}, size.i,
+                                     m_buffers[std::size_t(buffer)].data())
+                       : m_none.data();
+        }
+
+        const volume::Field &m_field;
+        const volume::VoxelBox m_box;
+        std::vector<float> m_none;
+        std::array<std::vector<float>, 5> m_buffers; // three rows of the plane; before and after
+        const float *m_above = nullptr, *m_here = nullptr, *m_below = nullptr;
     };
 
     // Sums and maxima over the rows of a block, by sample along i; the loops become vector code. A
@@ -148,7 +192,11 @@ private:
         layer.alongJ.resize(m_size.j);
         layer.blocks.resize(std::size_t(m_across) * m_down);
         layer.blockMass.resize(layer.blocks.size());
-        std::vector<float> buffer(std::size_t(m_size.i));
+        const int firstK = n * m_side, endK = std::min(m_size.k, firstK + m_side);
+        layer.partEnergy.resize(std::size_t(endK - firstK) * m_ranges[1].size() *
+                                m_ranges[0].size());
+        layer.partMass.resize(layer.partEnergy.size());
+        RowReader reader(m_field, m_box);
         RowSums sums(m_size.i);
         // Maxima by sample along i: of a row of blocks in one plane; of one row in all planes.
         std::vector<float> inPlane(std::size_t(m_size.i)), inRows(std::size_t(m_side) * m_size.i);
@@ -156,19 +204,19 @@ private:
             sums.clear();
             std::fill(inRows.begin(), inRows.end(), 0.0F);
             const int firstJ = down * m_side, endJ = std::min(m_size.j, firstJ + m_side);
-            for (int k = n * m_side; k < std::min(m_size.k, (n + 1) * m_side); ++k) {
+            for (int k = firstK; k < endK; ++k) {
                 std::fill(inPlane.begin(), inPlane.end(), 0.0F);
+                reader.start(firstJ, k);
                 for (int j = firstJ; j < endJ; ++j) {
-                    const float *const row = m_field.row(
-                        {m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k}, m_size.i, buffer.data());
-                    sums.add(row);
-                    raise(inPlane.data(), row);
-                    raise(inRows.data() + std::size_t(j - firstJ) * m_size.i, row);
-                    const double energy =
-                        double(volume::laneSum(m_size.i, [&](int i) { return row[i] * row[i]; }));
+                    const RowAndNeighbours rows = reader.next(j, k);
+                    sums.add(rows.here);
+                    raise(inPlane.data(), rows.here);
+                    raise(inRows.data() + std::size_t(j - firstJ) * m_size.i, rows.here);
+                    const double energy = addParts(rows.here, j, k - firstK, layer);
                     layer.alongJ[j] += energy;
                     m_result.axis[2][k] += energy;
-                    addLeastAndRadius(row, j, k, layer);
+                    layer.differences += squaredDifferences(rows, j, k, energy);
+                    addLeastAndRadius(rows.here, j, k, layer);
                 }
                 for (int block = 0; block < m_across; ++block)
                     m_maxima[2].at(k, down, block) = maxOf(inPlane.data(), block);
@@ -179,6 +227,49 @@ private:
                         maxOf(inRows.data() + std::size_t(j - firstJ) * m_size.i, block);
             addSums(sums, down, n);
         }
+    }
+
+    // Adds the blocks of a row to its plane; returns the row's energy.
+    double addParts(const float *row, int j, int plane, Layer &layer) const {
+        const std::size_t first =
+            (std::size_t(plane) * m_ranges[1].size() + m_blockAt[1][std::size_t(j)]) *
+            m_ranges[0].size();
+        double energy = 0.0;
+        for (std::size_t n = 0; n < m_ranges[0].size(); ++n) {
+            const float *const part = row + m_ranges[0][n].first;
+            const int count = m_ranges[0][n].last - m_ranges[0][n].first + 1;
+            const auto square =
+                double(volume::laneSum(count, [&](int i) { return part[i] * part[i]; }));
+            energy += square;
+            layer.partEnergy[first + n] += square;
+            layer.partMass[first + n] +=
+                double(volume::laneSum(count, [&](int i) { return part[i]; }));
+        }
+        return energy;
+    }
+
+    // The squares of the second differences at the samples of a row, at the two samples beyond its
+    // ends, and in the rows beyond the box next to it. `energy`: of the row.
+    double squaredDifferences(const RowAndNeighbours &rows, int j, int k, double energy) const {
+        const float *const here = rows.here;
+        const int count = m_size.i;
+        double sum =
+            energy * (int(j == 0) + int(j == m_size.j - 1) + int(k == 0) + int(k == m_size.k - 1));
+        sum += double(volume::laneSum(count, [&](int i) {
+            const float twice = 2.0F * here[i], down = rows.above[i] + rows.below[i] - twice,
+                        deep = rows.before[i] + rows.after[i] - twice;
+            return down * down + deep * deep;
+        }));
+        sum += double(volume::laneSum(count - 2, [&](int i) {
+            const float across = here[i] + here[i + 2] - 2.0F * here[i + 1];
+            return across * across;
+        }));
+        for (const int end : {0, count - 1}) {
+            const double f = double(here[end]);
+            const double next = count > 1 ? double(here[end == 0 ? 1 : end - 1]) : 0.0;
+            sum += (next - 2.0 * f) * (next - 2.0 * f) + f * f;
+        }
+        return sum;
     }
 
     void raise(float *maxima, const float *row) const {
@@ -225,7 +316,9 @@ private:
     }
 
     void joinLayers() {
+        double differences = 0.0;
         for (const Layer &layer : m_layers) {
+            differences += layer.differences;
             m_smallest = std::min(m_smallest, layer.least);
             std::transform(layer.alongI.begin(), layer.alongI.end(), m_result.axis[0].begin(),
                            m_result.axis[0].begin(), std::plus<>());
@@ -237,10 +330,33 @@ private:
                 m_mass += m;
             m_spread.radiusMm = std::max(m_spread.radiusMm, layer.radiusMm);
         }
-        if (m_energy > 0.0)
-            for (auto &axis : m_result.axis)
-                for (double &e : axis)
-                    e /= m_energy;
+        if (!(m_energy > 0.0))
+            return;
+        m_roughness = differences / 16.0 / m_energy;
+        for (auto &axis : m_result.axis)
+            for (double &e : axis)
+                e /= m_energy;
+        joinParts();
+    }
+
+    void joinParts() {
+        const std::size_t across = m_ranges[0].size(), plane = across * m_ranges[1].size();
+        std::vector<double> energy(plane * m_ranges[2].size()), mass(energy.size());
+        for (std::size_t k = 0; k < std::size_t(m_size.k); ++k) {
+            const Layer &layer = m_layers[k / std::size_t(m_side)];
+            const std::size_t from = k % std::size_t(m_side) * plane, to = m_blockAt[2][k] * plane;
+            for (std::size_t n = 0; n < plane; ++n) {
+                energy[to + n] += layer.partEnergy[from + n];
+                mass[to + n] += layer.partMass[from + n];
+            }
+        }
+        for (std::size_t n = 0; n < energy.size(); ++n)
+            if (energy[n] > 0.0)
+                m_result.blocks.push_back(
+                    {{std::uint8_t(n % across), std::uint8_t(n % plane / across),
+                      std::uint8_t(n / plane)},
+                     float(energy[n] / m_energy),
+                     m_mass != 0.0 ? float(mass[n] / m_mass) : 0.0F});
     }
 
     // The energy of the blocks by distance and, for a field without negative samples, their mass.
@@ -290,6 +406,8 @@ private:
     int m_side;           ///< of a block, samples
     int m_across, m_down; ///< blocks in a layer, along i and j
     std::vector<Layer> m_layers;
+    std::array<std::vector<BlockRange>, 3> m_ranges;
+    std::array<std::vector<std::size_t>, 3> m_blockAt; ///< of each sample along an axis
     std::array<LayerMaxima, 3> m_maxima;
     double m_energy = 0.0, m_mass = 0.0, m_smallest = 0.0; ///< of the field's samples
     double m_roughness = 0.0; ///< the share of the energy near the highest frequencies, at most
@@ -332,4 +450,4 @@ EnergyMarginals energyMarginals(const volume::Field &field, const volume::VoxelB
     return FieldStatistics(field, box).marginals();
 }
 
-} // namespace pellucid::plan
+} // namespace pellucid::field

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/plan/least_projection_energy.h"
+#include "core/field/least_projection_energy.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-namespace pellucid::plan {
+namespace pellucid::field {
 
 namespace {
 
@@ -36,7 +36,7 @@ struct PointMasses {
     double blockMm = 0.0;  ///< the longest side of a block
 };
 
-PointMasses pointMasses(std::span<const FieldBlock> blocks, const volume::Lattice &lattice,
+PointMasses pointMasses(std::span<const Block> blocks, const volume::Lattice &lattice,
                         const volume::VoxelBox &box) {
     const volume::GridSize size = box.size();
     PointMasses points;
@@ -51,7 +51,7 @@ PointMasses pointMasses(std::span<const FieldBlock> blocks, const volume::Lattic
             .patient(volume::VoxelPoint{0.5 * (glm::dvec3(box.lo.i, box.lo.j, box.lo.k) +
                                                glm::dvec3(box.hi.i, box.hi.j, box.hi.k) - 1.0)})
             .mm;
-    for (const FieldBlock &block : blocks) {
+    for (const Block &block : blocks) {
         glm::dvec3 at(box.lo.i, box.lo.j, box.lo.k);
         for (int d = 0; d < 3; ++d) {
             const BlockRange &range = ranges[std::size_t(d)][block.at[std::size_t(d)]];
@@ -116,7 +116,7 @@ double MassInBalls::minArea(double halfMm) const {
     return least;
 }
 
-double leastProjectionEnergy(std::span<const FieldBlock> blocks, const volume::Lattice &lattice,
+double leastProjectionEnergy(std::span<const Block> blocks, const volume::Lattice &lattice,
                              const volume::VoxelBox &box) {
     const PointMasses points = pointMasses(blocks, lattice, box);
     const double pixelMm = std::max(points.blockMm, 2.0 * points.radiusMm / (maxPixels - 3));
@@ -128,4 +128,4 @@ double leastProjectionEnergy(std::span<const FieldBlock> blocks, const volume::L
     return sampledShare * *std::min_element(energies.begin(), energies.end());
 }
 
-} // namespace pellucid::plan
+} // namespace pellucid::field

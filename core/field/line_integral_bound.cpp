@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/plan/line_integral_bound.h"
+#include "core/field/line_integral_bound.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-namespace pellucid::plan {
+namespace pellucid::field {
 
 namespace {
 
@@ -192,4 +192,4 @@ double largestLineIntegral(const std::array<LayerMaxima, 3> &layers, int side,
     return *std::max_element(largest.begin(), largest.end());
 }
 
-} // namespace pellucid::plan
+} // namespace pellucid::field

@@ -6,9 +6,10 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/plan/field_blocks.h"
+#include "core/field/blocks.h"
+#include "core/volume/lattice.h"
 
-namespace pellucid::plan {
+namespace pellucid::field {
 
 // Two lower bounds on the energy of any projection of a field without negative samples, relative to
 // the square of its mass; the larger of them counts. *Units*: 1/mm^2.
@@ -37,7 +38,7 @@ private:
 /// A little less than the smallest energy of coarse projections in directions all around. They are
 /// computed from the masses of blocks; spreading each mass over its block lowers the energy.
 /// *Shape*: the blocks of a field in a box of the lattice.
-double leastProjectionEnergy(std::span<const FieldBlock> blocks, const volume::Lattice &lattice,
+double leastProjectionEnergy(std::span<const Block> blocks, const volume::Lattice &lattice,
                              const volume::VoxelBox &box);
 
-} // namespace pellucid::plan
+} // namespace pellucid::field

@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/plan/field_blocks.h"
+#include "core/field/blocks.h"
 #include "core/volume/field.h"
 
-namespace pellucid::plan {
+namespace pellucid::field {
 
 /// How a field's energy f^2 is distributed around the centre, and how concentrated it is.
 struct EnergySpread {
@@ -50,7 +50,7 @@ struct EnergyMarginals {
     /// Shares of the energy along each axis of the box; each axis sums to 1. *Shape*: one entry per
     /// sample of the box.
     std::array<std::vector<double>, 3> axis;
-    std::vector<FieldBlock> blocks; ///< all blocks that are not empty
+    std::vector<Block> blocks; ///< all blocks that are not empty
     /// The integrals of f and of f^2, mm^3.
     double massMm3 = 0.0, energyMm3 = 0.0;
     std::shared_ptr<const EnergySpread> spread;
@@ -59,4 +59,4 @@ struct EnergyMarginals {
 /// The statistics of a field that is zero outside this box.
 EnergyMarginals energyMarginals(const volume::Field &field, const volume::VoxelBox &box);
 
-} // namespace pellucid::plan
+} // namespace pellucid::field

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/plan/field_summary.h"
+#include "core/field/summary.h"
 
-namespace pellucid::plan {
+namespace pellucid::field {
 
-FieldSummary summarise(const classify::DensityField &field) {
+Summary summarise(const classify::DensityField &field) {
     return summarise({&field, 1}).front();
 }
 
-std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fields) {
+std::vector<Summary> summarise(std::span<const classify::DensityField> fields) {
     volume::VoxelBox box = fields.front().support;
     for (const classify::DensityField &field : fields)
         box = volume::united(box, field.support);
-    std::vector<FieldSummary> summaries;
+    std::vector<Summary> summaries;
     for (const classify::DensityField &field : fields)
         summaries.push_back(
             {field.values.lattice(), box, energyMarginals(field.values, box), {}, {}});
     return summaries;
 }
 
-} // namespace pellucid::plan
+} // namespace pellucid::field

@@ -7,7 +7,7 @@
 
 #include "core/volume/field.h"
 
-namespace pellucid::plan {
+namespace pellucid::field {
 
 /// The correlation matrix C of a field's slabs across an axis. Entry (a, b) is a sum over all lines
 /// along the axis: the line's integral in slab a times its integral in slab b. If each slab has a
@@ -30,4 +30,4 @@ SlabProducts evenSlabProducts(std::span<const double> energy);
 /// The products of a field along each axis of a box.
 std::array<SlabProducts, 3> slabProducts(const volume::Field &field, const volume::VoxelBox &box);
 
-} // namespace pellucid::plan
+} // namespace pellucid::field

@@ -3,9 +3,9 @@
 
 #include <numeric>
 
-#include "core/plan/energy_marginals.h"
-#include "core/plan/line_integral_bound.h"
-#include "core/plan/slab_products.h"
+#include "core/field/energy_marginals.h"
+#include "core/field/line_integral_bound.h"
+#include "core/field/slab_products.h"
 #include "tests/support/fields.h"
 
 namespace pellucid {
@@ -21,8 +21,8 @@ TEST(EnergyMarginals, OnePointHasAllTheEnergyAtItsPlace) {
     std::vector<float> samples(lattice.size().count(), 0.0F);
     samples[(std::size_t(10) * 21 + 10) * 21 + 16] = 3.0F; // 6 mm from the centre along x
     const volume::Volume field(lattice, samples, volume::ValueUnit::none);
-    const auto energy = plan::energyMarginals(field, lattice.bounds());
-    const plan::EnergySpread &spread = *energy.spread;
+    const auto energy = field::energyMarginals(field, lattice.bounds());
+    const field::EnergySpread &spread = *energy.spread;
     EXPECT_DOUBLE_EQ(energy.axis[0][16], 1.0);
     EXPECT_DOUBLE_EQ(energy.axis[1][10], 1.0);
     EXPECT_DOUBLE_EQ(spread.radiusMm, 6.0);
@@ -50,7 +50,7 @@ TEST(EnergyMarginals, ABallIsHardlyPeaked) {
                     glm::length(lattice.patient(volume::VoxelIndex{i, j, k}).mm) < 28.0 ? 1.0F
                                                                                         : 0.0F);
     const volume::Volume field(lattice, samples, volume::ValueUnit::none);
-    const double peakedness = plan::energyMarginals(field, lattice.bounds()).spread->peakedness;
+    const double peakedness = field::energyMarginals(field, lattice.bounds()).spread->peakedness;
     EXPECT_GT(peakedness, 4.0 / 3.0);
     EXPECT_LT(peakedness, 2.5);
 }
@@ -59,13 +59,13 @@ TEST(EnergyMarginals, ABallIsHardlyPeaked) {
 // cell's diagonal, sqrt(6) mm, and no sample is above 1, so that the rod's own line is the largest.
 TEST(LargestLineIntegral, IsThatAlongARod) {
     const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 2});
-    plan::LayerMaxima layers;
+    field::LayerMaxima layers;
     layers.samples = layers.columns = layers.rows = 40;
     layers.values.resize(40 * 40 * 40);
     for (int n = 0; n < 40; ++n)
         layers.at(n, n, n) = 1.0F;
     const double length = 40.0 * std::sqrt(6.0);
-    EXPECT_NEAR(plan::largestLineIntegral({layers, layers, layers}, 1, lattice), length,
+    EXPECT_NEAR(field::largestLineIntegral({layers, layers, layers}, 1, lattice), length,
                 1e-9 * length);
 }
 
@@ -78,7 +78,7 @@ TEST(EnergyMarginals, ARodInHazeHasMoreOfAProjectionThanOfTheMass) {
     for (int n = 0; n < 40; ++n)
         samples[(std::size_t(n) * 40 + n) * 40 + n] = 1.0F;
     const volume::Volume field(lattice, samples, volume::ValueUnit::none);
-    const auto energy = plan::energyMarginals(field, lattice.bounds());
+    const auto energy = field::energyMarginals(field, lattice.bounds());
     const double length = 40.0 * std::sqrt(6.0), areaMm2 = 2.0 / std::sqrt(6.0);
     const double rodMm3 = 40.0 * 2.0, massMm3 = rodMm3 + haze * 2.0 * (40.0 * 40.0 * 40.0 - 40.0);
     EXPECT_NEAR(energy.massMm3, massMm3, 1e-6 * massMm3); // samples are float
@@ -96,16 +96,16 @@ TEST(EnergyMarginals, OfARampAreThoseOfItsValues) {
         volume::Field(test::noiseField(lattice).values.samples(), volume::Ramp{0.2F, 1.5F})
             .within({{2, 1, 3}, {30, 20, 15}});
     const volume::VoxelBox box{{1, 1, 2}, {31, 21, 16}};
-    const auto a = plan::energyMarginals(ramp, box),
-               b = plan::energyMarginals(ramp.asVolume(), box);
+    const auto a = field::energyMarginals(ramp, box),
+               b = field::energyMarginals(ramp.asVolume(), box);
     EXPECT_EQ(a.axis, b.axis);
     EXPECT_EQ(a.massMm3, b.massMm3);
     EXPECT_EQ(a.energyMm3, b.energyMm3);
     EXPECT_EQ(a.spread->roughestView, b.spread->roughestView);
     EXPECT_EQ(a.spread->peakedness, b.spread->peakedness);
     EXPECT_EQ(a.spread->byDistance, b.spread->byDistance);
-    const auto slabs = plan::slabProducts(ramp, box),
-               others = plan::slabProducts(ramp.asVolume(), box);
+    const auto slabs = field::slabProducts(ramp, box),
+               others = field::slabProducts(ramp.asVolume(), box);
     for (std::size_t d = 0; d < 3; ++d)
         EXPECT_EQ(slabs[d].products, others[d].products);
     // The sums themselves, in double.
@@ -125,7 +125,7 @@ TEST(EnergyMarginals, OfARampAreThoseOfItsValues) {
 TEST(EnergyMarginals, AnEmptyFieldHasNoEnergyAnywhere) {
     const auto lattice = volume::Lattice::centred({8, 8, 8}, {1, 1, 1});
     const volume::Volume field(lattice, std::vector<float>(512, 0.0F), volume::ValueUnit::none);
-    const auto energy = plan::energyMarginals(field, {{4, 4, 4}, {5, 5, 5}});
+    const auto energy = field::energyMarginals(field, {{4, 4, 4}, {5, 5, 5}});
     for (const auto &axis : energy.axis)
         EXPECT_EQ(sum(axis), 0.0);
     for (const auto &shares : energy.spread->byDistance)

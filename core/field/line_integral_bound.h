@@ -7,7 +7,7 @@
 
 #include "core/volume/lattice.h"
 
-namespace pellucid::plan {
+namespace pellucid::field {
 
 /// The maxima of a field without negative samples, for bounding integrals along lines that run
 /// mainly along one axis d of its lattice. Each layer across d is cut into squares of a few samples
@@ -30,4 +30,4 @@ struct LayerMaxima {
 double largestLineIntegral(const std::array<LayerMaxima, 3> &layers, int side,
                            const volume::Lattice &lattice);
 
-} // namespace pellucid::plan
+} // namespace pellucid::field

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "core/plan/slab_products.h"
+#include "core/field/slab_products.h"
 #include "tests/support/fields.h"
 
 namespace pellucid {
@@ -13,7 +13,7 @@ TEST(SlabProducts, GiveTheEnergyOfWeightedProjections) {
     const volume::GridSize size{7, 9, 11};
     const auto field = test::noiseField(volume::Lattice::centred({9, 12, 13}, {1, 1, 1}));
     const volume::VoxelBox box{{1, 2, 1}, {8, 11, 12}};
-    const auto all = plan::slabProducts(field.values, box);
+    const auto all = field::slabProducts(field.values, box);
     for (int axis = 0; axis < 3; ++axis) {
         ASSERT_EQ(all[std::size_t(axis)].slabs, size[axis]);
         std::vector<double> weights;
@@ -43,12 +43,12 @@ TEST(SlabProducts, GiveTheEnergyOfWeightedProjections) {
 
 TEST(SlabProducts, SlabsOfNoiseAreUncorrelated) {
     const std::vector<double> energy{0.1, 0.4, 0.3, 0.2};
-    const auto slabs = plan::evenSlabProducts(energy);
+    const auto slabs = field::evenSlabProducts(energy);
     const std::vector<double> weights{1.0, -2.0, 3.0, 0.5};
     EXPECT_NEAR(slabs.energy(weights), 0.1 + 4.0 * 0.4 + 9.0 * 0.3 + 0.25 * 0.2, 1e-12);
     // More samples than slabs: nothing is lost.
     const std::vector<double> many(101, 1.0 / 101.0);
-    const auto few = plan::evenSlabProducts(many);
+    const auto few = field::evenSlabProducts(many);
     EXPECT_NEAR(few.energy(std::vector<double>(std::size_t(few.slabs), 1.0)), 1.0, 1e-12);
 }
 
