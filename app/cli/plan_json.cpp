@@ -58,7 +58,7 @@ json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
             {"reason", plan.reason.english()}};
 }
 
-json exactPlanJson(int images, const plan::RenderPlan &plan) {
+json exactPlanJson(int images, const plan::RenderPlan &plan, const std::string &reason) {
     return {{"model",
              {{"spectra", json::array()},
               {"slices", 0},
@@ -75,7 +75,7 @@ json exactPlanJson(int images, const plan::RenderPlan &plan) {
             {"predicted_error", plan.predictedError},
             {"adaptive_error", 0.0},
             {"kernel_widths", json::object()},
-            {"reason", plan.reason.english()}};
+            {"reason", reason}};
 }
 
 } // namespace pellucid::cli

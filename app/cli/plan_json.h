@@ -17,7 +17,8 @@ nlohmann::json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
                         const plan::FrameFields &fields, const volume::Lattice &lattice,
                         std::span<const double> widthShares);
 
-/// The same keys for the exact reference, see `prepare::PreparedEngine::exact`.
-nlohmann::json exactPlanJson(int images, const plan::RenderPlan &plan);
+/// The same keys for the exact reference, see `prepare::PreparedEngine::exact`. `reason`: why it
+/// renders the images.
+nlohmann::json exactPlanJson(int images, const plan::RenderPlan &plan, const std::string &reason);
 
 } // namespace pellucid::cli

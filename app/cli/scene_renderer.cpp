@@ -20,6 +20,12 @@ namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
+namespace {
+
+constexpr const char *whyExact = "no engine meets the tolerance: the exact reference does";
+
+} // namespace
+
 SceneRenderer::SceneRenderer(const scene::Scene &scene, Subject subject, const MemoryLimit &memory,
                              const CardChoice &card, const Context &context)
     : m_scene(scene), m_planned(scene), m_subject(std::move(subject)), m_card(card),
@@ -44,14 +50,15 @@ void SceneRenderer::makeFields(const MemoryLimit &memory) {
             m_subject.path);
     m_fields = fieldsFor(m_scene, volume, m_subject.segments, m_context);
     m_whyEmpty = cli::whyEmpty(m_scene, volume, m_fields);
-    m_budget.decides = memory.decides;
+    m_budget.decides = memory.decides; // the engine subtracts what light needs
     // If the program asked for more than is available, the system would kill it.
     if (memory.decides)
         m_budget.bytes = system::availableMemoryBytes();
     if (memory.bytes)
         m_budget.bytes =
             std::min(m_budget.bytes,
-                     std::size_t(*memory.bytes - std::min<std::uint64_t>(*memory.bytes, m_held)));
+                     std::size_t(*memory.bytes -
+                                 std::min<std::uint64_t>(*memory.bytes, m_held - bytesForLight())));
     m_fieldMs = watch.lapMs();
 }
 
@@ -66,8 +73,11 @@ void SceneRenderer::prepare() {
         classify::ShownFields fields = m_fields;
         if (!classify::haveRegions(m_scene.look.classes))
             m_fields = {};
-        m_prepared = prepare::prepareEngine(
-            {m_planned, std::move(fields), m_budget, std::nullopt, true}, m_progress);
+        m_prepared = prepare::prepareEngine({.scene = m_planned,
+                                             .fields = std::move(fields),
+                                             .budget = m_budget,
+                                             .mayBeExact = true},
+                                            m_progress);
         useCard();
     } catch (const Error &error) {
         if (error.code() != ErrorCode::outOfMemory || !m_given)
@@ -82,11 +92,12 @@ void SceneRenderer::prepare() {
 }
 
 void SceneRenderer::useCard() {
+    m_engineReason = m_card.reason;
     if (isExact()) {
-        m_card.reason = m_prepared->plan.reason.english();
+        m_engineReason = whyExact;
         if (m_card.isRequired)
             throw cardRefused(
-                {ErrorCode::noSuchDevice, because::inWords(m_card.reason + ", on the processor")});
+                {ErrorCode::noSuchDevice, because::inWords(m_engineReason + ", on the processor")});
         return;
     }
     if (!m_card.passes)
@@ -96,7 +107,7 @@ void SceneRenderer::useCard() {
     } catch (const Error &error) {
         if (m_card.isRequired)
             throw cardRefused(error);
-        m_card.reason = error.reason().english();
+        m_engineReason = error.reason().english();
     }
 }
 
@@ -108,8 +119,15 @@ void SceneRenderer::requireRoomFor(const scene::Camera &camera) const {
             plan::sliceGrid(one, m_prepared->plan.fieldOfView, m_prepared->lattice, m_scene.image),
             one, images());
     };
+    plan::Budget left = m_budget;
+    left.bytes -= std::min(left.bytes, bytesForLight());
     prepare::requireWithin(bytes() - std::min(bytes(), framesOf(m_scene.camera)) + framesOf(camera),
-                           m_budget);
+                           left);
+}
+
+std::size_t SceneRenderer::bytesForLight() const {
+    return prepare::bytesForLight(m_scene.shading, m_subject.volume.lattice().size(),
+                                  classify::channelsOf(m_scene.look));
 }
 
 int SceneRenderer::images() const {
@@ -120,7 +138,7 @@ std::optional<error::StatedError> SceneRenderer::bound() const {
     return prepare::boundOf(*m_prepared, m_scene.image);
 }
 
-bool SceneRenderer::isWithinBound() const {
+bool SceneRenderer::boundMeetsTolerance() const {
     const auto known = bound();
     return known && known->relative <= m_scene.tolerance;
 }
@@ -129,7 +147,7 @@ bool SceneRenderer::isWithinBound() const {
 // help.
 bool SceneRenderer::mayPlanCloser() const {
     return m_lastError.isMeasured() && m_lastError.relative > m_scene.tolerance &&
-           isWithinBound() && m_scene.interpolation.isPlanned() &&
+           boundMeetsTolerance() && m_scene.interpolation.isPlanned() &&
            m_scene.plannedFor != scene::PlannedFor::volume;
 }
 
@@ -177,7 +195,7 @@ std::optional<picture::ProjectionImage> SceneRenderer::imageOfCard(const scene::
         // user requires the card.
         if (m_card.isRequired)
             throw cardRefused(error);
-        m_card.reason = error.reason().english();
+        m_engineReason = error.reason().english();
         m_onCard.reset();
         return std::nullopt;
     }
@@ -197,7 +215,7 @@ std::string SceneRenderer::description() const {
 nlohmann::json SceneRenderer::planJson() const {
     const plan::RenderPlan &plan = m_prepared->plan;
     if (isExact())
-        return exactPlanJson(images(), plan);
+        return exactPlanJson(images(), plan, whyExact);
     const render::EngineParts parts = m_prepared->engine->parts();
     nlohmann::json json = cli::planJson(
         plan, m_scene,
@@ -223,8 +241,8 @@ std::vector<std::string> SceneRenderer::warnings() const {
     if (!m_whyEmpty.empty())
         warnings.push_back(m_whyEmpty);
     // `reference` selects the exact method; its nominal tolerance is no target.
-    if (const auto known = bound();
-        known && !isWithinBound() && !(isExact() && m_scene.tolerance == scene::referenceTolerance))
+    if (const auto known = bound(); known && !boundMeetsTolerance() &&
+                                    !(isExact() && m_scene.tolerance == scene::referenceTolerance))
         warnings.push_back(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted",
                                        m_scene.tolerance, known->relative));
     return warnings;
@@ -239,15 +257,17 @@ std::string SceneRenderer::warningOfViews() const {
 }
 
 std::string SceneRenderer::missedText(double error, bool isWhole) const {
-    const bool isMissed = error > m_scene.tolerance && (m_prepared->isCoarse || isWithinBound());
+    const bool isMissed =
+        error > m_scene.tolerance && (m_prepared->isCoarse || boundMeetsTolerance());
     if (!isMissed)
         return {};
-    return isWhole ? fmt::format("the tolerance of {:.2g} is not met: {:.2g} was measured for this "
-                                 "picture",
-                                 m_scene.tolerance, error)
-                   : fmt::format("the tolerance of {:.2g} is met for the whole volume, but {:.2g} "
-                                 "was measured for this part",
-                                 m_scene.tolerance, error);
+    return isWhole || m_prepared->isCoarse
+               ? fmt::format("the tolerance of {:.2g} is not met: {:.2g} was measured for this "
+                             "picture",
+                             m_scene.tolerance, error)
+               : fmt::format("the tolerance of {:.2g} is met for the whole volume, but {:.2g} "
+                             "was measured for this part",
+                             m_scene.tolerance, error);
 }
 
 void SceneRenderer::takeErrors() {

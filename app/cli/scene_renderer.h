@@ -62,7 +62,7 @@ public:
     /// Describes the engine that makes the images, one line.
     std::string description() const;
     /// Why this engine was chosen, one line.
-    const std::string &engineReason() const { return m_card.reason; }
+    const std::string &engineReason() const { return m_engineReason; }
     bool isOnCard() const { return m_onCard != nullptr; }
     /// Bytes of the spectra on the card; 0 without a card.
     std::size_t cardBytes() const { return m_onCard ? m_onCard->textures().bytes() : 0; }
@@ -102,7 +102,8 @@ private:
     void useCard();
     int images() const; ///< transforms in a frame
     bool isExact() const { return m_prepared->exact != nullptr; }
-    bool isWithinBound() const;
+    bool boundMeetsTolerance() const;
+    std::size_t bytesForLight() const;
     bool mayPlanCloser() const;
     picture::ProjectionImage make(const scene::Camera &camera, Check check);
     std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera);
@@ -116,6 +117,7 @@ private:
     Subject m_subject;
     std::optional<std::uint64_t> m_given; ///< bytes
     CardChoice m_card;
+    std::string m_engineReason;
     Context m_context;
     task::Progress m_progress;
     classify::FieldWindow m_window;

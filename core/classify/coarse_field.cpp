@@ -78,6 +78,18 @@ volume::Volume blockMeans(const volume::Field &field, const std::array<int, 3> &
 
 } // namespace
 
+volume::GridSize coarseSize(const volume::GridSize &size, int side) {
+    const std::array<int, 3> block = blocksOf(size, side);
+    return {(size.i + block[0] - 1) / block[0], (size.j + block[1] - 1) / block[1],
+            (size.k + block[2] - 1) / block[2]};
+}
+
+int coarseSide(const volume::GridSize &size, int reduction) {
+    constexpr int minSamples = 32;
+    const int longest = std::max({size.i, size.j, size.k});
+    return longest / reduction >= minSamples ? (longest + reduction - 1) / reduction : 0;
+}
+
 DensityField coarseField(const DensityField &field, int side) {
     return fieldOf(blockMeans(field.values, blocksOf(field.values.lattice().size(), side),
                               Beyond::zero, volume::ValueUnit::none));

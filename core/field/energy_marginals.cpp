@@ -264,10 +264,11 @@ private:
             const float across = here[i] + here[i + 2] - 2.0F * here[i + 1];
             return across * across;
         }));
-        for (const int end : {0, count - 1}) {
-            const double f = double(here[end]);
-            const double next = count > 1 ? double(here[end == 0 ? 1 : end - 1]) : 0.0;
-            sum += (next - 2.0 * f) * (next - 2.0 * f) + f * f;
+        if (count == 1)
+            return sum + 6.0 * energy;
+        for (const auto &[end, next] : {std::pair(0, 1), std::pair(count - 1, count - 2)}) {
+            const double f = double(here[end]), across = double(here[next]) - 2.0 * f;
+            sum += across * across + f * f;
         }
         return sum;
     }

@@ -18,8 +18,8 @@ namespace pellucid::plan {
 /// The memory that a plan may use.
 struct Budget {
     std::size_t bytes = std::numeric_limits<std::size_t>::max();
-    /// Whether the plan is chosen to fit. If not, one that does not fit is refused: pictures are
-    /// then the same whatever the memory.
+    /// Whether `core/prepare` chooses a plan that fits. If not, it refuses one that does not:
+    /// pictures are then the same whatever the memory.
     bool decides = true;
 };
 
@@ -43,12 +43,12 @@ struct RenderPlan {
     scene::ImageDefinition image; ///< for which these are
 };
 
-/// The cheapest choice of kernel, padding of each axis, storage and slice grid whose predicted
-/// error is within the scene's tolerance. Unless one kernel reads everything, the plan takes half
-/// of the squared tolerance where it can; `adaptWidths` spends the rest. If no plan is within the
-/// tolerance, or none of those fits the budget: the most accurate that fits. Values that the
-/// scene's `interpolation` sets are not changed. *Throws* Error{outOfMemory} if nothing fits the
-/// budget, Error{usage} if the scene is invalid.
+/// The cheapest choice of kernel, padding of each axis and slice grid whose predicted error is
+/// within the scene's tolerance, with binary16 cells if these can keep it. Unless one kernel reads
+/// everything, the plan takes half of the squared tolerance where it can; `adaptWidths` spends the
+/// rest. If no plan is within the tolerance, or none of those fits the budget: the most accurate
+/// that fits. Values that the scene's `interpolation` sets are not changed. *Throws*
+/// Error{outOfMemory} if nothing fits the budget, Error{usage} if the scene is invalid.
 RenderPlan planRender(const scene::Scene &scene, const field::Summary &field,
                       const Budget &budget = {});
 

@@ -18,16 +18,14 @@ namespace pellucid::prepare {
 namespace {
 
 constexpr std::size_t maxSamples = std::size_t(1) << 25;
-constexpr int minSamples = 32;
 constexpr render::ChannelWeights none{0.0, 0.0, 0.0};
 
-// The least reduction of so many fields to `maxSamples` and to half of the budget: the fields alone
-// must leave memory for their spectra.
-int leastReduction(const volume::GridSize &size, std::size_t count, std::size_t budget) {
-    const std::size_t most = std::min(maxSamples, budget / 2 / sizeof(float) / count);
+// The least reduction of so many fields to `maxSamples` and to this many bytes.
+int minReduction(const volume::GridSize &size, std::size_t count, std::size_t bytes) {
+    const std::size_t most = std::min(maxSamples, bytes / sizeof(float) / count);
     int reduction = 1;
-    while (size.count() / (std::size_t(reduction) * reduction * reduction) > most &&
-           std::max({size.i, size.j, size.k}) / (reduction + 1) >= minSamples)
+    while (classify::coarseSide(size, reduction + 1) > 0 &&
+           classify::coarseSize(size, classify::coarseSide(size, reduction)).count() > most)
         ++reduction;
     return reduction;
 }
@@ -42,27 +40,30 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
                                             const task::Progress &progress,
                                             const std::optional<shading::ShadingScale> &given) {
     ShadedFields layers;
+    scene::Scene uniform;
     int reduction = 1;
-    std::size_t taken =
-        count * sizeof(float) * std::size_t(scene.camera.width) * std::size_t(scene.camera.height);
+    std::size_t taken = 0;
     for (std::size_t n = 0; n < count; ++n) {
         classify::DensityField field = fieldOf(
             n, progress.part(0.5 * double(n) / double(count), 0.5 * double(n + 1) / double(count)));
-        const volume::Lattice &lattice = field.values.lattice();
-        const volume::GridSize size = lattice.size();
+        const volume::GridSize size = field.values.lattice().size();
         if (n == 0) {
-            layers.scale = given.value_or(shading::shadingScale(lattice));
-            reduction = leastReduction(size, count, budget.bytes);
+            layers.scale = given.value_or(shading::shadingScale(field.values.lattice()));
+            uniform = scene::planningScene(scene, field.values.lattice());
+            // Projections of layers are kept and summed: they must not depend on the weights.
+            uniform.interpolation.isUniform = true;
+            uniform.shading.lights.clear();
+            taken = count * sizeof(float) * std::size_t(uniform.camera.width) *
+                    std::size_t(uniform.camera.height);
+            // The fields leave as much memory for their spectra.
+            reduction =
+                minReduction(size, count, (budget.bytes - std::min(budget.bytes, taken)) / 2);
         }
         if (reduction > 1)
-            field = classify::coarseField(
-                field, (std::max({size.i, size.j, size.k}) + reduction - 1) / reduction);
+            field = classify::coarseField(field, classify::coarseSide(size, reduction));
         taken += field.values.samples().bytes();
         layers.fields.push_back(std::move(field));
     }
-    // Projections of layers are kept and summed: they must not depend on the weights.
-    scene::Scene uniform = scene::planningScene(scene, layers.fields.front().values.lattice());
-    uniform.interpolation.isUniform = true;
     FittingPlan fitting =
         planWithin(uniform, std::move(layers), {render::FrameJob::maxImages, 1},
                    {budget.bytes - std::min(budget.bytes, taken)}, progress.part(0.5, 1.0));

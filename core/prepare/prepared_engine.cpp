@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/classify/coarse_field.h"
 #include "core/plan/folded_tails.h"
 #include "core/reference/exact_engine.h"
@@ -16,8 +14,6 @@
 namespace pellucid::prepare {
 
 namespace {
-
-constexpr int minSamples = 32;
 
 std::size_t bytesOf(const ShadedFields &fields) {
     std::size_t bytes = 0;
@@ -57,11 +53,10 @@ double exactError(const scene::Scene &scene, const std::vector<field::Summary> &
 
 // The gradient is that of the means, so that no sample becomes darker than black.
 ShadedFields reduced(const ShadedFields &fields, int reduction, const shading::Shading &shading) {
-    const volume::GridSize n = fields.fields.front().values.lattice().size();
     classify::ShownFields means{{}, fields.colors};
     for (const classify::DensityField &field : fields.fields)
-        means.channels.push_back(
-            classify::coarseField(field, (std::max({n.i, n.j, n.k}) + reduction - 1) / reduction));
+        means.channels.push_back(classify::coarseField(
+            field, classify::coarseSide(field.values.lattice().size(), reduction)));
     return shadedFields(std::move(means), shading, fields.scale);
 }
 
@@ -71,8 +66,7 @@ void requireWithin(std::size_t needed, const plan::Budget &budget) {
     if (needed > budget.bytes)
         throw task::Error(
             task::ErrorCode::outOfMemory,
-            task::because::inWords(fmt::format("the pictures need {} MB, but only {} MB are left",
-                                               (needed >> 20) + 1, budget.bytes >> 20)));
+            task::because::projectionNeedsMemory((needed >> 20) + 1, budget.bytes >> 20));
 }
 
 FittingPlan planWithin(const scene::Scene &scene, ShadedFields fields,
@@ -80,14 +74,17 @@ FittingPlan planWithin(const scene::Scene &scene, ShadedFields fields,
                        const task::Progress &progress) {
     scene::validate(scene);
     const volume::GridSize n = fields.fields.front().values.lattice().size();
-    const int longest = std::max({n.i, n.j, n.k});
     const std::size_t bytes = budget.decides ? budget.bytes : plan::Budget{}.bytes;
+    std::optional<task::Error> first; // of the fields as they are
     for (int reduction = 1;; ++reduction) {
         progress.check();
         ShadedFields fitting = reduction == 1 ? fields : reduced(fields, reduction, scene.shading);
         // The means need memory too, beside the samples.
         const std::size_t held = reduction == 1 ? 0 : bytesOf(fitting);
-        const auto summaries = summarise(fitting, scene.shading.cue);
+        const bool isLast = !budget.decides || classify::coarseSide(n, reduction + 1) == 0;
+        if (held >= bytes && !isLast)
+            continue;
+        auto summaries = summarise(fitting, scene.shading.cue);
         requireImageFits(scene, summaries.front(), composition.images, bytes);
         try {
             plan::RenderPlan plan =
@@ -98,11 +95,14 @@ FittingPlan planWithin(const scene::Scene &scene, ShadedFields fields,
                 plan.bytes += held;
                 plan.reason = task::because::reduced(size.i, size.j, size.k, n.i, n.j, n.k);
             }
-            return {std::move(plan), std::move(fitting), summaries, reduction};
+            return {std::move(plan), std::move(fitting), std::move(summaries), reduction};
         } catch (const task::Error &error) {
-            if (error.code() != task::ErrorCode::outOfMemory ||
-                longest / (reduction + 1) < minSamples)
+            if (error.code() != task::ErrorCode::outOfMemory)
                 throw;
+            if (!first)
+                first = error;
+            if (isLast)
+                throw task::Error(*first);
         }
     }
 }
@@ -166,7 +166,7 @@ PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progre
     budget.bytes -= std::min(budget.bytes, bytesForLight(scene.shading, lattice.size(), channels));
     const bool mayBeExact = request.mayBeExact && scene.interpolation.isPlanned() &&
                             scene.plannedFor == scene::PlannedFor::picture;
-    classify::ShownFields ofExact = mayBeExact ? fields : classify::ShownFields{};
+    classify::ShownFields exactFields = mayBeExact ? fields : classify::ShownFields{};
     FittingPlan fitting =
         planWithin(scene,
                    shadedFields(std::move(fields), scene.shading,
@@ -181,22 +181,20 @@ PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progre
     };
     if (mayBeExact && prepared.plan.predictedError > scene.tolerance && !prepared.isCoarse) {
         const std::size_t bytes = reference::ExactEngine::bytes(
-            lattice, fitting.summaries.front().support, std::size_t(composition.images),
+            prepared.lattice, fitting.summaries.front().support, std::size_t(composition.images),
             scene.camera, scene.image, scene.shading);
         if (bytes <= budget.bytes || !budget.decides) {
             requireWithin(bytes, budget);
             prepared.plan.predictedError = exactError(scene, fitting.summaries, composition);
             prepared.plan.bytes = prepared.bytes = bytes;
-            prepared.plan.reason =
-                task::because::inWords("no engine meets the tolerance: the exact reference does");
             fitting.fields = {};
             prepared.exact = std::make_shared<reference::ExactEngine>(
-                std::move(ofExact), scene.shading, progress.part(0.1, 1.0));
+                std::move(exactFields), scene.shading, progress.part(0.1, 1.0));
             return prepared;
         }
     }
     requireWithin(prepared.plan.bytes, budget);
-    ofExact = {};
+    exactFields = {};
     auto engine = makeEngine(std::move(fitting.fields), prepared.plan, progress.part(0.1, 1.0));
     prepared.bytes = engine->bytes();
     prepared.canBeLit = engine->canBeLit();
@@ -208,9 +206,8 @@ std::optional<error::StatedError> boundOf(const PreparedEngine &prepared,
                                           const scene::ImageDefinition &image) {
     if (prepared.isCoarse || prepared.of == plan::SpectrumOf::layer)
         return std::nullopt;
-    const double bound = prepared.plan.predictedError * scene::detailGain(image) /
-                         scene::detailGain(prepared.plan.image);
-    return error::StatedError::atMost(bound);
+    const double gain = scene::detailGain(image) / scene::detailGain(prepared.plan.image);
+    return error::StatedError::atMost(prepared.plan.predictedError * gain);
 }
 
 PreparedEngine withoutLight(const PreparedEngine &prepared) {

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/classify/shown_fields.h"
@@ -52,7 +51,7 @@ void requireWithin(std::size_t needed, const plan::Budget &budget);
 struct PreparedEngine {
     std::shared_ptr<render::ProjectionEngine> engine; ///< null if the exact reference makes them
     std::shared_ptr<picture::Projector> exact;        ///< null if an engine makes them
-    plan::RenderPlan plan;   ///< for the exact reference: its error, bytes and reason
+    plan::RenderPlan plan;   ///< for the exact reference: its error and bytes
     volume::Lattice lattice; ///< of the prepared fields
     std::size_t bytes = 0;   ///< of the spectra
     bool canBeLit = false;

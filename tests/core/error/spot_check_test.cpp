@@ -67,9 +67,7 @@ class Checked {
 public:
     Checked(const classify::DensityField &field, const scene::Scene &scene)
         : m_fields{{field}, {}}, m_scene(scene),
-          m_engine(prepare::prepareEngine(
-                       {scene::planningScene(scene, field.values.lattice()), m_fields})
-                       .engine),
+          m_engine(prepare::prepareEngine({scene, m_fields}).engine),
           truth(test::relativeL2(m_engine->render(scene.camera, scene.image).samples,
                                  reference::WideKernel(field.values, field.support)
                                      .image(scene.camera, scene.image))) {}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numeric>
 
 #include "core/field/energy_marginals.h"
@@ -53,6 +54,60 @@ TEST(EnergyMarginals, ABallIsHardlyPeaked) {
     const double peakedness = field::energyMarginals(field, lattice.bounds()).spread->peakedness;
     EXPECT_GT(peakedness, 4.0 / 3.0);
     EXPECT_LT(peakedness, 2.5);
+}
+
+// The one sweep against sums sample by sample, on short and long axes.
+TEST(EnergyMarginals, BlocksAreSumsOfTheirSamples) {
+    for (const volume::GridSize &size :
+         {volume::GridSize{1, 1, 1}, {1, 7, 2}, {9, 1, 21}, {43, 70, 5}}) {
+        const auto lattice = volume::Lattice::centred(size, {1, 1, 1});
+        std::vector<float> samples(size.count());
+        for (std::size_t n = 0; n < samples.size(); ++n)
+            samples[n] = float(n * 37 % 11);
+        samples.front() = 5.0F;
+        const volume::Volume volume(lattice, samples, volume::ValueUnit::none);
+        const auto found = field::energyMarginals(volume, lattice.bounds());
+        const std::array<std::vector<field::BlockRange>, 3> ranges{
+            field::blockRanges(size.i), field::blockRanges(size.j), field::blockRanges(size.k)};
+        double all = 0.0, allMass = 0.0, shares = 0.0;
+        for (const float f : samples) {
+            all += double(f) * double(f);
+            allMass += double(f);
+        }
+        for (const field::Block &block : found.blocks) {
+            const field::BlockRange i = ranges[0][block.at[0]], j = ranges[1][block.at[1]],
+                                    k = ranges[2][block.at[2]];
+            double energy = 0.0, mass = 0.0;
+            for (int z = k.first; z <= k.last; ++z)
+                for (int y = j.first; y <= j.last; ++y)
+                    for (int x = i.first; x <= i.last; ++x) {
+                        const auto f = double(
+                            samples[(std::size_t(z) * size.j + std::size_t(y)) * size.i + x]);
+                        energy += f * f;
+                        mass += f;
+                    }
+            EXPECT_NEAR(double(block.energy), energy / all, 1e-6);
+            EXPECT_NEAR(double(block.mass), mass / allMass, 1e-6);
+            shares += double(block.energy);
+        }
+        EXPECT_NEAR(shares, 1.0, 1e-5);
+    }
+}
+
+// A sample alone differs from its neighbours by the same along each axis, whatever the box.
+TEST(EnergyMarginals, APointIsAsRoughInEveryBox) {
+    const auto roughness = [](const volume::GridSize &size) {
+        const auto lattice = volume::Lattice::centred(size, {1, 1, 1});
+        std::vector<float> samples(size.count(), 0.0F);
+        samples[size.count() / 2] = 3.0F;
+        const volume::Volume volume(lattice, samples, volume::ValueUnit::none);
+        const auto found = field::energyMarginals(volume, lattice.bounds());
+        return found.spread->roughestView * found.massMm3 * found.massMm3 / found.energyMm3;
+    };
+    const double alongI = roughness({1, 1, 1});
+    EXPECT_GT(alongI, 0.0);
+    EXPECT_NEAR(roughness({1, 3, 1}), roughness({3, 1, 1}), 1e-9 * alongI);
+    EXPECT_NEAR(roughness({1, 1, 3}), roughness({3, 1, 1}), 1e-9 * alongI);
 }
 
 // A rod along the diagonal of cells: between two layers of samples no line is longer than the
