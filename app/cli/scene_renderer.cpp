@@ -179,7 +179,7 @@ picture::ProjectionImage SceneRenderer::make(const scene::Camera &camera, Check 
     const auto known = bound();
     if (known)
         m_lastError = *known;
-    // Nothing here is more exact than the exact reference.
+    // Nothing could check the exact reference.
     if (!isExact() && (check == Check::measure || !known))
         measure(camera);
     return std::move(*image);

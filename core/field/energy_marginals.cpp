@@ -13,6 +13,7 @@
 
 #include "core/field/least_projection_energy.h"
 #include "core/field/line_integral_bound.h"
+#include "core/field/row_reader.h"
 #include "core/volume/lane_sum.h"
 
 namespace pellucid::field {
@@ -115,50 +116,11 @@ private:
         std::vector<double> alongI, alongJ; // energies
         std::vector<double> blocks;         // energies, [block along j][block along i]
         std::vector<double> blockMass;
-        // Of the blocks of `blockRanges` in each plane, [plane][block along j][block along i].
+        // The blocks of `blockRanges`, plane by plane: [plane][block along j][block along i].
         std::vector<double> partEnergy, partMass;
         double differences = 0.0; // squares of the second differences along all axes
         double least = 0.0;
         double radiusMm = 0.0;
-    };
-
-    // A row of samples and its four neighbours: above and below in the same plane, before and after
-    // in the adjacent planes.
-    struct RowAndNeighbours {
-        const float *here, *above, *below, *before, *after;
-    };
-
-    // Reads rows in order of j. What is outside the box is zero.
-    class RowReader {
-    public:
-        RowReader(const volume::Field &field, const volume::VoxelBox &box)
-            : m_field(field), m_box(box), m_none(std::size_t(box.size().i)) {
-            m_buffers.fill(m_none);
-        }
-        void start(int j, int k) {
-            m_here = at(j - 1, k, (j + 2) % 3);
-            m_below = at(j, k, j % 3);
-        }
-        RowAndNeighbours next(int j, int k) {
-            m_above = std::exchange(m_here, m_below);
-            m_below = at(j + 1, k, (j + 1) % 3);
-            return {m_here, m_above, m_below, at(j, k - 1, 3), at(j, k + 1, 4)};
-        }
-
-    private:
-        const float *at(int j, int k, int buffer) {
-            const volume::GridSize size = m_box.size();
-            return j >= 0 && j < size.j && k >= 0 && k < size.k
-                       ? m_field.row({m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k}, size.i,
-                                     m_buffers[std::size_t(buffer)].data())
-                       : m_none.data();
-        }
-
-        const volume::Field &m_field;
-        const volume::VoxelBox m_box;
-        std::vector<float> m_none;
-        std::array<std::vector<float>, 5> m_buffers; // three rows of the plane; before and after
-        const float *m_above = nullptr, *m_here = nullptr, *m_below = nullptr;
     };
 
     // Sums and maxima over the rows of a block, by sample along i; the loops become vector code. A

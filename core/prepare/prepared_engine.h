@@ -13,14 +13,14 @@
 
 namespace pellucid::prepare {
 
-/// What an engine is made for.
+/// A request for an engine: a scene, its fields, and the memory for them.
 struct EngineRequest {
     scene::Scene scene; ///< planned for as `scene::planningScene` says
-    /// Those of the scene's look, in its crop. Each is released as soon as its samples are
+    /// The fields of the scene's look, in its crop. Each is released as soon as its samples are
     /// transformed.
     classify::ShownFields fields;
     plan::Budget budget = {};
-    /// That of the volume, if the fields come from a coarser one.
+    /// The scale of the volume, if the fields come from a coarser one.
     std::optional<shading::ShadingScale> scale = {};
     /// Whether the exact reference makes the pictures if no plan keeps the tolerance: not if memory
     /// is short, the scene sets the interpolation, or the plan is for the whole volume.
@@ -47,7 +47,7 @@ FittingPlan planWithin(const scene::Scene &scene, ShadedFields fields,
 /// *Throws* Error{outOfMemory} if pictures need more bytes than the budget has.
 void requireWithin(std::size_t needed, const plan::Budget &budget);
 
-/// What makes the pictures of a look.
+/// An engine that is ready to render a look, or the exact reference in its place.
 struct PreparedEngine {
     std::shared_ptr<render::ProjectionEngine> engine; ///< null if the exact reference makes them
     std::shared_ptr<picture::Projector> exact;        ///< null if an engine makes them

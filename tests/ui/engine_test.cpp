@@ -365,24 +365,28 @@ private slots:
                 patienceMs);
             return rests ? count : -1;
         };
-        // Studies on the card leave what the next ones use again: pictures and tables, of which a
-        // few are kept, sometimes two more than after the study before. A leak grows with every
-        // study.
-        int most = closeAndCount(), mostOfFirst = 0;
-        constexpr int first = 4, next = 4;
-        for (int n = 0; n < first + next; ++n) {
-            if (n == first)
-                mostOfFirst = most;
+        const auto show = [&] {
+            const int closed = sharedGlObjects();
             open(headPath());
             QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !jobs().isRunning(), patienceMs);
-            settle();
-            QVERIFY(sharedGlObjects() > most);
+            // The check renders a grid of its own: without it, a study may need fewer tables than
+            // the next one.
+            QTRY_VERIFY_WITH_TIMEOUT(
+                projection()->frameError() && projection()->frameError()->isMeasured(), patienceMs);
+            QVERIFY(sharedGlObjects() > closed);
+        };
+        // The first studies on the card leave what the next ones use again: pictures and tables, of
+        // which a few are kept.
+        int before = closeAndCount();
+        constexpr int first = 4, next = 3;
+        for (int n = 0; n < first + next; ++n) {
+            show();
             const int after = closeAndCount();
             QVERIFY(after > 0);
-            most = std::max(most, after);
+            if (n >= first)
+                QVERIFY2(after <= before, qPrintable(QString("%1 %2").arg(after).arg(before)));
+            before = std::max(before, after);
         }
-        QVERIFY2(most < mostOfFirst + next,
-                 qPrintable(QString("%1 %2").arg(most).arg(mostOfFirst)));
         find<QAction>("automaticEngineAction")->trigger();
     }
 
