@@ -8,6 +8,7 @@
 
 #include "core/system/log.h"
 #include "core/task/error.h"
+#include "gpu/reasons.h"
 
 namespace pellucid::gpu {
 

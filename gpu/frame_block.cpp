@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/task/error.h"
+#include "gpu/reasons.h"
 
 namespace pellucid::gpu {
 

@@ -9,6 +9,7 @@
 
 #include "core/task/error.h"
 #include "gpu/buffer.h"
+#include "gpu/reasons.h"
 #include "gpu/transform_passes.h"
 
 namespace pellucid::gpu {

@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include "core/task/error.h"
+#include "gpu/reasons.h"
 
 namespace pellucid::gpu {
 

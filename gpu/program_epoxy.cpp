@@ -8,6 +8,8 @@
 #include <epoxy/gl.h>
 
 #include "core/task/error.h"
+#include "core/task/reasons.h"
+#include "gpu/reasons.h"
 #include "gpu/shader_sources.h"
 
 namespace pellucid::gpu {

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/task/error.h"
+#include "gpu/reasons.h"
 
 namespace pellucid::gpu {
 

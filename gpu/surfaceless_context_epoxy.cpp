@@ -10,6 +10,7 @@
 #include <epoxy/gl.h>
 
 #include "core/task/error.h"
+#include "gpu/reasons.h"
 
 namespace pellucid::gpu {
 

@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "core/task/error.h"
+#include "gpu/reasons.h"
 
 namespace pellucid::gpu {
 

@@ -20,6 +20,7 @@
 #include "core/reference/wide_kernel.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace {
 

@@ -11,6 +11,7 @@
 
 #include "app/bench/spatial_work.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::bench {
 

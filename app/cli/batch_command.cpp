@@ -13,6 +13,7 @@
 #include "app/cli/input.h"
 #include "core/archive/search.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

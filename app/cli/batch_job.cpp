@@ -17,13 +17,16 @@
 #include "app/cli/reason_lines.h"
 #include "app/cli/scene_renderer.h"
 #include "core/batch/derived_uid.h"
+#include "core/batch/reasons.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/write_capture.h"
 #include "core/files/image_files.h"
+#include "core/files/reasons.h"
 #include "core/files/video_file.h"
 #include "core/picture/compose.h"
 #include "core/picture/display.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

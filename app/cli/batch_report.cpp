@@ -11,6 +11,7 @@
 #include "app/cli/terminal.h"
 #include "core/scene/scene.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

@@ -23,13 +23,19 @@
 #include "app/cli/commands.h"
 #include "app/cli/input.h"
 #include "app/cli/reason_lines.h"
+#include "app/cli/reasons.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
 #include "core/archive/login.h"
+#include "core/archive/reasons.h"
 #include "core/archive/sending.h"
+#include "core/batch/reasons.h"
 #include "core/batch/study_results.h"
+#include "core/decoder/reasons.h"
+#include "core/dicom/reasons.h"
 #include "core/exchange/link.h"
 #include "core/files/atomic_file.h"
+#include "core/files/reasons.h"
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/files/video_file.h"
@@ -38,6 +44,7 @@
 #include "core/system/memory.h"
 #include "core/task/error.h"
 #include "core/task/naming.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

@@ -6,12 +6,16 @@
 #include <span>
 #include <utility>
 
+#include "app/cli/reasons.h"
 #include "app/cli/servers.h"
 #include "core/archive/retrieval.h"
+#include "core/batch/reasons.h"
 #include "core/decoder/decoder.h"
 #include "core/dicom/file_list.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/study_index.h"
+#include "core/files/reasons.h"
 #include "core/files/session_folder.h"
 #include "core/system/content_digest.h"
 #include "core/task/error.h"

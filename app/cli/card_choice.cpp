@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/card_choice.h"
 
+#include "core/task/reasons.h"
 #include "gpu/surfaceless_context.h"
 
 namespace pellucid::cli {

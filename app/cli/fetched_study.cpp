@@ -3,10 +3,12 @@
 
 #include "app/cli/input.h"
 #include "app/cli/servers.h"
+#include "core/archive/reasons.h"
 #include "core/archive/retrieval.h"
 #include "core/archive/search.h"
 #include "core/task/error.h"
 #include "core/task/naming.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

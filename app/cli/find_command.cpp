@@ -8,6 +8,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/json_text.h"
+#include "app/cli/reasons.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
 #include "core/archive/search.h"

@@ -9,8 +9,10 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/json_text.h"
+#include "app/cli/reasons.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
+#include "core/archive/reasons.h"
 #include "core/archive/run_transfer.h"
 #include "core/task/error.h"
 #include "core/task/naming.h"

@@ -11,6 +11,7 @@
 #include "core/scene/positioner_angles.h"
 #include "core/scene/projection_matrix.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 #include "core/volume/nrrd.h"
 
 namespace pellucid::cli {

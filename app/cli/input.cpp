@@ -11,15 +11,20 @@
 #include <fmt/format.h>
 
 #include "app/cli/reason_lines.h"
+#include "app/cli/reasons.h"
 #include "app/cli/terminal.h"
 #include "core/decoder/decoder.h"
 #include "core/decoder/read_volume_file.h"
+#include "core/decoder/reasons.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/files/file_ids.h"
 #include "core/helper/protection.h"
+#include "core/helper/reasons.h"
 #include "core/subtraction/difference.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

@@ -14,6 +14,7 @@
 #include "app/cli/input.h"
 #include "app/cli/terminal.h"
 #include "core/archive/listener.h"
+#include "core/archive/reasons.h"
 #include "core/archive/receiving.h"
 #include "core/archive/refused_connections.h"
 #include "core/archive/run_transfer.h"

@@ -9,11 +9,13 @@
 #include <glm/common.hpp>
 
 #include "app/cli/input.h"
+#include "app/cli/reasons.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/segment_options.h"
 #include "core/classify/region_edits.h"
 #include "core/presets/preset_library.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

@@ -17,6 +17,7 @@
 #include "core/files/user_folders.h"
 #include "core/fourier/transforms/wisdom.h"
 #include "core/helper/protection.h"
+#include "core/helper/reasons.h"
 #include "core/system/hidden_memory.h"
 #include "core/task/error.h"
 #include "core/task/progress.h"

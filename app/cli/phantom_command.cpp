@@ -11,6 +11,7 @@
 #include "core/files/atomic_file.h"
 #include "core/phantom/phantom.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

@@ -10,6 +10,7 @@
 #include "core/presets/preset_library.h"
 #include "core/presets/slicer_preset.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/terminal.h"
+#include "core/dicom/reasons.h"
 
 namespace pellucid::cli {
 

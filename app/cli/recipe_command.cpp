@@ -9,6 +9,7 @@
 #include "app/cli/input.h"
 #include "app/cli/terminal.h"
 #include "core/batch/recipe.h"
+#include "core/files/reasons.h"
 #include "core/files/video_file.h"
 #include "core/task/error.h"
 

@@ -26,6 +26,7 @@
 #include "core/files/read_text.h"
 #include "core/scene/projection_matrix.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

@@ -17,8 +17,10 @@
 #include "core/files/read_text.h"
 #include "core/picture/tone_subject.h"
 #include "core/scene/positioner_angles.h"
+#include "core/scene/reasons.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

@@ -13,6 +13,7 @@
 #include "core/error/shown_part.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

@@ -21,8 +21,10 @@
 #include "core/preprocess/region_growing.h"
 #include "core/preprocess/segment_class.h"
 #include "core/preprocess/step_cache.h"
+#include "core/segment/reasons.h"
 #include "core/segment/write_segmentation.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

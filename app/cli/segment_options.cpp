@@ -13,6 +13,7 @@
 #include "core/files/file_ids.h"
 #include "core/preprocess/segment_class.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 #include "core/volume/volume_file.h"
 
 namespace pellucid::cli {

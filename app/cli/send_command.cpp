@@ -13,6 +13,7 @@
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
 #include "app/cli/reason_lines.h"
+#include "app/cli/reasons.h"
 #include "app/cli/servers.h"
 #include "app/cli/terminal.h"
 #include "core/archive/sending.h"

@@ -18,6 +18,7 @@
 #include "core/exchange/link.h"
 #include "core/task/error.h"
 #include "core/task/naming.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

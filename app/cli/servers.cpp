@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/reason_lines.h"
+#include "app/cli/reasons.h"
 #include "app/cli/terminal.h"
 #include "core/archive/login.h"
 #include "core/task/error.h"

@@ -17,6 +17,7 @@
 #include "core/render/spectrum_slice.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::cli {
 

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "app/cli/reasons.h"
 #include "core/files/descriptor.h"
 #include "core/system/utf8.h"
 #include "core/task/error.h"

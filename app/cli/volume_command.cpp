@@ -13,6 +13,7 @@
 #include "core/classify/shown_fields.h"
 #include "core/preprocess/step_cache.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 #include "core/volume/nrrd.h"
 
 namespace pellucid::cli {

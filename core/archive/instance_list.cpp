@@ -15,7 +15,9 @@
 #include <glm/vec3.hpp>
 
 #include "core/archive/login.h"
+#include "core/archive/reasons.h"
 #include "core/exchange/link.h"
+#include "core/exchange/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {

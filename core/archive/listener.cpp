@@ -15,9 +15,12 @@
 #include <sys/socket.h>
 #include <thread>
 
+#include "core/archive/reasons.h"
+#include "core/exchange/reasons.h"
 #include "core/files/descriptor.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::archive {
 

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "core/archive/pkce.h"
+#include "core/archive/reasons.h"
 #include "core/exchange/link.h"
+#include "core/exchange/reasons.h"
 
 namespace pellucid::archive {
 

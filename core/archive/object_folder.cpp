@@ -5,7 +5,10 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/archive/reasons.h"
 #include "core/decoder/decoder.h"
+#include "core/decoder/reasons.h"
+#include "core/files/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/system/text.h"
 #include "core/task/error.h"

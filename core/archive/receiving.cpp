@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "core/archive/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {

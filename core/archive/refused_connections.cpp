@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/archive/reasons.h"
+
 namespace pellucid::archive {
 
 namespace {
@@ -22,7 +24,7 @@ bool RefusedConnections::isNew(const std::string &address, const task::Reason &r
     if (m_known.contains(address) || m_known.size() < maxKnown) {
         Known &known = m_known[address];
         known.last = now;
-        if (known.reasons.insert(reason.id()).second)
+        if (known.reasons.insert(reason.sentence().name).second)
             return true;
     }
     if (m_count == 0) {

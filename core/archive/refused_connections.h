@@ -28,7 +28,7 @@ public:
 private:
     struct Known {
         Clock::time_point last;
-        std::set<task::Reason::Id> reasons;
+        std::set<std::string_view> reasons; // names
     };
 
     std::mutex m_mutex;

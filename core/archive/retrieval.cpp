@@ -18,9 +18,11 @@
 
 #include "core/archive/listener.h"
 #include "core/archive/login.h"
+#include "core/archive/reasons.h"
 #include "core/archive/retrieval_work.h"
 #include "core/dicom/missing_objects.h"
 #include "core/exchange/link.h"
+#include "core/exchange/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 

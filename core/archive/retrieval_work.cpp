@@ -7,6 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "core/archive/reasons.h"
+#include "core/exchange/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/archive/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/archive/login.h"
+#include "core/archive/reasons.h"
 #include "core/exchange/link.h"
 #include "core/system/utf8.h"
 #include "core/task/error.h"

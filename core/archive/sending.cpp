@@ -11,10 +11,15 @@
 #include <utility>
 
 #include "core/archive/login.h"
+#include "core/archive/reasons.h"
 #include "core/decoder/decoder.h"
+#include "core/decoder/reasons.h"
 #include "core/dicom/file_list.h"
+#include "core/dicom/reasons.h"
 #include "core/exchange/link.h"
+#include "core/exchange/reasons.h"
 #include "core/files/atomic_file.h"
+#include "core/files/reasons.h"
 #include "core/files/session_folder.h"
 #include "core/task/error.h"
 

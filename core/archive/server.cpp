@@ -6,6 +6,7 @@
 #include <charconv>
 #include <fstream>
 
+#include "core/archive/reasons.h"
 #include "core/exchange/login.h"
 #include "core/task/error.h"
 

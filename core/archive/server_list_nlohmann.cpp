@@ -3,12 +3,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/archive/reasons.h"
 #include "core/archive/server.h"
 #include "core/files/atomic_file.h"
 #include "core/files/json_value_nlohmann.h"
 #include "core/files/read_text.h"
 #include "core/files/user_folders.h"
 #include "core/task/naming.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::archive {
 

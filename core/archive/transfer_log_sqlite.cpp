@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include "core/archive/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 

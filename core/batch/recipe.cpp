@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "core/batch/reasons.h"
 #include "core/classify/couch.h"
 #include "core/scene/positioner_angles.h"
+#include "core/scene/reasons.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
 

@@ -7,14 +7,20 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/batch/reasons.h"
 #include "core/batch/recipe.h"
+#include "core/classify/reasons.h"
 #include "core/files/json_lines_nlohmann.h"
 #include "core/files/read_text.h"
+#include "core/files/reasons.h"
 #include "core/presets/preset_library.h"
+#include "core/presets/reasons.h"
+#include "core/scene/reasons.h"
 #include "core/scene/view_list_nlohmann.h"
 #include "core/system/content_digest.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::batch {
 

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "core/batch/reasons.h"
 #include "core/files/atomic_file.h"
 #include "core/task/error.h"
 

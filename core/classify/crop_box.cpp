@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/classify/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::classify {

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/classify/reasons.h"
 #include "core/classify/shown_fields.h"
 #include "core/classify/value_curve.h"
 #include "core/task/error.h"

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "core/classify/reasons.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/classify/look.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::classify {
 

@@ -7,7 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/classify/reasons.h"
 #include "core/files/json_value_nlohmann.h"
+#include "core/files/reasons.h"
 
 namespace pellucid::classify {
 

@@ -7,6 +7,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/classify/reasons.h"
 #include "core/classify/value_curve.h"
 #include "core/task/error.h"
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/classify/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::classify {

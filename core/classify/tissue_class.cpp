@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/gtx/color_space.hpp>
 
+#include "core/classify/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::classify {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/classify/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::classify {

@@ -15,6 +15,7 @@
 #include <dcmtk/dcmjpls/djdecode.h>
 #include <dcmtk/dcmjpls/djencode.h>
 
+#include "core/dcmtk/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/dcmtk/handles_openjpeg.inc"
+#include "core/dcmtk/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::dcmtk {

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <sys/mman.h>
 
+#include "core/decoder/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::decoder {

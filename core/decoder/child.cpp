@@ -11,6 +11,7 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "core/decoder/reasons.h"
 #include "core/helper/protection.h"
 #include "core/system/log.h"
 #include "core/system/memory.h"

@@ -12,8 +12,10 @@
 #include <glm/gtx/component_wise.hpp>
 
 #include "core/decoder/child.h"
+#include "core/decoder/reasons.h"
 #include "core/helper/process.h"
 #include "core/task/naming.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::decoder {
 

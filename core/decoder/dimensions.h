@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/decoder/reasons.h"
 #include "core/task/reason.h"
 
 namespace pellucid::decoder {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/decoder/dimensions.h"
+#include "core/decoder/reasons.h"
 #include "core/decoder/segmentation_file.h"
 
 namespace pellucid::decoder {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtx/component_wise.hpp>
 
+#include "core/decoder/reasons.h"
 #include "core/helper/packing.h"
 #include "core/task/error.h"
 

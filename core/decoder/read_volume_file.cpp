@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "core/decoder/decoder.h"
+#include "core/decoder/reasons.h"
+#include "core/files/reasons.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
 #include "core/volume/narrowing.h"

@@ -16,6 +16,7 @@
 #include "core/decoder/channel.h"
 #include "core/decoder/decoder.h"
 #include "core/decoder/message.h"
+#include "core/decoder/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::decoder {

@@ -14,6 +14,7 @@
 
 #include "core/decoder/decoder.h"
 #include "core/dicom/modality_values.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"

@@ -16,6 +16,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/decoder/instance.h"
+#include "core/dicom/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom {

@@ -5,6 +5,8 @@
 #include <set>
 #include <tuple>
 
+#include "core/decoder/reasons.h"
+#include "core/dicom/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom {

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/dicom/reasons.h"
+
 namespace pellucid::dicom {
 
 namespace because = task::because;

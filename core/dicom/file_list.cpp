@@ -9,10 +9,14 @@
 #include <utility>
 
 #include "core/decoder/decoder.h"
+#include "core/decoder/reasons.h"
 #include "core/decoder/unpack_archive.h"
 #include "core/dicom/missing_objects.h"
+#include "core/dicom/reasons.h"
+#include "core/files/reasons.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 #include "core/volume/volume_file.h"
 
 namespace pellucid::dicom {

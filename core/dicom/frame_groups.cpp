@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/dicom/reasons.h"
+
 namespace pellucid::dicom {
 
 namespace because = task::because;

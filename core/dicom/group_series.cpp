@@ -13,9 +13,11 @@
 #include <glm/geometric.hpp>
 
 #include "core/dicom/copies.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/split_overlapping.h"
 #include "core/dicom/split_repeats.h"
 #include "core/dicom/volume_entries.h"
+#include "core/volume/reasons.h"
 
 namespace pellucid::dicom {
 
@@ -115,12 +117,12 @@ Direction directionOf(const VolumeEntry &entry) {
 void nameStacks(Stacks &stacks) {
     if (stacks.size() < 2)
         return;
-    std::map<task::Reason::Id, int> count, number;
+    std::map<std::string_view, int> count, number;
     for (const auto &stack : stacks)
-        ++count[directionOf(stack.front()).name.id];
+        ++count[directionOf(stack.front()).name.sentence.name];
     for (auto &stack : stacks) {
         const Direction direction = directionOf(stack.front());
-        const task::Reason::Id id = direction.name.id;
+        const std::string_view id = direction.name.sentence.name;
         const task::Reason name =
             count[id] > 1 ? direction.numbered(++number[id]) : task::Reason(direction.name);
         for (VolumeEntry &entry : stack)

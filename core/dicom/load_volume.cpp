@@ -17,8 +17,10 @@
 
 #include "core/decoder/decoder.h"
 #include "core/decoder/read_volume_file.h"
+#include "core/decoder/reasons.h"
 #include "core/dicom/entry_files.h"
 #include "core/dicom/modality_values.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/remaining_stack.h"
 #include "core/dicom/resample_stack.h"
 #include "core/dicom/value_warnings.h"

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "core/dicom/reasons.h"
+
 namespace pellucid::dicom {
 
 namespace {

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "core/decoder/decoder.h"
+#include "core/decoder/reasons.h"
 #include "core/dicom/group_series.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/value_warnings.h"
 
 namespace pellucid::dicom {

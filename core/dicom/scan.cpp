@@ -17,10 +17,12 @@
 
 #include "core/decoder/decoder.h"
 #include "core/decoder/read_volume_file.h"
+#include "core/decoder/reasons.h"
 #include "core/decoder/unpack_archive.h"
 #include "core/dicom/file_list.h"
 #include "core/dicom/group_series.h"
 #include "core/dicom/missing_objects.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/uptake_scale.h"
 #include "core/dicom/value_warnings.h"
 #include "core/system/memory.h"

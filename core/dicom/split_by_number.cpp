@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/dicom/reasons.h"
+
 namespace pellucid::dicom {
 
 namespace because = task::because;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/dicom/place_columns.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/split_by_number.h"
 #include "core/dicom/split_exactly.h"
 

@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/dicom/reasons.h"
 #include "core/dicom/slice_spacing.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::dicom {
 

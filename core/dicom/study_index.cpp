@@ -12,8 +12,10 @@
 #include <tbb/parallel_for.h>
 
 #include "core/decoder/decoder.h"
+#include "core/decoder/reasons.h"
 #include "core/decoder/unpack_archive.h"
 #include "core/dicom/file_list.h"
+#include "core/dicom/reasons.h"
 #include "core/task/error.h"
 #include "core/volume/volume_file.h"
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/dicom/reasons.h"
+
 namespace pellucid::dicom {
 
 namespace {

@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "core/dicom/reasons.h"
+
 namespace pellucid::dicom {
 
 namespace {

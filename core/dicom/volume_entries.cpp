@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/dicom/copies.h"
+#include "core/dicom/reasons.h"
 
 namespace pellucid::dicom {
 

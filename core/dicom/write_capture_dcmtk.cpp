@@ -10,9 +10,11 @@
 #include <fmt/format.h>
 
 #include "core/dcmtk/dictionary.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/write_dataset.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::dicom {
 

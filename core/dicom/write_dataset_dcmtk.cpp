@@ -15,7 +15,9 @@
 
 #include <fmt/format.h>
 
+#include "core/dicom/reasons.h"
 #include "core/files/atomic_file.h"
+#include "core/files/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom {

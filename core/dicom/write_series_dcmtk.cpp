@@ -21,7 +21,9 @@
 
 #include "core/dcmtk/dictionary.h"
 #include "core/dcmtk/encode_jpeg2000.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/write_dataset.h"
+#include "core/files/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom {

@@ -12,6 +12,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "core/error/reasons.h"
 #include "core/error/row_sums.h"
 #include "core/task/error.h"
 

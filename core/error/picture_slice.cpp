@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/fourier/transforms/transform.h"
+#include "core/scene/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::error {

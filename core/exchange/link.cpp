@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/exchange/reasons.h"
 #include "core/helper/packing.h"
 #include "core/helper/protection.h"
 #include "core/system/log.h"

@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 
 #include "core/exchange/query.h"
+#include "core/exchange/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::exchange {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/message.h"
 
+#include "core/exchange/reasons.h"
 #include "core/helper/packet.h"
 #include "core/helper/packing.h"
 

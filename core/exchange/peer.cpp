@@ -8,6 +8,7 @@
 #include <netdb.h>
 #include <netinet/in.h>
 
+#include "core/exchange/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::exchange {

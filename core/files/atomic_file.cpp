@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "core/files/descriptor.h"
+#include "core/files/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::files {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/files/json_lines_nlohmann.h"
 
+#include "core/files/reasons.h"
+
 namespace pellucid::files {
 
 namespace {

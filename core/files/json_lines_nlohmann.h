@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/files/json_value_nlohmann.h"
+#include "core/files/reasons.h"
 
 namespace pellucid::files {
 

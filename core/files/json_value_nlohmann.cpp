@@ -6,6 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/files/reasons.h"
+#include "core/task/reasons.h"
+
 namespace pellucid::files {
 
 namespace because = task::because;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "core/files/descriptor.h"
+#include "core/files/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::files {

@@ -13,6 +13,7 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "core/files/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/files/atomic_file.h"
+#include "core/files/reasons.h"
 #include "core/files/spawn.h"
 #include "core/task/error.h"
 

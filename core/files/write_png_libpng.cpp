@@ -8,6 +8,7 @@
 
 #include "core/files/atomic_file.h"
 #include "core/files/image_files.h"
+#include "core/files/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::files {

@@ -11,6 +11,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "core/fourier/reasons.h"
 #include "core/fourier/transforms/strip_copies.h"
 #include "core/fourier/transforms/strip_transform.h"
 #include "core/fourier/transforms/transform.h"

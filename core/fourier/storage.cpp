@@ -4,6 +4,7 @@
 #include <complex>
 #include <cstdint>
 
+#include "core/fourier/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::fourier {

@@ -7,6 +7,7 @@
 
 #include "core/files/json_value_nlohmann.h"
 #include "core/measure/measurement.h"
+#include "core/measure/reasons.h"
 
 namespace pellucid::measure {
 

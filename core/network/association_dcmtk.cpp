@@ -19,8 +19,10 @@
 #include <dcmtk/dcmnet/diutil.h>
 #include <dcmtk/dcmtls/tlslayer.h>
 
+#include "core/exchange/reasons.h"
 #include "core/network/confine.h"
 #include "core/network/connect.h"
+#include "core/network/reasons.h"
 
 namespace pellucid::network {
 

@@ -13,7 +13,9 @@
 #include <unistd.h>
 #include <utility>
 
+#include "core/exchange/reasons.h"
 #include "core/network/association.h"
+#include "core/network/reasons.h"
 
 namespace {
 

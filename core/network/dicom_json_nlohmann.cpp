@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/network/dicom_json.h"
+#include "core/network/reasons.h"
 #include "core/parse/attributes.h"
 #include "core/system/utf8.h"
 #include "core/task/error.h"

@@ -14,8 +14,10 @@
 #include <dcmtk/dcmnet/dimse.h>
 
 #include "core/decoder/channel.h"
+#include "core/exchange/reasons.h"
 #include "core/network/dimse_dcmtk.h"
 #include "core/network/file_start.h"
+#include "core/network/reasons.h"
 #include "core/network/statuses.h"
 #include "core/parse/attributes.h"
 

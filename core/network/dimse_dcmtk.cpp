@@ -11,6 +11,7 @@
 #include <dcmtk/dcmnet/assoc.h>
 #include <dcmtk/dcmnet/dimse.h>
 
+#include "core/network/reasons.h"
 #include "core/parse/attributes.h"
 
 namespace pellucid::network {

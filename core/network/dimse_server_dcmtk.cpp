@@ -7,6 +7,7 @@
 
 #include "core/network/dimse.h"
 #include "core/network/dimse_dcmtk.h"
+#include "core/network/reasons.h"
 
 namespace pellucid::network {
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 
+#include "core/decoder/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::network {

@@ -17,9 +17,11 @@
 
 #include <curl/curl.h>
 
+#include "core/exchange/reasons.h"
 #include "core/network/authorities.h"
 #include "core/network/confine.h"
 #include "core/network/connect.h"
+#include "core/network/reasons.h"
 #include "core/network/tls_profile.h"
 #include "core/network/tls_reasons.h"
 

@@ -3,7 +3,9 @@
 
 #include <span>
 
+#include "core/exchange/reasons.h"
 #include "core/network/login_json.h"
+#include "core/network/reasons.h"
 
 namespace pellucid::network {
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/network/login_json.h"
+#include "core/network/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::network {

@@ -15,6 +15,7 @@
 #include "core/network/confine.h"
 #include "core/network/connection_owner.h"
 #include "core/network/login_json.h"
+#include "core/network/reasons.h"
 
 namespace pellucid::network {
 

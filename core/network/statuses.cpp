@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "core/exchange/reasons.h"
+#include "core/network/reasons.h"
+
 namespace pellucid::network {
 
 namespace {

@@ -5,6 +5,8 @@
 #include <array>
 #include <string_view>
 
+#include "core/network/reasons.h"
+
 namespace pellucid::network {
 
 namespace {

@@ -21,8 +21,10 @@
 #include <dcmtk/dcmtls/tlslayer.h>
 #include <dcmtk/dcmtls/tlstrans.h>
 
+#include "core/exchange/reasons.h"
 #include "core/network/authorities.h"
 #include "core/network/control.h"
+#include "core/network/reasons.h"
 #include "core/network/tls_profile.h"
 #include "core/network/tls_reasons.h"
 #include "core/task/error.h"

@@ -12,9 +12,11 @@
 #include <fmt/format.h>
 
 #include "core/decoder/channel.h"
+#include "core/exchange/reasons.h"
 #include "core/network/dicom_json.h"
 #include "core/network/file_start.h"
 #include "core/network/multipart.h"
+#include "core/network/reasons.h"
 #include "core/network/statuses.h"
 #include "core/system/utf8.h"
 

@@ -4,6 +4,8 @@
 #include <exception>
 #include <new>
 
+#include "core/decoder/reasons.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decoder/reasons.h"
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
 #include "core/parse/decode_jpeg2000.h"
@@ -20,6 +21,7 @@
 #include "core/parse/load_file.h"
 #include "core/parse/mosaic.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {

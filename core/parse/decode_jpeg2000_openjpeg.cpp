@@ -6,6 +6,7 @@
 
 #include "core/dcmtk/handles_openjpeg.inc"
 #include "core/parse/frame_check.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {

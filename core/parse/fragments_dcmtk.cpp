@@ -12,6 +12,7 @@
 #include <dcmtk/dcmdata/dcpxitem.h>
 #include <dcmtk/dcmdata/dctk.h>
 
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {

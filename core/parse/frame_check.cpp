@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {

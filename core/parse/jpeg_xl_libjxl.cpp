@@ -8,6 +8,7 @@
 #include <jxl/decode.h>
 
 #include "core/parse/frame_check.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {

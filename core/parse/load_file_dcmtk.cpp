@@ -12,9 +12,12 @@
 
 #include "core/dcmtk/dictionary.h"
 #include "core/decoder/decoder.h"
+#include "core/decoder/reasons.h"
 #include "core/parse/memory_input.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::parse {
 

@@ -11,6 +11,7 @@
 #include <dcmtk/dcmdata/dcistrma.h>
 #include <dcmtk/dcmdata/dctk.h>
 
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {

@@ -8,6 +8,7 @@
 #include "core/parse/dataset.h"
 #include "core/parse/memory_input.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {

@@ -16,7 +16,9 @@
 #include "core/parse/mend_numbers.h"
 #include "core/parse/mosaic.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::parse {
 

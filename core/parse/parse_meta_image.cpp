@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/decoder/instance.h"
+#include "core/decoder/reasons.h"
+#include "core/parse/reasons.h"
 #include "core/parse/volume_formats.h"
 #include "core/system/text.h"
 #include "core/task/error.h"

@@ -11,6 +11,9 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/decoder/instance.h"
+#include "core/decoder/reasons.h"
+#include "core/files/reasons.h"
+#include "core/parse/reasons.h"
 #include "core/parse/volume_formats.h"
 #include "core/task/error.h"
 

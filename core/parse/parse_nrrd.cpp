@@ -15,7 +15,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/decoder/reasons.h"
+#include "core/files/reasons.h"
 #include "core/parse/attributes.h"
+#include "core/parse/reasons.h"
 #include "core/parse/volume_formats.h"
 #include "core/system/text.h"
 #include "core/task/error.h"

@@ -9,11 +9,13 @@
 #include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmiod/cielabutil.h>
 
+#include "core/decoder/reasons.h"
 #include "core/parse/attributes.h"
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
 #include "core/parse/decode_pixels.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
 
 // DCMTK's own reader of segmentations, dcmseg, accepts no label maps and no segment numbers with

@@ -12,11 +12,14 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/decoder/reasons.h"
 #include "core/parse/attributes.h"
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::parse {
 

@@ -7,6 +7,7 @@
 
 #include "core/decoder/instance.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/parse/volume_formats.h"
 #include "core/task/error.h"
 

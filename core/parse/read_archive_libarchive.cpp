@@ -11,6 +11,7 @@
 
 #include "core/decoder/message.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {

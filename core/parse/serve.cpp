@@ -12,8 +12,10 @@
 #include "core/decoder/channel.h"
 #include "core/decoder/child.h"
 #include "core/decoder/decoder.h"
+#include "core/decoder/reasons.h"
 #include "core/parse/damage.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/parse/watch.h"
 #include "core/task/error.h"
 

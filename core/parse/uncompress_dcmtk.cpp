@@ -9,7 +9,9 @@
 #include "core/parse/decode_pixels.h"
 #include "core/parse/load_file.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::parse {
 

@@ -7,7 +7,10 @@
 
 #include <zlib.h>
 
+#include "core/decoder/reasons.h"
+#include "core/files/reasons.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/parse/volume_formats.h"
 #include "core/task/error.h"
 

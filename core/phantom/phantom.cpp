@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/phantom/anatomy.h"
+#include "core/phantom/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::phantom {

@@ -13,6 +13,7 @@
 
 #include "core/plan/cost_model.h"
 #include "core/plan/kernel_candidates.h"
+#include "core/plan/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::plan {

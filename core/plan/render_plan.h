@@ -9,6 +9,7 @@
 #include "core/field/summary.h"
 #include "core/fourier/spectrum.h"
 #include "core/plan/error_prediction.h"
+#include "core/plan/reasons.h"
 #include "core/plan/slice_grid.h"
 #include "core/scene/scene.h"
 #include "core/task/reason.h"

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/fourier/transforms/padded_size.h"
+#include "core/plan/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::plan {

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/classify/coarse_field.h"
+#include "core/prepare/reasons.h"
 #include "core/render/frame_job.h"
 #include "core/scene/planning_scene.h"
 #include "core/task/error.h"

@@ -7,6 +7,8 @@
 
 #include "core/classify/coarse_field.h"
 #include "core/plan/folded_tails.h"
+#include "core/plan/reasons.h"
+#include "core/prepare/reasons.h"
 #include "core/reference/exact_engine.h"
 #include "core/scene/planning_scene.h"
 #include "core/task/error.h"

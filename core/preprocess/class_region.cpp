@@ -5,6 +5,7 @@
 
 #include "core/preprocess/belonging.h"
 #include "core/preprocess/coverage_where.inc"
+#include "core/preprocess/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::preprocess {

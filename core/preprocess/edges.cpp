@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/preprocess/filters.h"
+#include "core/preprocess/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::preprocess {

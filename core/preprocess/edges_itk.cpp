@@ -12,6 +12,7 @@
 #include <itkZeroCrossingImageFilter.h>
 
 #include "core/preprocess/itk_images_itk.inc"
+#include "core/preprocess/reasons.h"
 
 namespace pellucid::preprocess {
 

@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <tbb/parallel_for.h>
 
+#include "core/preprocess/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::preprocess {

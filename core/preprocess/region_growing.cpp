@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/preprocess/morphology.h"
+#include "core/preprocess/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::preprocess {

@@ -13,8 +13,10 @@
 
 #include <fmt/format.h>
 
+#include "core/classify/reasons.h"
 #include "core/preprocess/class_region.h"
 #include "core/preprocess/coverage_where.inc"
+#include "core/preprocess/reasons.h"
 #include "core/preprocess/step_result.h"
 #include "core/segment/coverages.h"
 #include "core/system/content_digest.h"

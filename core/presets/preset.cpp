@@ -8,6 +8,7 @@
 #include "core/classify/region_edits.h"
 #include "core/files/atomic_file.h"
 #include "core/files/read_text.h"
+#include "core/presets/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::presets {

@@ -4,8 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/classify/look_json.h"
+#include "core/classify/reasons.h"
 #include "core/files/json_lines_nlohmann.h"
+#include "core/files/reasons.h"
 #include "core/presets/preset.h"
+#include "core/presets/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::presets {

@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "core/files/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/presets/built_in.h"
+#include "core/presets/reasons.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
 

@@ -13,6 +13,8 @@
 
 #include "core/files/json_value_nlohmann.h"
 #include "core/files/read_text.h"
+#include "core/files/reasons.h"
+#include "core/presets/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::presets {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 
+#include "core/files/reasons.h"
 #include "core/presets/preset.h"
 #include "core/task/error.h"
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "core/reference/reasons.h"
 #include "core/reference/shaded_field.h"
 
 namespace pellucid::reference {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
+#include "core/reference/reasons.h"
 #include "core/reference/wide_kernel.h"
 #include "core/shading/gradient_magnitude.h"
 #include "core/task/error.h"

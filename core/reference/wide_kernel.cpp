@@ -9,6 +9,7 @@
 
 #include "core/fourier/transforms/padded_size.h"
 #include "core/fourier/transforms/transform.h"
+#include "core/reference/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::reference {

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/render/frame_inputs.h"
+#include "core/render/reasons.h"
+#include "core/scene/reasons.h"
 #include "core/system/page_memory.h"
 #include "core/task/error.h"
 #include "core/task/worker_team.h"

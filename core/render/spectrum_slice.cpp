@@ -9,6 +9,8 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
+#include "core/render/reasons.h"
+#include "core/scene/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::render {

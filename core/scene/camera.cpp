@@ -10,6 +10,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "core/scene/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::scene {

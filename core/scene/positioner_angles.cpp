@@ -12,6 +12,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "core/scene/camera.h"
+#include "core/scene/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::scene {

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/scene/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::scene {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/scene/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::scene {

@@ -4,7 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/classify/look_json.h"
+#include "core/classify/reasons.h"
 #include "core/files/json_value_nlohmann.h"
+#include "core/files/reasons.h"
+#include "core/scene/reasons.h"
 #include "core/scene/scene.h"
 #include "core/task/error.h"
 

@@ -4,6 +4,7 @@
 
 #include "core/files/json_lines_nlohmann.h"
 #include "core/scene/positioner_angles.h"
+#include "core/scene/reasons.h"
 #include "core/scene/view_list_nlohmann.h"
 
 namespace pellucid::scene {

@@ -14,6 +14,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/segment/reasons.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
 

@@ -13,7 +13,9 @@
 
 #include "core/decoder/decoder.h"
 #include "core/decoder/read_volume_file.h"
+#include "core/decoder/reasons.h"
 #include "core/segment/contour_masks.h"
+#include "core/segment/reasons.h"
 #include "core/segment/stored_masks.h"
 #include "core/system/text.h"
 #include "core/task/naming.h"

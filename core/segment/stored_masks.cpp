@@ -15,6 +15,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/segment/mask_stack.h"
+#include "core/segment/reasons.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
 

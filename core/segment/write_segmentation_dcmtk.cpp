@@ -19,10 +19,13 @@
 #include <fmt/format.h>
 
 #include "core/dcmtk/dictionary.h"
+#include "core/decoder/reasons.h"
 #include "core/dicom/write_dataset.h"
+#include "core/segment/reasons.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
+#include "core/volume/reasons.h"
 
 namespace pellucid::segment {
 

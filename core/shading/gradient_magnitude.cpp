@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 #include <tbb/parallel_for.h>
 
+#include "core/shading/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::shading {

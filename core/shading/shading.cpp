@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/shading/reasons.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
 

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/classify/tissue_class.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::shading {
 

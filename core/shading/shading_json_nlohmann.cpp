@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
+#include "core/classify/reasons.h"
 #include "core/files/json_value_nlohmann.h"
+#include "core/files/reasons.h"
+#include "core/shading/reasons.h"
 #include "core/shading/shading.h"
 
 namespace pellucid::shading {

@@ -14,6 +14,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/mpr/linear_samples.h"
+#include "core/subtraction/reasons.h"
 #include "core/task/error.h"
 #include "core/volume/statistics.h"
 

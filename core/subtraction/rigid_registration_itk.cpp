@@ -15,7 +15,9 @@
 #include <tbb/global_control.h>
 
 #include "core/subtraction/difference.h"
+#include "core/subtraction/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 #include "core/volume/statistics.h"
 
 namespace pellucid::subtraction {

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/system/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::system {

@@ -9,6 +9,7 @@
 #define PELLUCID_LARGE_PAGES
 #include <sys/mman.h>
 #endif
+#include "core/system/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::system {

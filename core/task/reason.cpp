@@ -7,24 +7,16 @@
 #include <cstring>
 #include <iterator>
 
+#include "core/task/reasons.h"
+
 namespace pellucid::task {
 
 namespace {
 
-struct Sentence {
-    std::string_view name, english;
-};
 // Not std::array, whose size Clang cannot deduce from so many.
 constexpr Sentence sentences[]{
-#define PELLUCID_REASON(name, english) Sentence{#name, english},
-#include "core/task/reasons.inc"
-#undef PELLUCID_REASON
+#include "core/task/sentences.inc" // the build collects it
 };
-static_assert(std::size(sentences) == std::size_t(Reason::Id::count));
-
-const Sentence &sentenceOf(Reason::Id id) {
-    return sentences[std::size_t(id)];
-}
 
 std::string english(const Argument &argument) {
     std::string all = argument.text;
@@ -35,19 +27,19 @@ std::string english(const Argument &argument) {
 
 } // namespace
 
-std::string_view englishTemplate(Reason::Id id) {
-    return sentenceOf(id).english;
+std::span<const Sentence> allSentences() {
+    return sentences;
 }
 
-Reason::Reason(Id id, std::vector<Argument> arguments)
-    : m_id(id), m_arguments(std::move(arguments)) {}
+Reason::Reason(Sentence sentence, std::vector<Argument> arguments)
+    : m_sentence(sentence), m_arguments(std::move(arguments)) {}
 
 bool operator==(const Reason &a, const Reason &b) {
-    return a.m_id == b.m_id && a.m_arguments == b.m_arguments;
+    return a.m_sentence.name == b.m_sentence.name && a.m_arguments == b.m_arguments;
 }
 
 std::string Reason::english() const {
-    const std::string_view form = englishTemplate(m_id);
+    const std::string_view form = m_sentence.english;
     std::string filled;
     for (std::size_t n = 0; n < form.size(); ++n) {
         const std::size_t place =
@@ -64,7 +56,7 @@ std::string Reason::english() const {
 
 // The format: name, then for each argument t<bytes>:text or r<count>:reasons, then a semicolon.
 std::string Reason::encoded() const {
-    std::string out(sentenceOf(m_id).name);
+    std::string out(m_sentence.name);
     for (const Argument &a : m_arguments) {
         if (a.reasons.empty()) {
             out += " t" + std::to_string(a.text.size()) + ":" + a.text;
@@ -101,7 +93,7 @@ public:
         }
         if (!take(";"))
             return std::nullopt;
-        return Reason(Reason::Id(known - std::begin(sentences)), std::move(arguments));
+        return Reason(*known, std::move(arguments));
     }
     bool isAtEnd() const { return m_rest.empty(); }
 

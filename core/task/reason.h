@@ -2,8 +2,8 @@
 #pragma once
 
 #include <concepts>
-#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -14,28 +14,27 @@ namespace pellucid::task {
 template <int Places> struct Because;
 struct Argument;
 
-/// Why something failed or was left out, or a warning: a sentence of reasons.inc and its arguments.
-/// Code compares Ids, never texts; the window translates by Id.
+/// A kind of reason: the name by which code and other processes know it, and what a reader sees in
+/// English, with placeholders %1 to %9. Both live as long as the program.
+struct Sentence {
+    std::string_view name, english;
+};
+
+/// Every sentence of the program, from the `reasons.h` of all rooms.
+std::span<const Sentence> allSentences();
+
+/// Why something failed or was left out, or a warning: a sentence of a room's `reasons.h`, and its
+/// arguments. Code compares names, never texts; the window translates the English text of the
+/// sentence.
 class Reason {
 public:
-    enum class Id : std::uint16_t {
-#define PELLUCID_REASON(name, english) name,
-#include "core/task/reasons.inc"
-#undef PELLUCID_REASON
-        count
-    };
-
     // NOLINTNEXTLINE(google-explicit-constructor): a reason without arguments is complete.
     Reason(Because<0> because);
 
-    Id id() const {
-        return m_id;
-    }
-    const std::vector<Argument> &arguments() const {
-        return m_arguments;
-    }
+    const Sentence &sentence() const { return m_sentence; }
+    const std::vector<Argument> &arguments() const { return m_arguments; }
     template <int Places> bool is(Because<Places> because) const {
-        return m_id == because.id;
+        return m_sentence.name == because.sentence.name;
     }
     /// The complete sentence. Reasons within it are separated by semicolons.
     std::string english() const;
@@ -48,14 +47,11 @@ public:
 private:
     template <int Places> friend struct Because;
     friend class ReasonReader;
-    Reason(Id id, std::vector<Argument> arguments);
+    Reason(Sentence sentence, std::vector<Argument> arguments);
 
-    Id m_id;
+    Sentence m_sentence;
     std::vector<Argument> m_arguments;
 };
-
-/// The English sentence, with placeholders %1 to %9.
-std::string_view englishTemplate(Reason::Id id);
 
 /// The argument for a placeholder: a text that is the same in every language, or reasons. The
 /// caller rounds numbers that are not integers.
@@ -79,13 +75,14 @@ struct Argument {
     friend bool operator==(const Argument &, const Argument &) = default;
 };
 
-/// A sentence of reasons.inc without its arguments. *Shape*: one argument per placeholder.
+/// A sentence without its arguments: `because::gapBetween(mm, a, b)`. *Shape*: one argument per
+/// placeholder.
 template <int Places> struct Because {
-    Reason::Id id;
+    Sentence sentence;
 
     template <class... A>
     requires(sizeof...(A) == Places && Places > 0) Reason operator()(A &&...arguments) const {
-        return Reason(id, {Argument(std::forward<A>(arguments))...});
+        return Reason(sentence, {Argument(std::forward<A>(arguments))...});
     }
 };
 
@@ -97,15 +94,13 @@ constexpr int placesIn(std::string_view english) {
     return places;
 }
 
-/// One for each sentence: `because::isEmpty`, `because::gapBetween(mm, a, b)`.
-namespace because {
+/// Declares a sentence of a room in its `reasons.h`, on one line: the build and `./dev
+/// translations` collect them.
 #define PELLUCID_REASON(name, english)                                                             \
-    inline constexpr Because<placesIn(english)> name{Reason::Id::name}; // NOLINT: a name
-#include "core/task/reasons.inc"
-#undef PELLUCID_REASON
-} // namespace because
+    inline constexpr ::pellucid::task::Because<::pellucid::task::placesIn(english)> name{          \
+        {#name, english}}; // NOLINT: a name
 
-inline Reason::Reason(Because<0> because) : m_id(because.id) {}
+inline Reason::Reason(Because<0> because) : m_sentence(because.sentence) {}
 
 /// The system's text for an `errno`.
 Reason systemReason(int error);

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/task/error.h"
+#include "core/volume/reasons.h"
 
 namespace pellucid::volume {
 

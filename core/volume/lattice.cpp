@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/task/error.h"
+#include "core/volume/reasons.h"
 
 namespace pellucid::volume {
 

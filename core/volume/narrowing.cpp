@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/task/error.h"
+#include "core/volume/reasons.h"
 
 namespace pellucid::volume {
 

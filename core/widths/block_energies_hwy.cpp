@@ -13,6 +13,7 @@
 
 #include "core/task/error.h"
 #include "core/widths/block_energies.h"
+#include "core/widths/reasons.h"
 
 // The compiler is told not to fuse multiplications and additions in this file: every instruction
 // set computes the same energies and draws the same lines.

@@ -10,10 +10,10 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
 # lupdate knows the macros of Qt only.
-cat core/task/reasons*.inc | grep '^ *PELLUCID_REASON(' >"$scratch/reasons"
+grep -rh --include=reasons.h '^ *PELLUCID_REASON(' app core gpu ui >"$scratch/reasons"
 sed -n 's/^PELLUCID_REASON([A-Za-z0-9]*, \(".*"\))$/QT_TRANSLATE_NOOP("Reasons", \1);/p' "$scratch/reasons" >"$scratch/reasons.cpp"
 if (($(wc -l <"$scratch/reasons.cpp") != $(wc -l <"$scratch/reasons"))); then
-    echo 'core/task/reasons*.inc: each reason takes one line: PELLUCID_REASON(name, "English")' >&2
+    echo 'reasons.h: each reason takes one line: PELLUCID_REASON(name, "English")' >&2
     exit 1
 fi
 

@@ -11,7 +11,7 @@ cp resources/translations/*.ts "$scratch"
 resources/translations/update.sh "$scratch" -silent 2>"$scratch/output" || { cat "$scratch/output"; exit 1; }
 failed=0
 if grep -rn 'because::inWords' core gpu ui | grep -v '^ui/language/kept_reasons\.cpp:'; then
-    echo 'these reasons are plain English, which cannot be translated: use a reason of core/task/reasons.inc'
+    echo 'these reasons are plain English, which cannot be translated: add a sentence to the reasons.h of the room'
     failed=1
 fi
 for file in "$scratch"/*.ts; do

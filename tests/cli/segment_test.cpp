@@ -17,6 +17,7 @@
 #include "core/preprocess/step_cache.h"
 #include "core/reference/wide_kernel.h"
 #include "core/scene/scene.h"
+#include "core/segment/reasons.h"
 #include "core/segment/segment_set.h"
 #include "core/subtraction/difference.h"
 #include "core/volume/nrrd.h"

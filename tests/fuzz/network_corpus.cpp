@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/exchange/message.h"
+#include "core/exchange/reasons.h"
 #include "core/helper/packing.h"
 #include "core/task/reason.h"
 #include "tests/support/dicom_writer.h"

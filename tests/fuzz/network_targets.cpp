@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/exchange/message.h"
+#include "core/exchange/reasons.h"
 #include "core/files/descriptor.h"
 #include "core/helper/packet.h"
 #include "core/helper/packing.h"

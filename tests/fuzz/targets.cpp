@@ -13,6 +13,7 @@
 
 #include "core/batch/recipe.h"
 #include "core/decoder/message.h"
+#include "core/decoder/reasons.h"
 #include "core/dicom/group_series.h"
 #include "core/fourier/spectrum.h"
 #include "core/fourier/transforms/wisdom.h"

@@ -3,9 +3,11 @@
 
 #include <epoxy/gl.h>
 
+#include "core/scene/reasons.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
 #include "gpu/device.h"
+#include "gpu/reasons.h"
 #include "gpu/surfaceless_context.h"
 #include "tests/support/fragile_context.h"
 

@@ -28,9 +28,12 @@
 
 #include "core/archive/login.h"
 #include "core/archive/pkce.h"
+#include "core/archive/reasons.h"
 #include "core/archive/retrieval.h"
 #include "core/archive/search.h"
 #include "core/archive/sending.h"
+#include "core/exchange/reasons.h"
+#include "core/network/reasons.h"
 #include "core/task/error.h"
 #include "tests/network/login_server.h"
 #include "tests/network/pacs.h"

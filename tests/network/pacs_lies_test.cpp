@@ -17,9 +17,13 @@
 #include <fmt/format.h>
 
 #include "core/archive/instance_list.h"
+#include "core/archive/reasons.h"
 #include "core/archive/retrieval.h"
 #include "core/archive/search.h"
 #include "core/archive/server.h"
+#include "core/exchange/reasons.h"
+#include "core/files/reasons.h"
+#include "core/network/reasons.h"
 #include "core/task/error.h"
 #include "tests/network/http_server.h"
 #include "tests/network/lying_server.h"

@@ -24,9 +24,11 @@
 #include <vector>
 
 #include "core/archive/listener.h"
+#include "core/archive/reasons.h"
 #include "core/archive/receiving.h"
 #include "core/archive/sending.h"
 #include "core/exchange/link.h"
+#include "core/exchange/reasons.h"
 #include "core/task/error.h"
 #include "tests/network/pacs.h"
 #include "tests/network/processes.h"

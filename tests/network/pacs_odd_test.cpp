@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/archive/reasons.h"
 #include "core/archive/retrieval.h"
 #include "core/archive/search.h"
 #include "core/archive/sending.h"

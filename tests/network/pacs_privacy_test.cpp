@@ -14,6 +14,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include "app/cli/reasons.h"
 #include "core/archive/listener.h"
 #include "core/archive/receiving.h"
 #include "core/archive/run_transfer.h"
@@ -21,6 +22,7 @@
 #include "core/archive/sending.h"
 #include "core/archive/server.h"
 #include "core/archive/transfer_log.h"
+#include "core/exchange/reasons.h"
 #include "core/system/log.h"
 #include "tests/network/http_server.h"
 #include "tests/network/pacs.h"

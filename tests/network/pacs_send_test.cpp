@@ -8,10 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/archive/reasons.h"
 #include "core/archive/sending.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/write_capture.h"
+#include "core/exchange/reasons.h"
 #include "core/task/error.h"
 #include "tests/network/pacs.h"
 #include "tests/network/scripted_server.h"

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/archive/listener.h"
+#include "core/archive/reasons.h"
 #include "core/archive/receiving.h"
 #include "core/archive/retrieval.h"
 #include "core/archive/run_transfer.h"
@@ -23,6 +24,8 @@
 #include "core/archive/transfer_log.h"
 #include "core/dicom/arriving_series.h"
 #include "core/dicom/load_volume.h"
+#include "core/exchange/reasons.h"
+#include "core/network/reasons.h"
 #include "core/task/error.h"
 #include "tests/network/lying_server.h"
 #include "tests/network/pacs.h"

@@ -21,6 +21,7 @@
 #include "core/parse/serve.h"
 #include "core/parse/watch.h"
 #include "core/task/reason.h"
+#include "core/task/reasons.h"
 
 namespace {
 

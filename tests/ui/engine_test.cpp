@@ -13,9 +13,11 @@
 
 #include "app/exit_code.h"
 #include "core/picture/compose.h"
+#include "gpu/reasons.h"
 #include "tests/support/fields.h"
 #include "tests/support/fragile_context.h"
 #include "ui/engine/gl_probe.h"
+#include "ui/engine/reasons.h"
 #include "ui/export/scene_files.h"
 #include "ui/views/projection_canvas.h"
 

@@ -19,21 +19,15 @@ using namespace ui;
 
 namespace {
 
-constexpr std::array names{
-#define PELLUCID_REASON(name, english) #name,
-#include "core/task/reasons.inc"
-#undef PELLUCID_REASON
-};
-
 // A value for a place of a reason; no sentence contains such a number itself.
 std::string argument(int place) {
     return "700" + std::to_string(place);
 }
 
 // The reason with all places filled.
-task::Reason reasonOf(task::Reason::Id id) {
-    std::string text = names.at(std::size_t(id));
-    for (int n = 1; n <= task::placesIn(task::englishTemplate(id)); ++n)
+task::Reason reasonOf(const task::Sentence &sentence) {
+    std::string text(sentence.name);
+    for (int n = 1; n <= task::placesIn(sentence.english); ++n)
         text += " t" + std::to_string(argument(n).size()) + ":" + argument(n);
     return task::Reason::decoded(text + ";").value();
 }
@@ -67,19 +61,19 @@ private slots:
     void everyReasonHasAChineseText() {
         const Chinese chinese;
         QVERIFY(chinese.isThere());
-        for (int n = 0; n < int(task::Reason::Id::count); ++n) {
-            const auto id = task::Reason::Id(n);
-            // A sentence of the command line or of an older version is not translated. Units are
+        for (const task::Sentence &sentence : task::allSentences()) {
+            // A sentence of the command line is not translated. Units are
             // the same in all languages.
-            const std::array same{because::inWords.id, because::attributeIs.id,
-                                  because::percentOfCycle.id, because::tubeVoltage.id,
-                                  because::milliseconds.id};
-            const bool isSameInAll = std::find(same.begin(), same.end(), id) != same.end();
-            const task::Reason reason = reasonOf(id);
+            const std::array same{because::inWords.sentence, because::attributeIs.sentence,
+                                  because::percentOfCycle.sentence, because::tubeVoltage.sentence,
+                                  because::milliseconds.sentence};
+            const bool isSameInAll = std::any_of(
+                same.begin(), same.end(), [&](const auto &s) { return s.name == sentence.name; });
+            const task::Reason reason = reasonOf(sentence);
             const QString english = QString::fromStdString(reason.english()),
                           text = translated(reason);
             QVERIFY2((text == english) == isSameInAll, qPrintable(english));
-            for (int place = 1; place <= task::placesIn(task::englishTemplate(id)); ++place) {
+            for (int place = 1; place <= task::placesIn(sentence.english); ++place) {
                 const QString filled = QString::fromStdString(argument(place));
                 QVERIFY2(text.count(filled) == english.count(filled), qPrintable(text));
             }

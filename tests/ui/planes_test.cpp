@@ -12,6 +12,7 @@
 
 #include "core/volume/statistics.h"
 #include "ui/document/measurement_store.h"
+#include "ui/document/reasons.h"
 #include "ui/views/cine.h"
 #include "ui/views/mpr_view.h"
 

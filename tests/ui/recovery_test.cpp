@@ -15,11 +15,14 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/files/session_folder.h"
+#include "core/task/reasons.h"
 #include "tests/support/files.h"
 #include "tests/support/read_only_folder.h"
 #include "tests/ui/workstation_process.h"
 #include "ui/document/commands.h"
+#include "ui/opening/reasons.h"
 #include "ui/opening/session.h"
+#include "ui/studies/reasons.h"
 #include "ui/window/file_menu.h"
 #include "ui/window/reopening.h"
 

@@ -14,6 +14,8 @@
 
 #include <fmt/format.h>
 
+#include "core/decoder/reasons.h"
+#include "core/segment/reasons.h"
 #include "core/segment/write_segmentation.h"
 #include "core/volume/nrrd.h"
 #include "ui/panels/class_group.h"

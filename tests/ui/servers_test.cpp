@@ -18,7 +18,9 @@
 #include <QTabWidget>
 #include <QTreeWidget>
 
+#include "core/archive/reasons.h"
 #include "core/archive/sending.h"
+#include "core/exchange/reasons.h"
 #include "ui/beside/study_beside.h"
 #include "ui/panels/study_panel.h"
 #include "ui/servers/open_request.h"

@@ -24,6 +24,7 @@
 #include <QToolTip>
 #include <QTreeWidget>
 
+#include "core/archive/reasons.h"
 #include "core/presets/preset_library.h"
 #include "core/segment/write_segmentation.h"
 #include "tests/support/dicom_writer.h"

@@ -17,6 +17,7 @@
 #include "core/helper/confinement.h"
 #include "core/helper/protection.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 #include "tests/support/little_memory.h"
 #include "ui/document/commands.h"
 #include "ui/window/workstation.h"

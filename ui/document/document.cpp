@@ -10,6 +10,7 @@
 
 #include "core/files/file_ids.h"
 #include "core/task/error.h"
+#include "ui/document/reasons.h"
 
 namespace pellucid::ui {
 

@@ -10,6 +10,7 @@
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 #include "ui/document/document.h"
+#include "ui/document/reasons.h"
 
 namespace pellucid::ui {
 

@@ -7,6 +7,7 @@
 
 #include "ui/document/document.h"
 #include "ui/engine/graphics_card.h"
+#include "ui/engine/reasons.h"
 #include "ui/jobs/job_runner.h"
 
 namespace pellucid::ui {

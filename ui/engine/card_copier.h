@@ -8,6 +8,7 @@
 #include <QObject>
 
 #include "ui/engine/look_preparer.h"
+#include "ui/engine/reasons.h"
 #include "ui/engine/shown_engine.h"
 
 namespace pellucid::ui {

@@ -8,6 +8,7 @@
 
 #include "core/task/reason.h"
 #include "gpu/frame_passes.h"
+#include "ui/engine/reasons.h"
 
 namespace pellucid::ui {
 

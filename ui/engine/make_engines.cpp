@@ -9,6 +9,7 @@
 #include "core/classify/shown_fields.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
+#include "ui/engine/reasons.h"
 
 namespace pellucid::ui {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/task/error.h"
+#include "ui/engine/reasons.h"
 #include "ui/language/failure.h"
 
 namespace pellucid::ui {

@@ -21,6 +21,7 @@
 #include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/export/capture_labels.h"
+#include "ui/export/reasons.h"
 #include "ui/export/recipe_file.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/jobs/job_strip.h"

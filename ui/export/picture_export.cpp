@@ -10,10 +10,12 @@
 #include <QPainter>
 #include <QPicture>
 
+#include "core/batch/reasons.h"
 #include "core/dicom/write_capture.h"
 #include "core/files/atomic_file.h"
 #include "core/files/file_set.h"
 #include "core/files/image_files.h"
+#include "core/files/reasons.h"
 #include "core/files/video_file.h"
 #include "core/picture/compose.h"
 #include "core/picture/projection_volume.h"
@@ -21,7 +23,9 @@
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 #include "ui/document/document.h"
+#include "ui/document/reasons.h"
 #include "ui/export/capture_labels.h"
+#include "ui/export/reasons.h"
 #include "ui/export/scene_files.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"

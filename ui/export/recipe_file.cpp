@@ -5,6 +5,7 @@
 #include "core/files/atomic_file.h"
 #include "core/task/error.h"
 #include "ui/document/document.h"
+#include "ui/export/reasons.h"
 #include "ui/views/projection_view.h"
 
 namespace pellucid::ui {

@@ -6,6 +6,7 @@
 
 #include "core/files/atomic_file.h"
 #include "core/files/read_text.h"
+#include "core/files/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::ui {

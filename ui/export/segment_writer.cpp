@@ -8,6 +8,7 @@
 
 #include "core/preprocess/segment_class.h"
 #include "core/preprocess/step_cache.h"
+#include "core/segment/reasons.h"
 #include "core/segment/write_segmentation.h"
 #include "core/system/text.h"
 #include "core/task/error.h"

@@ -7,6 +7,7 @@
 
 #include <QScopedValueRollback>
 
+#include "core/task/reasons.h"
 #include "ui/language/failure.h"
 
 namespace pellucid::ui {

@@ -5,6 +5,7 @@
 
 #include "core/system/log.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::ui {
 

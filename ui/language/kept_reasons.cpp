@@ -9,6 +9,9 @@
 #include <QByteArray>
 #include <QStringList>
 
+#include "core/task/reasons.h"
+#include "core/volume/reasons.h"
+
 namespace pellucid::ui {
 
 namespace {

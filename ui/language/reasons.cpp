@@ -13,7 +13,7 @@ namespace pellucid::ui {
 
 namespace {
 
-// The sentences themselves are in core/task/reasons.inc.
+// The sentences themselves are in each room's reasons.h.
 constexpr const char *betweenLabels = QT_TRANSLATE_NOOP("Reasons", ", ");
 constexpr const char *betweenReasons = QT_TRANSLATE_NOOP("Reasons", "; ");
 
@@ -42,7 +42,7 @@ QString translated(const task::Argument &argument) {
 } // namespace
 
 QString translated(const task::Reason &reason) {
-    const std::string english(task::englishTemplate(reason.id()));
+    const std::string english(reason.sentence().english);
     const QString form = QCoreApplication::translate("Reasons", english.c_str());
     // Fill all placeholders in one pass: an argument may itself contain one.
     QString filled;

@@ -11,11 +11,14 @@
 #include <QCryptographicHash>
 
 #include "core/decoder/read_volume_file.h"
+#include "core/decoder/reasons.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/files/atomic_file.h"
 #include "core/files/session_folder.h"
 #include "core/task/error.h"
 #include "core/volume/volume_file.h"
+#include "ui/library/reasons.h"
 #include "ui/studies/thumbnail.h"
 
 namespace pellucid::ui {

@@ -14,6 +14,7 @@
 #include "core/task/error.h"
 #include "ui/language/kept_reasons.h"
 #include "ui/library/list_query.h"
+#include "ui/library/reasons.h"
 #include "ui/studies/search_words.h"
 
 namespace pellucid::ui {

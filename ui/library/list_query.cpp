@@ -5,6 +5,7 @@
 
 #include "core/task/error.h"
 #include "ui/language/kept_reasons.h"
+#include "ui/library/reasons.h"
 
 namespace pellucid::ui {
 

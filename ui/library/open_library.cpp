@@ -17,6 +17,7 @@
 #include "core/task/error.h"
 #include "ui/library/library.h"
 #include "ui/library/list_query.h"
+#include "ui/library/reasons.h"
 
 namespace pellucid::ui {
 

@@ -5,6 +5,7 @@
 #include "core/system/log.h"
 #include "core/task/error.h"
 #include "ui/language/failure.h"
+#include "ui/library/reasons.h"
 
 namespace pellucid::ui {
 

@@ -11,6 +11,7 @@
 #include "ui/document/document.h"
 #include "ui/engine/look_preparer.h"
 #include "ui/jobs/job_runner.h"
+#include "ui/opening/reasons.h"
 
 namespace pellucid::ui {
 

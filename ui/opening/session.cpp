@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <set>
 
+#include "core/decoder/reasons.h"
+
 namespace pellucid::ui {
 
 namespace fs = std::filesystem;

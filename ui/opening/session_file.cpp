@@ -20,6 +20,7 @@
 #include "core/system/log.h"
 #include "core/task/error.h"
 #include "ui/language/kept_reasons.h"
+#include "ui/opening/reasons.h"
 
 namespace pellucid::ui {
 

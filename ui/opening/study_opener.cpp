@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/classify/couch.h"
+#include "core/decoder/reasons.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/preprocess/study_content.h"
 #include "core/system/log.h"
@@ -14,8 +16,10 @@
 #include "ui/engine/look_preparer.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/language/reasons.h"
+#include "ui/opening/reasons.h"
 #include "ui/opening/segment_opener.h"
 #include "ui/studies/difference_source.h"
+#include "ui/studies/reasons.h"
 #include "ui/studies/study_source.h"
 #include "ui/studies/window_presets.h"
 

@@ -17,6 +17,7 @@
 #include <QVBoxLayout>
 
 #include "core/classify/couch.h"
+#include "core/dicom/reasons.h"
 #include "core/presets/slicer_preset.h"
 #include "core/task/error.h"
 #include "ui/document/commands.h"
@@ -28,6 +29,8 @@
 #include "ui/language/question.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
+#include "ui/opening/reasons.h"
+#include "ui/panels/reasons.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/theme/theme.h"
 

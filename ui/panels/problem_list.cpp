@@ -9,6 +9,8 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "core/decoder/reasons.h"
+#include "core/dicom/reasons.h"
 #include "ui/document/document.h"
 #include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"

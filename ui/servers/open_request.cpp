@@ -6,6 +6,7 @@
 
 #include "core/exchange/query.h"
 #include "core/task/error.h"
+#include "ui/servers/reasons.h"
 
 namespace pellucid::ui {
 

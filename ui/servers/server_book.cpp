@@ -13,6 +13,7 @@
 
 #include <qt6keychain/keychain.h>
 
+#include "core/exchange/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 #include "ui/jobs/job_runner.h"

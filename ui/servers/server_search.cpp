@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/exchange/reasons.h"
+
 namespace pellucid::ui {
 
 ServerSearch::ServerSearch(ServerBook &book, QObject *parent) : QObject(parent), m_book(book) {

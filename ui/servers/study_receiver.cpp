@@ -5,12 +5,15 @@
 
 #include <QSettings>
 
+#include "core/archive/reasons.h"
 #include "core/archive/receiving.h"
 #include "core/archive/run_transfer.h"
 #include "core/archive/transfer_log.h"
+#include "core/exchange/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
+#include "ui/servers/reasons.h"
 #include "ui/servers/server_book.h"
 
 namespace pellucid::ui {

@@ -10,6 +10,7 @@
 #include <QFileInfo>
 #include <QWidget>
 
+#include "core/exchange/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 

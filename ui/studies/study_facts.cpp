@@ -2,7 +2,6 @@
 #include "ui/studies/study_facts.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include <QCoreApplication>
@@ -11,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "core/volume/reasons.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 
@@ -31,13 +31,13 @@ QString text(const std::string &utf8) {
 // The part of a label that distinguishes stacks that are not phases of each other: they differ in
 // direction, space or kind of values. The scan puts it last.
 std::optional<task::Reason> stackOf(const std::vector<task::Reason> &label) {
-    constexpr std::array stacks{because::axial.id,    because::axialNumber.id,
-                                because::coronal.id,  because::coronalNumber.id,
-                                because::sagittal.id, because::sagittalNumber.id,
-                                because::images.id,   because::imagesNumber.id};
-    const bool isStack = !label.empty() &&
-                         std::find(stacks.begin(), stacks.end(), label.back().id()) != stacks.end();
-    return isStack ? std::optional(label.back()) : std::nullopt;
+    if (label.empty())
+        return std::nullopt;
+    const auto is = [&](auto... stacks) { return (label.back().is(stacks) || ...); };
+    return is(because::axial, because::axialNumber, because::coronal, because::coronalNumber,
+              because::sagittal, because::sagittalNumber, because::images, because::imagesNumber)
+               ? std::optional(label.back())
+               : std::nullopt;
 }
 
 // Gated and dynamic scans often write a series for each phase: "Gated, 40%", "CTA phase 3". The

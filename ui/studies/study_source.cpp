@@ -8,6 +8,7 @@
 #include "core/dicom/scan.h"
 #include "core/phantom/phantom.h"
 #include "core/task/error.h"
+#include "ui/studies/reasons.h"
 #include "ui/studies/thumbnail.h"
 
 namespace pellucid::ui {

@@ -8,6 +8,7 @@
 #include <QSvgRenderer>
 
 #include "core/task/error.h"
+#include "ui/theme/reasons.h"
 
 namespace pellucid::ui {
 

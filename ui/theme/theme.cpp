@@ -11,6 +11,7 @@
 #include <QStyleFactory>
 
 #include "core/task/error.h"
+#include "ui/theme/reasons.h"
 
 // A static library must register its resources explicitly; the macro needs the global namespace.
 static void registerResources() {

@@ -11,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/dicom/reasons.h"
 #include "core/scene/camera.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"

@@ -13,6 +13,7 @@
 #include "ui/document/pose.h"
 #include "ui/engine/error_meter.h"
 #include "ui/engine/look_preparer.h"
+#include "ui/engine/reasons.h"
 #include "ui/engine/render_worker.h"
 #include "ui/engine/shown_engine.h"
 #include "ui/views/look_comparison.h"

@@ -15,6 +15,7 @@
 #include <QPrintDialog>
 #include <QPrinter>
 
+#include "core/scene/reasons.h"
 #include "core/task/error.h"
 #include "ui/document/add_command.h"
 #include "ui/document/commands.h"
@@ -23,6 +24,7 @@
 #include "ui/export/scene_files.h"
 #include "ui/export/segment_writer.h"
 #include "ui/language/reasons.h"
+#include "ui/opening/reasons.h"
 #include "ui/panels/header_dialog.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/views/projection_view.h"

@@ -10,6 +10,7 @@
 #include <QPointer>
 #include <QSettings>
 
+#include "core/archive/reasons.h"
 #include "core/archive/sending.h"
 #include "ui/language/question.h"
 #include "ui/language/reasons.h"

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "core/fourier/kernels/kernel.h"
+#include "core/fourier/kernels/reasons.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
 

@@ -13,6 +13,7 @@
 
 #include "core/files/atomic_file.h"
 #include "core/files/read_text.h"
+#include "core/fourier/transforms/reasons.h"
 #include "core/fourier/transforms/wisdom.h"
 #include "core/system/page_memory.h"
 #include "core/task/error.h"

@@ -6,6 +6,8 @@
 #include <set>
 
 #include "core/archive/pkce.h"
+#include "core/archive/reasons.h"
+#include "core/exchange/reasons.h"
 #include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"
 

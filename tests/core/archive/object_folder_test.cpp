@@ -8,7 +8,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/archive/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 #include "tests/support/dicom_writer.h"
 #include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"

@@ -5,6 +5,7 @@
 
 #include "core/archive/search.h"
 #include "core/exchange/link.h"
+#include "core/exchange/reasons.h"
 #include "core/task/error.h"
 #include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"

@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "core/decoder/decoder.h"
+#include "core/decoder/reasons.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
 #include "tests/support/temporary_folder.h"
 

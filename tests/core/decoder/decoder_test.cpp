@@ -18,11 +18,13 @@
 
 #include "core/decoder/channel.h"
 #include "core/decoder/child.h"
+#include "core/decoder/reasons.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/write_series.h"
 #include "core/helper/confinement.h"
 #include "core/parse/parse.h"
+#include "core/parse/reasons.h"
 #include "core/phantom/phantom.h"
 #include "core/task/error.h"
 #include "tests/support/files.h"

@@ -9,7 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/decoder/reasons.h"
+#include "core/parse/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::decoder {
 

@@ -11,6 +11,7 @@
 
 #include <zlib.h>
 
+#include "core/decoder/reasons.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 #include "tests/support/fields.h"

@@ -16,6 +16,7 @@
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
+#include "core/volume/reasons.h"
 #include "tests/support/fields.h"
 #include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"

@@ -15,6 +15,7 @@
 #include "core/archive/instance_list.h"
 #include "core/decoder/decoder.h"
 #include "core/dicom/arriving_series.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
 #include "tests/support/dicom_writer.h"

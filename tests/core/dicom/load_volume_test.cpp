@@ -10,8 +10,10 @@
 #include <cstring>
 #include <map>
 
+#include "core/dicom/reasons.h"
 #include "core/dicom/write_series.h"
 #include "core/task/error.h"
+#include "core/volume/reasons.h"
 #include "tests/core/dicom/habit_frames.h"
 #include "tests/core/dicom/written_series.h"
 #include "tests/support/dicom_writer.h"

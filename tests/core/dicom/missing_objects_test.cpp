@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/dicom/missing_objects.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/files/atomic_file.h"
 #include "tests/support/dicom_writer.h"

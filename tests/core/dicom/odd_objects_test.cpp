@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/dicom/load_volume.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "tests/core/dicom/habit_frames.h"
 #include "tests/support/dicom_writer.h"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/dicom/load_volume.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "tests/support/dicom_writer.h"
 #include "tests/support/temporary_folder.h"

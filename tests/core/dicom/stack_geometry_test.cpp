@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/dicom/reasons.h"
 #include "tests/core/dicom/series_files.h"
 
 namespace pellucid {

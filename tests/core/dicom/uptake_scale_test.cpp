@@ -5,8 +5,10 @@
 #include <functional>
 
 #include "core/dicom/load_volume.h"
+#include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/uptake_scale.h"
+#include "core/task/reasons.h"
 #include "tests/support/dicom_writer.h"
 #include "tests/support/temporary_folder.h"
 

@@ -11,6 +11,7 @@
 
 #include "core/files/atomic_file.h"
 #include "core/files/image_files.h"
+#include "core/files/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 #include "tests/support/temporary_folder.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/network/login_json.h"
+#include "core/network/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::network {

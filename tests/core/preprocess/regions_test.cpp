@@ -12,6 +12,7 @@
 #include "core/phantom/phantom.h"
 #include "core/preprocess/class_region.h"
 #include "core/preprocess/parts.h"
+#include "core/preprocess/reasons.h"
 #include "core/preprocess/region_growing.h"
 #include "core/preprocess/segment_class.h"
 #include "core/preprocess/step_cache.h"

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/files/reasons.h"
 #include "core/task/error.h"
 #include "tests/support/temporary_folder.h"
 

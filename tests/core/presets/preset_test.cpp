@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/files/reasons.h"
 #include "core/phantom/phantom.h"
+#include "core/presets/reasons.h"
 #include "core/task/error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -11,6 +11,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/fourier/transforms/padded_size.h"
+#include "core/render/reasons.h"
 #include "core/task/error.h"
 #include "tests/support/fields.h"
 

@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "core/classify/reasons.h"
+#include "core/files/reasons.h"
+#include "core/fourier/kernels/reasons.h"
 #include "core/scene/planning_scene.h"
 #include "core/scene/scene.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid {
 

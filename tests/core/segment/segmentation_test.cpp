@@ -12,8 +12,12 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/decoder/reasons.h"
+#include "core/parse/reasons.h"
+#include "core/segment/reasons.h"
 #include "core/segment/segment_set.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 #include "core/volume/nrrd.h"
 #include "tests/support/dice.h"
 #include "tests/support/segmentation_writer.h"

@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/segment/reasons.h"
 #include "core/task/error.h"
 #include "tests/support/segmentation_writer.h"
 #include "tests/support/temporary_folder.h"

@@ -7,6 +7,7 @@
 
 #include "core/phantom/phantom.h"
 #include "core/subtraction/difference.h"
+#include "core/subtraction/reasons.h"
 #include "core/subtraction/rigid_registration.h"
 #include "core/task/error.h"
 

@@ -10,6 +10,7 @@
 
 #include <unistd.h>
 
+#include "core/fourier/reasons.h"
 #include "core/system/page_memory.h"
 #include "core/task/error.h"
 

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/preprocess/reasons.h"
 #include "core/task/progress.h"
+#include "core/task/reasons.h"
 
 namespace pellucid {
 namespace {

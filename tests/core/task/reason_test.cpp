@@ -4,7 +4,9 @@
 #include <cerrno>
 #include <cstring>
 #include <future>
+#include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -14,21 +16,11 @@ namespace pellucid::task {
 
 namespace {
 
-struct Sentence {
-    Reason::Id id;
-    std::string name;
-};
-const std::vector<Sentence> sentences{
-#define PELLUCID_REASON(name, english) Sentence{Reason::Id::name, #name},
-#include "core/task/reasons.inc"
-#undef PELLUCID_REASON
-};
-
 // A text that an encoding or a template could mistake for its own syntax.
 const std::string awkward = "a; %2 b: 3:\n t1:c %1";
 
-int placesOf(Reason::Id id) {
-    return placesIn(englishTemplate(id));
+int placesOf(const Sentence &sentence) {
+    return placesIn(sentence.english);
 }
 
 std::string encodedText(const std::string &text) {
@@ -37,8 +29,8 @@ std::string encodedText(const std::string &text) {
 
 // Any sentence encoded with a nested reason in one place and a text in the others.
 std::string encodedOf(const Sentence &sentence, const std::string &text, int nested) {
-    std::string encoded = sentence.name;
-    for (int n = 0; n < placesOf(sentence.id); ++n)
+    std::string encoded(sentence.name);
+    for (int n = 0; n < placesOf(sentence); ++n)
         encoded += n == nested ? " r1:isDamagedBy" + encodedText(text) + ";" : encodedText(text);
     return encoded + ";";
 }
@@ -53,13 +45,13 @@ int countOf(const std::string &part, const std::string &text) {
 // True if the reason and all reasons within it have as many arguments as their templates have
 // places.
 bool hasItsArguments(const Reason &reason) {
-    if (reason.id() >= Reason::Id::count || int(reason.arguments().size()) != placesOf(reason.id()))
+    if (int(reason.arguments().size()) != placesOf(reason.sentence()))
         return false;
     for (const Argument &argument : reason.arguments())
         for (const Reason &within : argument.reasons)
             if (!hasItsArguments(within))
                 return false;
-    return !englishTemplate(reason.id()).empty() && !reason.english().empty();
+    return !reason.sentence().english.empty() && !reason.english().empty();
 }
 
 Reason wrapped(int times) {
@@ -71,14 +63,21 @@ Reason wrapped(int times) {
 
 } // namespace
 
+TEST(Reason, everyNameIsGivenOnce) {
+    std::set<std::string_view> names;
+    for (const Sentence &sentence : allSentences())
+        EXPECT_TRUE(names.insert(sentence.name).second) << sentence.name;
+    EXPECT_TRUE(names.contains("isDamaged"));
+}
+
 TEST(Reason, everySentenceComesThrough) {
-    for (const Sentence &sentence : sentences) {
-        const int places = placesOf(sentence.id);
+    for (const Sentence &sentence : allSentences()) {
+        const int places = placesOf(sentence);
         for (int nested = 0; nested <= places; ++nested) { // none in the last round
             const std::string encoded = encodedOf(sentence, awkward, nested);
             const auto reason = Reason::decoded(encoded);
             ASSERT_TRUE(reason) << encoded;
-            EXPECT_EQ(reason->id(), sentence.id) << encoded;
+            EXPECT_EQ(reason->sentence().name, sentence.name) << encoded;
             ASSERT_EQ(int(reason->arguments().size()), places) << encoded;
             for (int n = 0; n < places; ++n)
                 EXPECT_EQ(reason->arguments()[std::size_t(n)],
@@ -91,9 +90,9 @@ TEST(Reason, everySentenceComesThrough) {
 }
 
 TEST(Reason, everySentenceIsFilled) {
-    for (const Sentence &sentence : sentences) {
-        const std::string form(englishTemplate(sentence.id));
-        const int places = placesOf(sentence.id);
+    for (const Sentence &sentence : allSentences()) {
+        const std::string form(sentence.english);
+        const int places = placesOf(sentence);
         ASSERT_LE(places, 9) << form;
         int mentioned = 0;
         for (int n = 0; n < places; ++n) {
@@ -114,7 +113,7 @@ TEST(Reason, everySentenceIsFilled) {
 }
 
 TEST(Reason, damagedTextIsRefusedOrAReason) {
-    for (const Sentence &sentence : sentences) {
+    for (const Sentence &sentence : allSentences()) {
         const std::string good = encodedOf(sentence, awkward, 0);
         for (std::size_t size = 0; size < good.size(); ++size)
             EXPECT_FALSE(Reason::decoded(std::string_view(good).substr(0, size)))

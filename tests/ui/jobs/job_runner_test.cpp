@@ -9,6 +9,7 @@
 #include <QtTest>
 
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 #include "ui/jobs/job_runner.h"
 
 namespace pellucid {

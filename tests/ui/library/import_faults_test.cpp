@@ -12,6 +12,7 @@
 #include "core/task/error.h"
 #include "tests/ui/library/library_folder.h"
 #include "ui/library/import_studies.h"
+#include "ui/studies/reasons.h"
 #include "ui/studies/study_source.h"
 
 namespace pellucid {

@@ -11,6 +11,7 @@
 #include "tests/support/read_only_folder.h"
 #include "tests/ui/library/library_folder.h"
 #include "ui/library/import_studies.h"
+#include "ui/library/reasons.h"
 #include "ui/library/study_library.h"
 
 namespace pellucid {

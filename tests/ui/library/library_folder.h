@@ -7,7 +7,9 @@
 
 #include <QObject>
 
+#include "core/dicom/reasons.h"
 #include "core/dicom/write_series.h"
+#include "core/files/reasons.h"
 #include "core/phantom/phantom.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/library/library.h"

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/fourier/binary16.h"
+#include "core/fourier/reasons.h"
 #include "core/fourier/transforms/strip_copies.h"
 #include "core/fourier/transforms/strip_transform.h"
 #include "core/system/page_memory.h"
