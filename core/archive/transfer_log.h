@@ -76,7 +76,6 @@ public:
     void removeArrivals(const std::vector<StoredObject> &objects);
 
 private:
-    void addColumnOfOlderFiles();
     struct Close {
         void operator()(sqlite3 *database) const;
     };

@@ -169,25 +169,6 @@ TransferLog::TransferLog(const fs::path &file) : m_file(file) {
           "CREATE TABLE IF NOT EXISTS arrivals (path TEXT PRIMARY KEY, study TEXT, series TEXT, "
           "instance TEXT, class TEXT, bytes INTEGER, sender TEXT)"})
         Statement(database, m_file, sql).run();
-    addColumnOfOlderFiles();
-}
-
-// An earlier version of the program may have made the file. Two programs may start at the same
-// time.
-void TransferLog::addColumnOfOlderFiles() {
-    const auto hasIt = [this] {
-        return Statement(m_database.get(), m_file,
-                         "SELECT 1 FROM pragma_table_info('transfers') WHERE name = 'later'")
-            .next();
-    };
-    if (hasIt())
-        return;
-    Statement(m_database.get(), m_file, "BEGIN IMMEDIATE").run();
-    if (!hasIt())
-        Statement(m_database.get(), m_file,
-                  "ALTER TABLE transfers ADD COLUMN later INTEGER DEFAULT 0")
-            .run();
-    Statement(m_database.get(), m_file, "COMMIT").run();
 }
 
 TransferLog::~TransferLog() = default;

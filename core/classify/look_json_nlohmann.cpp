@@ -20,17 +20,12 @@ using files::JsonValue;
 using nlohmann::json;
 
 TransferFunction functionFrom(const JsonValue &in) {
-    // Weights alone for a curve over all densities, as earlier versions wrote it.
     TransferFunction function;
-    if (in.isObject()) {
-        in.requireOnly({"weights", "range"});
-        function.weights = in.at("weights").numbers();
-        const auto [low, high] = in.at("range").twoNumbers();
-        function.low = low;
-        function.high = high;
-    } else {
-        function.weights = in.numbers();
-    }
+    in.requireOnly({"weights", "range"});
+    function.weights = in.at("weights").numbers();
+    const auto [low, high] = in.at("range").twoNumbers();
+    function.low = low;
+    function.high = high;
     in.checked([&] { validate(function); });
     return function;
 }

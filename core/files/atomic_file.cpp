@@ -17,6 +17,7 @@
 #include "core/files/descriptor.h"
 #include "core/files/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::files {
 
@@ -99,7 +100,7 @@ std::filesystem::path targetOf(const std::filesystem::path &path) {
     if (std::filesystem::exists(meant, unknown) &&
         !std::filesystem::is_regular_file(meant, unknown) &&
         !std::filesystem::is_directory(meant, unknown))
-        throw task::Error(task::ErrorCode::output, task::because::isNoRegularFile, meant);
+        throw task::Error(task::ErrorCode::output, task::because::isNotARegularFile, meant);
     return meant;
 }
 

@@ -9,7 +9,6 @@ namespace pellucid::task::because {
 // clang-format off
 // Files and folders
 PELLUCID_REASON(doesNotExist, "does not exist")
-PELLUCID_REASON(isNoRegularFile, "is not a regular file")
 PELLUCID_REASON(isNoFolder, "is not a folder")
 PELLUCID_REASON(isALinkOfAnotherUser, "is a link that another user made, in a folder where anybody may make files")
 PELLUCID_REASON(isTruncated, "is truncated")

@@ -57,7 +57,6 @@ PELLUCID_REASON(loginAnswerHasNoToken, "the login server's answer has no usable 
 PELLUCID_REASON(storedWithChanges, "stored, but the server changed or left out attributes (%1)")
 PELLUCID_REASON(proxyHasNoServer, "the server behind the proxy does not answer (HTTP status %1)")
 PELLUCID_REASON(serverNeedsACertificate, "the server demands a certificate of this program")
-PELLUCID_REASON(ofFile, "%1: %2")
 // clang-format on
 
 } // namespace pellucid::task::because

@@ -11,6 +11,7 @@
 #include "core/network/redirect.h"
 #include "core/network/web_client.h"
 #include "core/parse/serve.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::network {
 
@@ -188,8 +189,8 @@ private:
             const bool isRefused = error.reason().is(because::serverLacksTheService);
             m_control.failed(isRefused ? Failure::refused : Failure::invalid,
                              error.path().empty() ? error.reason()
-                                                  : task::Reason(because::ofFile(
-                                                        error.path().string(), error.reason())));
+                                                  : task::Reason(because::at(error.path().string(),
+                                                                             error.reason())));
         }
     }
 

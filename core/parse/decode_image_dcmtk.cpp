@@ -23,6 +23,7 @@
 #include "core/parse/parse.h"
 #include "core/parse/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::parse {
 
@@ -149,7 +150,7 @@ void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::
     const DecoderWarnings warnings;
     const OFCondition decoded = dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
     if (decoded.bad())
-        fail(because::codecReports(transfer.getXferName(), decoded.text()));
+        fail(because::at(transfer.getXferName(), decoded.text()));
     h.hasDamagedPixels = warnings.foundDamage();
     // The decoder may have widened or narrowed the samples.
     const InstanceHeader after = headerOf(dataset, fileBytes);

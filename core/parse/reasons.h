@@ -66,7 +66,6 @@ PELLUCID_REASON(jpegXl, "JPEG XL: %1")
 PELLUCID_REASON(damagedHeader, "damaged header")
 PELLUCID_REASON(damagedOrTruncated, "damaged or truncated")
 PELLUCID_REASON(holdsNoImage, "contains no image")
-PELLUCID_REASON(codecReports, "%1: %2")
 PELLUCID_REASON(compressedDataTruncated, "truncated")
 
 // Volume files

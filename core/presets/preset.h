@@ -49,7 +49,7 @@ Preset presetOf(const std::string &name, const classify::Look &look,
                 const shading::Shading &shading, const classify::FieldWindow &window,
                 const volume::Volume &volume);
 
-/// JSON, `"schema": "pellucid-preset/2"`; reads the first schema, too.
+/// JSON, `"schema": "pellucid-preset/2"`.
 std::string toJson(const Preset &preset);
 /// *Throws* Error{unusable}: "line N: /classes/2/range: must be two numbers".
 Preset presetFromJson(const std::string &text);

@@ -19,9 +19,7 @@ namespace because = task::because;
 using files::JsonValue;
 using nlohmann::json;
 
-// The first schema kept the thresholds of `binarise` steps in values, also beside shares of the
-// window.
-constexpr const char *schema = "pellucid-preset/2", *firstSchema = "pellucid-preset/1";
+constexpr const char *schema = "pellucid-preset/2";
 constexpr int longestName = 80; // characters
 
 std::string textOrEmpty(const JsonValue &in) {
@@ -34,19 +32,10 @@ std::ptrdiff_t characters(const std::string &text) {
                          [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
 }
 
-bool hasThresholdInValues(const classify::Look &look) {
-    return std::any_of(look.classes.begin(), look.classes.end(), [](const auto &tissue) {
-        return std::any_of(tissue.steps.begin(), tissue.steps.end(), [](const auto &step) {
-            return step.kind == classify::StepKind::binarise && step.parameters.contains("from");
-        });
-    });
-}
-
 Preset parsed(const JsonValue &in, const std::string &source) {
     if (!in.isObject())
         in.refuse(because::mustBeAnObject);
-    const bool isFirst = textOrEmpty(in["schema"]) == firstSchema;
-    if (!isFirst && textOrEmpty(in["schema"]) != schema)
+    if (textOrEmpty(in["schema"]) != schema)
         in["schema"].refuse(because::isNot(schema));
     Preset preset;
     preset.name = textOrEmpty(in["name"]);
@@ -73,8 +62,6 @@ Preset parsed(const JsonValue &in, const std::string &source) {
         preset.window = classify::FieldWindow{low, high};
     }
     preset.look = classify::lookFromJson(source);
-    if (isFirst && preset.unit == RangeUnit::window && hasThresholdInValues(preset.look))
-        in["units"].refuse(because::binariseIsInValues);
     preset.shading = shading::shadingFromJson(source);
     preset.source = source;
     return preset;

@@ -31,7 +31,6 @@ PELLUCID_REASON(opacityDoesNotChange, "its opacity does not change over any rang
 
 // What JSON should hold; `at`: where in it, or in which file
 PELLUCID_REASON(mustBeTwoRisingNumbers, "must be two numbers, the lower first")
-PELLUCID_REASON(binariseIsInValues, "gives a 'binarise' step in values of another volume: save this preset again")
 PELLUCID_REASON(mustBeALine, "must be one line of 1 to %1 characters")
 PELLUCID_REASON(mustBeValueOrWindow, "must be value or window")
 // clang-format on

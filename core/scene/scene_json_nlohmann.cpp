@@ -21,9 +21,7 @@ using files::JsonWords;
 using files::wordFor;
 using nlohmann::json;
 
-// In version 1, "cubic" was the name of "spline", and the default: such scenes keep their pictures.
-constexpr const char *schema = "pellucid-scene/3", *secondSchema = "pellucid-scene/2",
-                     *firstSchema = "pellucid-scene/1";
+constexpr const char *schema = "pellucid-scene/3";
 
 constexpr JsonWords<Reconstruction, 4> reconstructions{
     {{"cubic", Reconstruction::cubic},
@@ -60,12 +58,10 @@ classify::CropBox cropFrom(const JsonValue &in) {
     return {corner("low"), corner("high")};
 }
 
-ImageDefinition imageFrom(const JsonValue &in, bool isFirstVersion) {
+ImageDefinition imageFrom(const JsonValue &in) {
     ImageDefinition image;
     if (const JsonValue reconstruction = in["reconstruction"])
         image.reconstruction = reconstruction.meaning(reconstructions);
-    if (isFirstVersion && image.reconstruction == Reconstruction::cubic)
-        image.reconstruction = Reconstruction::spline;
     if (const JsonValue rollOff = in["roll_off"])
         image.rollOff = rollOff.number();
     if (const JsonValue detail = in["detail"])
@@ -152,9 +148,7 @@ Tone toneFrom(const JsonValue &in) {
 
 Scene parsed(const JsonValue &in, const std::string &text) {
     const JsonValue version = in.at("schema");
-    const bool isFirstVersion = version.text() == firstSchema;
-    const bool hasContrast = version.text() == schema;
-    if (!isFirstVersion && !hasContrast && version.text() != secondSchema)
+    if (version.text() != schema)
         version.refuse(because::isNot(schema));
     Scene scene;
     scene.camera = cameraFrom(in.at("camera"));
@@ -166,7 +160,7 @@ Scene parsed(const JsonValue &in, const std::string &text) {
     scene.shading = shading::shadingFromJson(text);
     if (const JsonValue crop = in["crop"])
         scene.crop = cropFrom(crop);
-    scene.image = imageFrom(in, isFirstVersion);
+    scene.image = imageFrom(in);
     if (const JsonValue ofDifference = in["of_difference"])
         scene.isOfDifference = ofDifference.boolean();
     if (const JsonValue tolerance = in["tolerance"])
@@ -176,9 +170,6 @@ Scene parsed(const JsonValue &in, const std::string &text) {
     scene.interpolation = interpolationFrom(in);
     if (const JsonValue tone = in["tone"])
         scene.tone = toneFrom(tone);
-    // The ends that earlier versions saved are those of pictures without contrast processing.
-    if (!hasContrast && scene.tone.low && scene.tone.high)
-        scene.tone.detail = scene.tone.latitude = 0.0;
     return scene;
 }
 

@@ -244,7 +244,7 @@ TEST_F(Batch, ALookThatDoesNotSuitIsAFailure) {
         EXPECT_EQ(entries(folder / "out"), 0U);
     };
     writeText(folder / "empty.json",
-              R"({"schema": "pellucid-preset/1", "name": "Empty", "modality": "CT", "classes": [
+              R"({"schema": "pellucid-preset/2", "name": "Empty", "modality": "CT", "classes": [
                   {"name": "Nothing", "range": [9000, 9500], "weight": 1, "color": "#ffffff"}]})");
     fails(R"({"look": "empty.json", "size": 32})", "no value is in a shown class");
     fails(R"({"size": 32}, {"name": "b", "look": "MR: brain", "size": 32})", "b: ");

@@ -107,7 +107,7 @@ TEST_F(Cli, PresetsAreListedShownCheckedAndMoved) {
     EXPECT_EQ(cli("preset import " + quoted(file) + " --name Mine --replace").exitCode, 0);
     EXPECT_NE(cli("preset list").out.find("Mine"), std::string::npos);
 
-    std::ofstream(folder / "bad.json") << "{\n  \"schema\": \"pellucid-preset/1\",\n"
+    std::ofstream(folder / "bad.json") << "{\n  \"schema\": \"pellucid-preset/2\",\n"
                                           "  \"name\": \"x\",\n  \"window\": [3]\n}\n";
     const auto bad = cli("preset validate " + quoted(folder / "bad.json"));
     EXPECT_EQ(bad.exitCode, 3);
@@ -125,7 +125,7 @@ TEST_F(Cli, PresetsAreListedShownCheckedAndMoved) {
 TEST_F(Cli, APresetMakesThePictureThatItsClassesMake) {
     const fs::path series = phantomFolder("--kind head --size 56x56x40");
     std::ofstream(folder / "p.json")
-        << R"({"schema": "pellucid-preset/1", "name": "p", "window": [-900, 2000], "classes": [)"
+        << R"({"schema": "pellucid-preset/2", "name": "p", "window": [-900, 2000], "classes": [)"
         << R"({"name": "Bone", "range": [250, 2500], "softness": 150, "weight": 0.7}]})";
     EXPECT_EQ(picture(series, "--preset " + quoted(folder / "p.json")),
               picture(series, "--class bone=0.7"));
@@ -231,7 +231,7 @@ TEST_F(Cli, SceneAndPresetCarryCueAndLights) {
         "lights": [{"direction": [-1, 1, 0.5], "strength": 0.9}])";
     const std::string options =
         "--depth-cue linear:0.5 --ambient 0.25 --light -1,1,0.5:#ffffff:0.9";
-    std::ofstream(folder / "p.json") << R"({"schema": "pellucid-preset/1", "name": "p",
+    std::ofstream(folder / "p.json") << R"({"schema": "pellucid-preset/2", "name": "p",
         "window": [-900, 2000], )" << shading
                                      << "}";
     const auto expected = picture(series, options);
@@ -269,7 +269,7 @@ TEST_F(Cli, BadCuesAndLightsAreOneLine) {
     refuse("--light nan,0,0", 2, "is not a number");
     refuse("--ambient 3", 2, "--ambient");
     refuse("--light-frame patient", 2, "--light-frame requires --light");
-    std::ofstream(folder / "p.json") << "{\"schema\": \"pellucid-preset/1\", \"name\": \"p\",\n"
+    std::ofstream(folder / "p.json") << "{\"schema\": \"pellucid-preset/2\", \"name\": \"p\",\n"
                                         "\"lights\": [{\"direction\": [1, 0, 0]},\n"
                                         "{\"direction\": [0, 0, 0]}]}";
     refuse("--preset " + quoted(folder / "p.json"), 3,

@@ -107,22 +107,15 @@ private slots:
             QVERIFY(reasonFromLine(toLine(reason)) == reason);
         }
         QVERIFY(reasonsFromLines(toLines(reasons)) == reasons);
-        QVERIFY(labelFromLines(toLines(reasons)) == reasons);
-        QVERIFY(reasonsFromLines(toLines({})).empty() && labelFromLines({}).empty());
+        QVERIFY(reasonsFromLines(toLines({})).empty());
     }
 
-    void reasonsInTheWordsOfOlderVersionsAreKept() {
-        const std::string text = "pixel spacings differ by up to 3 %; the mean is used";
+    void aReasonOfAnotherVersionIsShown() {
+        const std::string text = "isOfAnotherVersion t1:x;";
         const task::Reason reason = reasonFromLine(QString::fromStdString(text));
         QCOMPARE(reason.english(), text);
         QVERIFY(reasonFromLine(toLine(reason)) == reason);
         QCOMPARE(reasonsFromLines("one\ntwo").size(), std::size_t(2));
-        // The label of a stack is recognized.
-        const auto label = labelFromLines("slices 1 to 5, coronal 2");
-        QCOMPARE(dicom::labelText(label), std::string("slices 1 to 5, coronal 2"));
-        QVERIFY(label.back() == because::coronalNumber(2));
-        QVERIFY(labelFromLines("images").back().is(because::images));
-        QVERIFY(!labelFromLines("axial twice").back().is(because::axial));
     }
 
     void aSessionKeepsReasons() {

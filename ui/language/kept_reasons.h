@@ -9,16 +9,12 @@
 
 namespace pellucid::ui {
 
-/// Converts a reason to one line of a file and back. Line breaks in names are escaped. Lines from
-/// earlier versions are English text and are returned unchanged.
+/// Converts a reason to one line of a file and back. Line breaks in names are escaped. A
+/// sentence that this version does not have is shown as the line gives it.
 QString toLine(const task::Reason &reason);
 task::Reason reasonFromLine(const QString &line);
 
 /// Several reasons, one per line.
 QString toLines(const std::vector<task::Reason> &reasons);
 std::vector<task::Reason> reasonsFromLines(const QString &lines);
-/// Reads the label that distinguishes a volume from others. Earlier versions wrote it as a
-/// comma-separated list.
-std::vector<task::Reason> labelFromLines(const QString &lines);
-
 } // namespace pellucid::ui

@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
 
-// Version 1 stored labels and warnings as English text.
 constexpr int schemaVersion = 2;
 // Another window of the program may be writing.
 constexpr int busyTimeoutMs = 5000;
@@ -377,9 +376,6 @@ void Library::put(const std::vector<LibrarySeries> &series) {
                 touched.push_back(former);
     for (const qint64 study : touched)
         describeStudy(list, study);
-    // From now on, earlier versions cannot read the list. Their rows stay unchanged.
-    if (versionOf(list) < schemaVersion)
-        setVersion(list);
     transaction.commit();
 }
 

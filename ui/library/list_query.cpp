@@ -93,7 +93,7 @@ VolumeFacts seriesOf(const ListQuery &row) {
 
 void readVolume(const ListQuery &row, VolumeFacts &v) {
     v.libraryId = row.integer(0);
-    v.label = labelFromLines(row.text(2));
+    v.label = reasonsFromLines(row.text(2));
     v.size = {int(row.integer(3)), int(row.integer(4)), int(row.integer(5))};
     v.spacingMm = {row.number(6), row.number(7), row.number(8)};
     v.tiltDeg = row.number(9);

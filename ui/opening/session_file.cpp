@@ -102,7 +102,7 @@ QJsonArray toJson(const mpr::PlaneAxes &axes) {
 }
 
 mpr::PlaneAxes planesFrom(const QJsonArray &in) {
-    if (in.size() != 3) // versions before planes were saved
+    if (in.size() != 3)
         return {};
     std::array<mpr::Axes, 3> axes;
     for (std::size_t n = 0; n < 3; ++n) {
@@ -112,7 +112,6 @@ mpr::PlaneAxes planesFrom(const QJsonArray &in) {
     return mpr::PlaneAxes(axes);
 }
 
-// Older versions kept none: they only subtracted.
 subtraction::Weights weightsFrom(const QJsonValue &value) {
     const QJsonArray in = value.toArray();
     return in.size() == 2 ? subtraction::Weights{in[0].toDouble(), in[1].toDouble()}
@@ -173,8 +172,8 @@ Session fromJson(const QJsonObject &in) {
                         of["aligned"].toBool(), weightsFrom(of["weights"])};
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
-    s.hasEnded = in["ended"].toBool(true); // older versions wrote at the end only
-    if (!s.phantom.isEmpty())              // throws for a phantom of a newer version
+    s.hasEnded = in["ended"].toBool();
+    if (!s.phantom.isEmpty()) // throws for a phantom of a newer version
         phantom::kindFromName(s.phantom.toStdString());
     s.shown.scene = scene::sceneFromJson(
         QJsonDocument(in["scene"].toObject()).toJson(QJsonDocument::Compact).toStdString());

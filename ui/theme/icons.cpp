@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/theme/icons.h"
 
+#include <stdexcept>
+
 #include <QAction>
 #include <QFile>
 #include <QIconEngine>
 #include <QPainter>
 #include <QSvgRenderer>
-
-#include "core/task/error.h"
-#include "ui/theme/reasons.h"
 
 namespace pellucid::ui {
 
@@ -48,7 +47,7 @@ private:
 QIcon themedIcon(const QString &name, const Theme &theme) {
     QFile file(":/pellucid/icons/" + name + ".svg");
     if (!file.open(QIODevice::ReadOnly))
-        throw task::Error(task::ErrorCode::internal, task::because::noIcon(name.toStdString()));
+        throw std::logic_error("no icon " + name.toStdString());
     return QIcon(new ThemedIcon(file.readAll(), theme));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/theme/theme.h"
 
+#include <stdexcept>
+
 #include <QApplication>
 #include <QFile>
 #include <QFont>
@@ -9,9 +11,6 @@
 #include <QPalette>
 #include <QRegularExpression>
 #include <QStyleFactory>
-
-#include "core/task/error.h"
-#include "ui/theme/reasons.h"
 
 // A static library must register its resources explicitly; the macro needs the global namespace.
 static void registerResources() {
@@ -25,7 +24,7 @@ namespace {
 QByteArray resource(const QString &path) {
     QFile file(path);
     if (!file.open(QIODevice::ReadOnly))
-        throw task::Error(task::ErrorCode::internal, task::because::noResource(path.toStdString()));
+        throw std::logic_error("no resource " + path.toStdString());
     return file.readAll();
 }
 
@@ -45,7 +44,7 @@ Theme Theme::named(const QString &name) {
 QColor Theme::color(const QString &role) const {
     const auto it = m_colors.find(role);
     if (it == m_colors.end())
-        throw task::Error(task::ErrorCode::internal, task::because::noColor(role.toStdString()));
+        throw std::logic_error("no color " + role.toStdString());
     return *it;
 }
 

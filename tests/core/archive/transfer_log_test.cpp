@@ -161,19 +161,6 @@ TEST(TransferLog, WhatSomebodyWaitsForIsNotPutOff) {
     EXPECT_FALSE(log.transfer(id)->isForLater);
 }
 
-TEST(TransferLog, ReadsAFileOfAnEarlierVersion) {
-    const test::TemporaryFolder folder;
-    { const TransferLog make(folder / "transfers.sqlite"); }
-    sqlite3 *database = nullptr;
-    ASSERT_EQ(sqlite3_open((folder / "transfers.sqlite").c_str(), &database), SQLITE_OK);
-    EXPECT_EQ(sqlite3_exec(database, "ALTER TABLE transfers DROP COLUMN later", nullptr, nullptr,
-                           nullptr),
-              SQLITE_OK);
-    sqlite3_close(database);
-    TransferLog log(folder / "transfers.sqlite");
-    EXPECT_FALSE(log.transfer(log.add(sample()))->isForLater);
-}
-
 TEST(TransferLog, ADamagedFileIsReported) {
     const test::TemporaryFolder folder;
     test::writeText(folder / "transfers.sqlite", std::string(5000, 'x'));

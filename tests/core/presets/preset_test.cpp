@@ -17,7 +17,7 @@ namespace {
 using presets::Preset;
 
 const char *const full = R"({
-  "schema": "pellucid-preset/1",
+  "schema": "pellucid-preset/2",
   "name": "Test",
   "modality": "CT",
   "window": [-900, 2000],
@@ -36,7 +36,7 @@ const char *const full = R"({
       ]
     }
   ],
-  "transfer_function": [0, 0.5, 2]
+  "transfer_function": {"weights": [0, 0.5, 2], "range": [0, 1]}
 }
 )";
 
@@ -93,7 +93,7 @@ TEST(Preset, RefusesWithLineAndReason) {
     EXPECT_EQ(reasonOf(with("\"radius_mm\": 1.5", "\"method\": \"ITK\"")),
               "line 16: /classes/0/steps/0: the step 'median' has no parameter 'method'; "
               "it has radius_mm");
-    EXPECT_EQ(reasonOf(with("preset/1", "preset/9")), "line 2: /schema: is not pellucid-preset/2");
+    EXPECT_EQ(reasonOf(with("preset/2", "preset/9")), "line 2: /schema: is not pellucid-preset/2");
     EXPECT_EQ(reasonOf(with("\"Test\"", "\"\"")).rfind("line 3: /name: ", 0), 0U);
     EXPECT_EQ(reasonOf(with("[-900, 2000]", "[2000, -900]")).rfind("line 5: /window: ", 0), 0U);
     EXPECT_EQ(reasonOf(with("[-900, 2000]", "[-1e308, 1e308]")),
@@ -126,22 +126,6 @@ TEST(Preset, FilesThatArePresetsOnly) {
         EXPECT_TRUE(error.reason().is(task::because::isTooLargeForItsKind)) << error.what();
         EXPECT_EQ(error.path(), folder / "large.json");
     }
-}
-
-// In the first version this threshold was a value of the volume that the preset was saved from.
-TEST(Preset, FirstPresetsWithABinariseStepInSharesOfTheWindowAreRefused) {
-    const auto text = [](const std::string &schema, const std::string &units,
-                         const std::string &step) {
-        return "{\"schema\": \"pellucid-preset/" + schema + "\", \"name\": \"MR\",\n\"units\": \"" +
-               units + "\", \"classes\": [{\"name\": \"Above\", \"range\": [0, 1], " +
-               "\"steps\": [{\"kind\": \"binarise\"" + step + "}]}]}";
-    };
-    EXPECT_EQ(reasonOf(text("1", "window", ", \"from\": 300")),
-              "line 2: /units: gives a 'binarise' step in values of another volume: save this "
-              "preset again");
-    EXPECT_NO_THROW(presets::presetFromJson(text("2", "window", ", \"from\": 0.5")));
-    EXPECT_NO_THROW(presets::presetFromJson(text("1", "value", ", \"from\": 300")));
-    EXPECT_NO_THROW(presets::presetFromJson(text("1", "window", "")));
 }
 
 TEST(Preset, SharesOfTheWindowBecomeValuesAndBack) {

@@ -69,36 +69,6 @@ TEST(Scene, PlanningForTheVolumeForgetsTheView) {
     EXPECT_GE(camera.width * camera.pixelMm, 2.0 * lattice.radiusMm() - camera.pixelMm);
 }
 
-// In the first version of the format, "cubic" was the name of the spline, and the default.
-TEST(Scene, ScenesOfTheFirstVersionKeepTheirReconstruction) {
-    const auto first = [](const std::string &reconstruction) {
-        std::string text = scene::toJson({});
-        text.replace(text.find("pellucid-scene/3"), 16, "pellucid-scene/1");
-        const std::string line = "\"reconstruction\": \"cubic\",";
-        text.replace(text.find(line), line.size(), reconstruction);
-        return scene::sceneFromJson(text).image.reconstruction;
-    };
-    EXPECT_EQ(first(""), scene::Reconstruction::spline);
-    EXPECT_EQ(first("\"reconstruction\": \"cubic\","), scene::Reconstruction::spline);
-    EXPECT_EQ(first("\"reconstruction\": \"linear\","), scene::Reconstruction::linear);
-    EXPECT_EQ(scene::sceneFromJson(scene::toJson({})).image.reconstruction,
-              scene::Reconstruction::cubic);
-}
-
-// The window of a picture without contrast processing keeps its meaning.
-TEST(Scene, ScenesOfTheSecondVersionHaveNoContrastInTheirWindow) {
-    scene::Scene scene;
-    scene.tone.low = 1.0;
-    scene.tone.high = 7.0;
-    std::string text = scene::toJson(scene);
-    EXPECT_EQ(scene::sceneFromJson(text).tone, scene.tone);
-    text.replace(text.find("pellucid-scene/3"), 16, "pellucid-scene/2");
-    const scene::Tone read = scene::sceneFromJson(text).tone;
-    EXPECT_EQ(read.high, 7.0);
-    EXPECT_EQ(read.detail, 0.0);
-    EXPECT_EQ(read.latitude, 0.0);
-}
-
 TEST(Scene, RefusesBadJsonWithTheReason) {
     const std::string good = scene::toJson({});
     EXPECT_THROW(scene::sceneFromJson("{"), task::Error);
@@ -111,7 +81,9 @@ TEST(Scene, RefusesBadJsonWithTheReason) {
     EXPECT_THROW(scene::sceneFromJson(replaced("\"cubic\"", "\"quintic\"")), task::Error);
     EXPECT_THROW(scene::sceneFromJson(replaced("pellucid-scene/3", "other")), task::Error);
     for (const char *look :
-         {R"("transfer_function": [1.0])", R"("transfer_function": [1.0, 9.0])",
+         {R"("transfer_function": {"weights": [1.0], "range": [0, 1]})",
+          R"("transfer_function": {"weights": [1.0, 9.0], "range": [0, 1]})",
+          R"("transfer_function": {"weights": [1.0, 1.0], "range": [0, 1], "of": 1})",
           R"("transfer_function": "x")", R"("classes": [{"name": "a"}])",
           R"("classes": [{"name": "a", "range": [1, 0]}])",
           R"("classes": [{"name": "a", "range": [0, 1], "color": "red"}])", R"("classes": 3)"})

@@ -98,51 +98,6 @@ private slots:
         QCOMPARE(count(library), 0);
     }
 
-    // An earlier program wrote labels and warnings as English text.
-    void whatAnEarlierProgramListedIsShownAndFound() {
-        const LibraryPlace at = place("earlier");
-        LibrarySeries s = librarySeries(1, "Doe^Jane", "Thorax", 3);
-        s.volumes.push_back(s.volumes[0]);
-        s.volumes[0].label = {because::slicesTo(1, 5), because::axialNumber(2)};
-        s.volumes[1].label = {because::set(2), because::coronal};
-        const auto change = [&](const QString &statement, const QVariant &value = {}) {
-            const Library library(at);
-            QSqlQuery query(QSqlDatabase::database(library.connection()));
-            if (!query.prepare(statement))
-                return false;
-            if (value.isValid())
-                query.addBindValue(value);
-            return query.exec();
-        };
-        const auto version = [&] {
-            const Library library(at);
-            QSqlQuery query(QSqlDatabase::database(library.connection()));
-            return query.exec("PRAGMA user_version") && query.next() ? query.value(0).toInt() : -1;
-        };
-        Library(at).put({s});
-        const int present = version();
-        QVERIFY(
-            change("UPDATE volumes SET warnings = ?", "without a, b.dcm: is truncated\n1 more"));
-        QVERIFY(change("UPDATE volumes SET label = ? WHERE id = 1", "slices 1 to 5, axial 2"));
-        QVERIFY(change("UPDATE volumes SET label = ? WHERE id = 2", "set 2, coronal"));
-        QVERIFY(change("PRAGMA user_version = 1"));
-        QVERIFY(openLibrary(at.folder).notices.empty());
-        const auto volumes = Library(at).volumes(s.study);
-        QCOMPARE(volumes.size(), std::size_t(2));
-        QCOMPARE(volumes[0].key(), s.volumes[0].key());
-        QCOMPARE(volumes[1].key(), s.volumes[1].key());
-        QVERIFY(!arePhases(volumes[0], volumes[1]));
-        QVERIFY(arePhases(volumes[0], s.volumes[0]));
-        QVERIFY(seriesText(volumes[0]).endsWith("slices 1 to 5, axial 2"));
-        QCOMPARE(warningTexts(volumes[0]),
-                 QStringList({"without a, b.dcm: is truncated", "1 more"}));
-        // The earlier program can use the list until a newer one adds to it.
-        QCOMPARE(version(), 1);
-        Library(at).put({librarySeries(2, "Roe^Richard", "Knee", 1)});
-        QCOMPARE(version(), present);
-        QCOMPARE(Library(at).volumes(s.study)[1].key(), s.volumes[1].key());
-    }
-
     void aHundredThousandInstancesStaySearchable_data() {
         QTest::addColumn<int>("studies");
         QTest::addColumn<int>("files");
