@@ -94,6 +94,8 @@ struct Study {
 struct Patient {
     std::string id, name, birthDate, sex;
     std::vector<Study> studies;
+    /// Stands for the volume files, which name no patient.
+    bool isOfVolumeFiles = false;
 };
 
 /// An archive, and the folder with its files, which exists as long as they may be loaded.

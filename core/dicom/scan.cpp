@@ -212,9 +212,9 @@ private:
 
 void addVolumeFile(Catalogue &catalogue, const fs::path &path,
                    const decoder::VolumeFileHeader &header) {
-    if (catalogue.patients.empty() || catalogue.patients.back().id != "files")
+    if (catalogue.patients.empty() || !catalogue.patients.back().isOfVolumeFiles)
         catalogue.patients.push_back(
-            {"files", "Files", "", "", {{"", "", "Volume files", {}, {}}}});
+            {"files", "Files", "", "", {{"", "", "Volume files", {}, {}}}, true});
     Series series;
     series.description = path.filename().string();
     series.number = int(catalogue.patients.back().studies[0].series.size()) + 1;

@@ -745,38 +745,6 @@
         <translation>%1 %</translation>
     </message>
     <message>
-        <source>Everything shown has one color, so it adds up to one field</source>
-        <translation>顯示的內容只有一種顏色，因此合成一個場</translation>
-    </message>
-    <message>
-        <source>The look is mixed from two or three colors, and each has a field</source>
-        <translation>外觀由兩種或三種顏色混合而成，每種各有一個場</translation>
-    </message>
-    <message>
-        <source>Weights are changing, so each layer keeps its own spectrum</source>
-        <translation>權重正在變動，因此每個圖層保留各自的頻譜</translation>
-    </message>
-    <message>
-        <source>Light acts on the gradient, which has its own spectrum</source>
-        <translation>光照作用於梯度，梯度有自己的頻譜</translation>
-    </message>
-    <message>
-        <source>look %1</source>
-        <translation>外觀 %1</translation>
-    </message>
-    <message>
-        <source>colors %1</source>
-        <translation>色彩 %1</translation>
-    </message>
-    <message>
-        <source>layers %1</source>
-        <translation>圖層 %1</translation>
-    </message>
-    <message>
-        <source>gradients %1</source>
-        <translation>梯度 %1</translation>
-    </message>
-    <message>
         <source>%1, %2</source>
         <translation>%1，%2</translation>
     </message>
@@ -938,10 +906,6 @@
     <message>
         <source>there is no folder for temporary files</source>
         <translation>沒有暫存檔案的資料夾</translation>
-    </message>
-    <message>
-        <source>is a study library from a newer version of the program</source>
-        <translation>為較新版本的檢查資料庫</translation>
     </message>
     <message>
         <source>the image does not match the header</source>
@@ -1916,18 +1880,6 @@
         <translation>此外觀需要 %1 MB 記憶體，超過可用量</translation>
     </message>
     <message>
-        <source>the icon %1 is missing</source>
-        <translation>沒有圖示 %1</translation>
-    </message>
-    <message>
-        <source>the resource %1 is missing</source>
-        <translation>沒有資源 %1</translation>
-    </message>
-    <message>
-        <source>the role %1 has no color</source>
-        <translation>角色 %1 沒有色彩</translation>
-    </message>
-    <message>
         <source>not enough memory to copy to the graphics card</source>
         <translation>記憶體不足，無法複製到顯示卡</translation>
     </message>
@@ -2420,10 +2372,6 @@
         <translation>OpenGL 錯誤 %1：%2</translation>
     </message>
     <message>
-        <source>the shader file &apos;%1&apos; is missing</source>
-        <translation>沒有著色器檔案「%1」</translation>
-    </message>
-    <message>
         <source>shader %1: %2</source>
         <translation>著色器 %1：%2</translation>
     </message>
@@ -2514,10 +2462,6 @@
     <message>
         <source>must be true or false</source>
         <translation>必須是 true 或 false</translation>
-    </message>
-    <message>
-        <source>gives a &apos;binarise&apos; step in values of another volume: save this preset again</source>
-        <translation>其「binarise」步驟以另一體積的數值表示：請重新儲存此預設集</translation>
     </message>
     <message>
         <source>is a segmentation, which is shown with the images that it belongs to</source>
@@ -3726,6 +3670,14 @@
     <message>
         <source>not enough memory to measure the error of a picture</source>
         <translation>記憶體不足，無法測量圖片的誤差</translation>
+    </message>
+    <message>
+        <source>is a study library from another version of the program</source>
+        <translation>是其他版本程式的檢查資料庫</translation>
+    </message>
+    <message>
+        <source>no web browser is set up to open the manual</source>
+        <translation>未設定可開啟手冊的瀏覽器</translation>
     </message>
 </context>
 <context>
@@ -5536,10 +5488,6 @@ Open it beside?</source>
         <translation>沒有可比較的先前外觀</translation>
     </message>
     <message>
-        <source>Spectr&amp;um</source>
-        <translation>頻譜(&amp;U)</translation>
-    </message>
-    <message>
         <source>Saved: %1</source>
         <translation>已儲存：%1</translation>
     </message>
@@ -5550,33 +5498,6 @@ Open it beside?</source>
     <message>
         <source>Not protected</source>
         <translation>未受保護</translation>
-    </message>
-</context>
-<context>
-    <name>pellucid::ui::ManualWindow</name>
-    <message>
-        <source>Pellucid manual</source>
-        <translation>Pellucid 使用手冊</translation>
-    </message>
-    <message>
-        <source>Search the manual</source>
-        <translation>搜尋手冊</translation>
-    </message>
-    <message>
-        <source>Enter: next place; Shift+Enter: previous place</source>
-        <translation>Enter：下一處；Shift+Enter：上一處</translation>
-    </message>
-    <message>
-        <source>Contents</source>
-        <translation>目錄</translation>
-    </message>
-    <message>
-        <source>Nothing found</source>
-        <translation>找不到</translation>
-    </message>
-    <message>
-        <source>%1 of %2</source>
-        <translation>第 %1 項，共 %2 項</translation>
     </message>
 </context>
 <context>
@@ -5799,6 +5720,10 @@ Open it beside?</source>
     <message>
         <source>%1 is reserved for the panes; choose a different key</source>
         <translation>%1 是各窗格固定的按鍵，請選其他按鍵</translation>
+    </message>
+    <message>
+        <source>The language changes at the next start</source>
+        <translation>語言於下次啟動時變更</translation>
     </message>
 </context>
 <context>
@@ -6045,30 +5970,6 @@ Open it beside?</source>
         <translation>自動</translation>
     </message>
     <message>
-        <source>Padding</source>
-        <translation>補零</translation>
-    </message>
-    <message>
-        <source>Minimum ratio of the padded size to the field&apos;s along each axis</source>
-        <translation>各軸補零後大小與原大小的最小比值</translation>
-    </message>
-    <message>
-        <source>Storage</source>
-        <translation>儲存</translation>
-    </message>
-    <message>
-        <source>Number format of the spectrum</source>
-        <translation>頻譜數值的儲存格式</translation>
-    </message>
-    <message>
-        <source>16 bit</source>
-        <translation>16 位元</translation>
-    </message>
-    <message>
-        <source>32 bit</source>
-        <translation>32 位元</translation>
-    </message>
-    <message>
         <source>Frame</source>
         <translation>影格</translation>
     </message>
@@ -6089,14 +5990,6 @@ Open it beside?</source>
         <translation>使用中的核函數、儲存與記憶體</translation>
     </message>
     <message>
-        <source>Padded</source>
-        <translation>補零</translation>
-    </message>
-    <message>
-        <source>Padded size relative to the field&apos;s, along columns, rows and slices</source>
-        <translation>沿行、列與切片，補零後大小與原大小的比值</translation>
-    </message>
-    <message>
         <source>Override what the planner chose</source>
         <translation>手動取代計畫所選的項目</translation>
     </message>
@@ -6107,10 +6000,6 @@ Open it beside?</source>
     <message>
         <source>&apos;%1&apos; is not a tolerance: enter 0.0001 to 30 percent</source>
         <translation>「%1」不是容差：請輸入百分之 0.0001 至 30</translation>
-    </message>
-    <message>
-        <source>%1 x %2 x %3</source>
-        <translation>%1 x %2 x %3</translation>
     </message>
     <message>
         <source>%1, %2 bit, %3 MB</source>
@@ -6151,66 +6040,6 @@ Open it beside?</source>
     <message>
         <source>at most %1</source>
         <translation>至多 %1</translation>
-    </message>
-    <message>
-        <source>Per frame</source>
-        <translation>每影格</translation>
-    </message>
-    <message>
-        <source>Spectra, slices, images and multiplications that a frame needs</source>
-        <translation>每一影格的頻譜、切片、影像與乘法次數</translation>
-    </message>
-    <message>
-        <source>Skipped</source>
-        <translation>省略</translation>
-    </message>
-    <message>
-        <source>Stages that are skipped because this scene does not need them</source>
-        <translation>場景不需要、因此不計算的部分</translation>
-    </message>
-    <message>
-        <source>light</source>
-        <translation>光源</translation>
-    </message>
-    <message>
-        <source>depth cue</source>
-        <translation>深度提示</translation>
-    </message>
-    <message>
-        <source>color</source>
-        <translation>顏色</translation>
-    </message>
-    <message>
-        <source>empty space</source>
-        <translation>空白區域</translation>
-    </message>
-    <message>
-        <source>nothing</source>
-        <translation>無</translation>
-    </message>
-    <message>
-        <source>Spectra: %1; slices: %2; images: %3; multiplications: %4 million</source>
-        <translation>頻譜：%1；切片：%2；影像：%3；乘法：%4 百萬次</translation>
-    </message>
-    <message>
-        <source>, </source>
-        <translation>、</translation>
-    </message>
-    <message>
-        <source>Kernel widths</source>
-        <translation>核函數寬度</translation>
-    </message>
-    <message>
-        <source>Share of the frequencies that kernels of each width read. Narrow kernels are accurate enough where there is little energy. Frequencies with almost none are not read.</source>
-        <translation>各寬度的核函數所讀頻率的比例。能量少之處，較窄的核函數已足夠準確；幾乎沒有能量的頻率則不讀取。</translation>
-    </message>
-    <message>
-        <source>width %1: %2</source>
-        <translation>寬度 %1：%2</translation>
-    </message>
-    <message>
-        <source>not read: %1</source>
-        <translation>不讀取：%1</translation>
     </message>
     <message>
         <source>measured: %1</source>
@@ -7037,48 +6866,6 @@ Retrieve these images again, and replace those that are here?</source>
     </message>
 </context>
 <context>
-    <name>pellucid::ui::SpectrumPanel</name>
-    <message>
-        <source>Frequency and strength under the mouse</source>
-        <translation>滑鼠所指的頻率與強度</translation>
-    </message>
-    <message>
-        <source>The spectrum of the projection&apos;s current view.</source>
-        <translation>投影目前檢視的頻譜。</translation>
-    </message>
-</context>
-<context>
-    <name>pellucid::ui::SpectrumPlot</name>
-    <message>
-        <source>Spectrum of the view</source>
-        <translation>檢視的頻譜</translation>
-    </message>
-    <message>
-        <source>The slice of the spectrum that this view takes, in decibels below the value at frequency 0; the circle is the band of the picture, at most that of the samples</source>
-        <translation>此檢視所取的頻譜截面，以相對於頻率 0 的分貝值表示；圓圈為影像的頻帶，至多為取樣的頻帶</translation>
-    </message>
-    <message>
-        <source>Up to %1 cycles per mm</source>
-        <translation>至每 mm %1 週期</translation>
-    </message>
-    <message>
-        <source>cycles/mm</source>
-        <translation>週期/mm</translation>
-    </message>
-    <message>
-        <source>%1 dB</source>
-        <translation>%1 dB</translation>
-    </message>
-    <message>
-        <source>%1 cycles/mm (period %2 mm): %3</source>
-        <translation>%1 週期/mm（週期長 %2 mm）：%3</translation>
-    </message>
-    <message>
-        <source>0 cycles/mm: %1</source>
-        <translation>0 週期/mm：%1</translation>
-    </message>
-</context>
-<context>
     <name>pellucid::ui::StartPage</name>
     <message>
         <source>Continue where you left off</source>
@@ -7201,10 +6988,6 @@ Retrieve these images again, and replace those that are here?</source>
     <message>
         <source>HISTORY</source>
         <translation>歷程</translation>
-    </message>
-    <message>
-        <source>SPECTRUM</source>
-        <translation>頻譜</translation>
     </message>
     <message>
         <source>TRANSFERS</source>
@@ -7444,32 +7227,12 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>差異旁</translation>
     </message>
     <message>
-        <source>Weights</source>
-        <translation>權重</translation>
-    </message>
-    <message>
-        <source>Weight of %1</source>
-        <translation>%1的權重</translation>
-    </message>
-    <message>
-        <source>the open volume</source>
-        <translation>開啟的體積</translation>
-    </message>
-    <message>
-        <source>the other</source>
-        <translation>另一體積</translation>
-    </message>
-    <message>
         <source>The aligned volume, to check the alignment</source>
         <translation>已對齊的體積，以檢查對齊</translation>
     </message>
     <message>
         <source>Opens it at the right; both sides move together</source>
         <translation>於右側開啟；兩側一起移動</translation>
-    </message>
-    <message>
-        <source>%1, from -2 to 2</source>
-        <translation>%1，−2 至 2</translation>
     </message>
 </context>
 <context>

@@ -19,11 +19,7 @@ FORBIDDEN = {
     r"QTextBrowser|QTextEdit|QTextDocument|QStaticText|QGraphicsTextItem|QSplashScreen": "PlainLabel or QPlainTextEdit",
     r"setHtml|insertHtml|setMarkdown|setWhatsThis|setStatusTip|QWhatsThis": "a plain text",
 }
-# The manual is a page of the program itself.
 ALLOWED = {
-    ("ui/window/manual_window.cpp", "QTextBrowser"),
-    ("ui/window/manual_window.cpp", "QTextEdit"),
-    ("ui/window/manual_window.h", "QTextBrowser"),
     ("ui/window/projection_keys.cpp", "QTextEdit"),  # asks whether the focus is in one
 }
 STRINGS = r'(?:\s*"(?:[^"\\]|\\.)*")+\s*'

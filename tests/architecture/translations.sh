@@ -43,11 +43,13 @@ sys.exit(wrong)
 PYTHON
 done
 # Both manuals have the same chapters, tables and pictures.
-for part in '<h3>' '<h4>' '<tr>' '<img' '<pre>'; do
-    counts=$(for manual in resources/manual/manual*.html; do grep -o "$part" "$manual" | wc -l; done | sort -u | wc -l)
-    if [ "$counts" != 1 ]; then
-        echo "resources/manual: the manuals differ in the number of $part"
-        failed=1
-    fi
+for book in manual command_line; do
+    for part in '<h3 id="[^"]*"' '<h4 id="[^"]*"' '<tr>' '<img[^>]*' '<pre>'; do
+        lists=$(for page in resources/manual/$book*.html; do grep -o "$part" "$page" | md5sum; done | sort -u | wc -l)
+        if [ "$lists" != 1 ]; then
+            echo "resources/manual: the translations of $book.html differ in $part"
+            failed=1
+        fi
+    done
 done
 exit $failed

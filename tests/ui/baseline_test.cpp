@@ -15,7 +15,6 @@
 #include <QTreeView>
 
 #include "ui/views/mpr_view.h"
-#include "ui/views/spectrum_sampler.h"
 #include "ui/window/file_menu.h"
 
 namespace pellucid {
@@ -88,11 +87,7 @@ private slots:
         find<QAction>("preferencesAction")->trigger();
         dialog("preferencesDialog", "panel_preferences");
         find<QAction>("aboutAction")->trigger();
-        dialog("aboutDialog", "panel_about");
-        find<QAction>("spectrumAction")->trigger();
-        const auto *sampler = mainWindow().findChild<ui::SpectrumSampler *>();
-        QTRY_VERIFY_WITH_TIMEOUT(!sampler->isBehind(), patienceMs);
-        compare(find<QDockWidget>("spectrumDock")->grab().toImage(), "panel_spectrum", {});
+        dialog("aboutDialog", "about");
     }
 
 private:

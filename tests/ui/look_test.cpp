@@ -85,14 +85,13 @@ private slots:
         QVERIFY(find<QLabel>("planReasonLabel")->text().contains("not a number"));
 
         // A cancelled preparation leaves the former plan; the same choice repeats it.
-        auto *padding = find<QComboBox>("paddingBox");
-        padding->setCurrentIndex(padding->findText("1.25"));
-        emit padding->activated(padding->currentIndex());
+        kernel->setCurrentIndex(kernel->findText("nearest"));
+        emit kernel->activated(kernel->currentIndex());
         jobs().cancel();
-        QVERIFY(find<QLabel>("paddingLabel")->text().startsWith("2."));
-        emit padding->activated(padding->currentIndex());
+        QVERIFY(find<QLabel>("planLabel")->text().startsWith("trilinear"));
+        emit kernel->activated(kernel->currentIndex());
         settle();
-        QVERIFY(find<QLabel>("paddingLabel")->text().startsWith("1."));
+        QVERIFY(find<QLabel>("planLabel")->text().startsWith("nearest"));
         document().undoStack()->undo();
         document().undoStack()->undo();
         document().undoStack()->undo();

@@ -173,21 +173,6 @@ void Document::closeVolume() {
     emit volumeChanged();
 }
 
-void Document::announce() {
-    emit sourcesChanged();
-    emit problemsChanged();
-    emit currentSourceChanged();
-    if (!m_volume)
-        return;
-    emit volumeChanged();
-    emit segmentsChanged();
-    emit sceneChanged();
-    emit displayWindowChanged();
-    emit crosshairChanged();
-    emit cutChanged();
-    emit measurementsChanged();
-}
-
 double Document::fittingPixelMm() const {
     return m_volume ? ui::fittingPixelMm(m_volume->lattice().radiusMm(), m_projectionSize) : 1.0;
 }

@@ -154,9 +154,6 @@ public:
 
     QUndoStack *undoStack() { return &m_undo; }
 
-    /// Emits the signals of everything that is set, for a new window.
-    void announce();
-
 signals:
     void sourcesChanged();
     void currentSourceChanged();

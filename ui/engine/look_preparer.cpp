@@ -101,17 +101,6 @@ void LookPreparer::returnToShown() {
         editScene(m_document, tr("Cancel"), noDrag, returned);
 }
 
-void LookPreparer::announce() {
-    const bool isUnderway =
-        m_have.underway && m_have.underway->makes == prepare::Underway::Makes::engine;
-    emit planChanged(isUnderway        ? PlanState::underway
-                     : !m_have.givenUp ? PlanState::holds
-                     : m_hasFailed     ? PlanState::failed
-                                       : PlanState::cancelled);
-    if (m_have.full)
-        take(Step::showFull, *m_have.full);
-}
-
 bool LookPreparer::canProject() const {
     const auto &volume = m_document.volume();
     return volume && !m_document.isPreview() && volume->notes().placed;

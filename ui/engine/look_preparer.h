@@ -60,9 +60,6 @@ public:
     void cancel();
     /// Takes over and shows an engine that was made before.
     void adopt(const PreparedFor &preparedFor, const prepare::PreparedEngine &engine);
-    /// Emits the signals of the present state, for a new window.
-    void announce();
-
     /// A function that makes engines within another job and delivers them, in the part of the job's
     /// progress beyond `from`. It refers to the preparer only where it delivers.
     using Preparation = std::function<void(const Job &job, const volume::Volume &volume)>;

@@ -33,8 +33,6 @@ JobStrip::JobStrip(JobRunner &jobs, const QString &name, std::function<void()> c
                             static_cast<QWidget *>(m_cancel)})
         row->addWidget(widget);
     hide();
-    if (jobs.isRunning()) // a previous window started it
-        showStarted(jobs.title());
     connect(m_cancel, &QPushButton::clicked, this, [&jobs, cancel = std::move(cancel)] {
         if (cancel)
             cancel();

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
 
-constexpr int schemaVersion = 2;
+constexpr int schemaVersion = 3;
 // Another window of the program may be writing.
 constexpr int busyTimeoutMs = 5000;
 constexpr int maxSortedMatches = 2000;
@@ -36,6 +36,7 @@ constexpr const char *schema[] = {
     "patient_name TEXT NOT NULL, birth_date TEXT NOT NULL, sex TEXT NOT NULL, uid TEXT NOT NULL, "
     "date TEXT NOT NULL, description TEXT NOT NULL, modalities TEXT NOT NULL, "
     "sort_name TEXT NOT NULL, search TEXT NOT NULL, added INTEGER NOT NULL, "
+    "origin INTEGER NOT NULL, "
     "UNIQUE (patient_id, patient_name, uid))",
     "CREATE INDEX studies_by_date ON studies (date DESC, sort_name)",
     "CREATE INDEX studies_by_name ON studies (sort_name, date DESC)",
@@ -122,10 +123,10 @@ qint64 findSeries(const QSqlDatabase &list, const StudyFacts &study, const Volum
 qint64 putStudy(const QSqlDatabase &list, const StudyFacts &s) {
     qint64 id = findStudy(list, s);
     if (id == 0) {
-        ListQuery added(list,
-                        "INSERT INTO studies (patient_id, patient_name, birth_date, sex, uid, "
-                        "date, description, modalities, sort_name, search, added) VALUES (?, ?, "
-                        "?, ?, ?, ?, ?, '', ?, '', ?)");
+        ListQuery added(
+            list, "INSERT INTO studies (patient_id, patient_name, birth_date, sex, uid, "
+                  "date, description, modalities, sort_name, search, added, origin) VALUES (?, "
+                  "?, ?, ?, ?, ?, ?, '', ?, '', ?, ?)");
         id = added.bind(notNull(s.patientId))
                  .bind(notNull(s.patientName))
                  .bind(notNull(s.birthDate))
@@ -135,6 +136,7 @@ qint64 putStudy(const QSqlDatabase &list, const StudyFacts &s) {
                  .bind(notNull(s.description))
                  .bind(folded(patientText(s)))
                  .bind(QDateTime::currentMSecsSinceEpoch())
+                 .bind(int(s.origin == Origin::volumeFiles))
                  .run()
                  .lastId();
     }
@@ -271,8 +273,9 @@ Library::Library(const LibraryPlace &place) : m_place(place) {
             }
             transaction.commit();
         }
-        if (versionOf(list) > schemaVersion)
-            throw Error(ErrorCode::output, task::because::isANewerLibrary, place.listFile());
+        if (versionOf(list) != schemaVersion)
+            throw Error(ErrorCode::output, task::because::isALibraryOfAnotherVersion,
+                        place.listFile());
     } catch (const Error &) {
         close(std::move(list), m_connection);
         throw;

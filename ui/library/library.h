@@ -55,7 +55,7 @@ struct OpenedLibrary {
 
 /// Opens the library in a folder, or creates one. A damaged list is kept under a different name,
 /// and its readable rows go into a new list. If the folder cannot be written, or the list is from a
-/// newer version of the program, the list is in memory. Reports all this in the notices instead of
+/// other version of the program, the list is in memory. Reports all this in the notices instead of
 /// throwing. `unlisted`: files that wait to be listed, such as those from a server; they are no
 /// sign of a lost list.
 OpenedLibrary openLibrary(const std::filesystem::path &folder,

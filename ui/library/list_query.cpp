@@ -78,6 +78,7 @@ StudyFacts studyOf(const ListQuery &row) {
     study.date = row.text(6);
     study.description = row.text(7);
     study.modalities = row.text(8);
+    study.origin = row.integer(9) != 0 ? Origin::volumeFiles : Origin::patient;
     return study;
 }
 

@@ -55,7 +55,7 @@ private:
 
 /// The columns of the tables, in the order in which the functions below read them.
 inline constexpr const char *studyColumns = "id, patient_id, patient_name, birth_date, sex, uid, "
-                                            "date, description, modalities";
+                                            "date, description, modalities, origin";
 StudyFacts studyOf(const ListQuery &row);
 inline constexpr const char *seriesColumns =
     "id, study, uid, number, modality, body_part, description";

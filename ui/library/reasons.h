@@ -9,7 +9,7 @@ namespace pellucid::task::because {
 // clang-format off
 // The study library, sessions and export
 PELLUCID_REASON(ofLibrary, "the study library: %1")
-PELLUCID_REASON(isANewerLibrary, "is a study library from a newer version of the program")
+PELLUCID_REASON(isALibraryOfAnotherVersion, "is a study library from another version of the program")
 PELLUCID_REASON(listedForThisRun, "%1; studies are listed only until the program closes")
 PELLUCID_REASON(copiesNeedALibrary, "copying needs a study library that can be written to")
 PELLUCID_REASON(cannotBeCopied, "cannot be copied into the library: %1")

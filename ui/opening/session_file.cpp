@@ -112,12 +112,6 @@ mpr::PlaneAxes planesFrom(const QJsonArray &in) {
     return mpr::PlaneAxes(axes);
 }
 
-subtraction::Weights weightsFrom(const QJsonValue &value) {
-    const QJsonArray in = value.toArray();
-    return in.size() == 2 ? subtraction::Weights{in[0].toDouble(), in[1].toDouble()}
-                          : subtraction::Weights();
-}
-
 QJsonObject objectOf(const Session &s) {
     const mpr::ResliceOptions &cut = s.shown.cut.options;
     QJsonArray leftOut;
@@ -130,9 +124,7 @@ QJsonObject objectOf(const Session &s) {
     if (s.difference)
         difference = {{"minuend", s.difference->minuend},
                       {"subtrahend", s.difference->subtrahend},
-                      {"aligned", s.difference->isAligned},
-                      {"weights", QJsonArray{s.difference->weights.minuend,
-                                             s.difference->weights.subtrahend}}};
+                      {"aligned", s.difference->isAligned}};
     return {{"schema", schema},
             {"difference", difference},
             {"ended", s.hasEnded},
@@ -169,7 +161,7 @@ Session fromJson(const QJsonObject &in) {
         s.segmentations << file.toString();
     if (const QJsonObject of = in["difference"].toObject(); !of.isEmpty())
         s.difference = {of["minuend"].toString(), of["subtrahend"].toString(),
-                        of["aligned"].toBool(), weightsFrom(of["weights"])};
+                        of["aligned"].toBool()};
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
     s.hasEnded = in["ended"].toBool();

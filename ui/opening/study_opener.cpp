@@ -221,13 +221,12 @@ std::optional<int> StudyOpener::resumedOf(const std::vector<int> &indices) {
     // Copies: adding a source moves the others.
     const StudySource from = m_document.sources()[std::size_t(*minuend)];
     const StudySource what = m_document.sources()[std::size_t(*subtrahend)];
-    return addDifference(
-        from, what,
-        {difference->isAligned ? std::make_shared<Alignment>() : nullptr, difference->weights});
+    return addDifference(from, what,
+                         difference->isAligned ? std::make_shared<Alignment>() : nullptr);
 }
 
 int StudyOpener::addDifference(const StudySource &minuend, const StudySource &subtrahend,
-                               const DifferenceMethod &method) {
+                               const std::shared_ptr<Alignment> &alignment) {
     // From the thread that loads. The jobs end before the opener does.
     const auto rename = [this](const QString &key, const QString &description) {
         QMetaObject::invokeMethod(this, [this, key, description] {
@@ -239,19 +238,20 @@ int StudyOpener::addDifference(const StudySource &minuend, const StudySource &su
             m_document.addSources({renamed});
         });
     };
-    const StudySource source = differenceSource(minuend, subtrahend, method, rename);
+    const StudySource source = differenceSource(minuend, subtrahend, alignment, rename);
     const int present = m_document.sourceWith(source.key());
     if (present >= 0 && !m_document.sources()[std::size_t(present)].isClosed)
         return present; // with what was found when it was loaded
     return m_document.addSources({source}).front();
 }
 
-void StudyOpener::openDifference(const StudySource &subtrahend, const DifferenceMethod &method) {
+void StudyOpener::openDifference(const StudySource &subtrahend,
+                                 const std::shared_ptr<Alignment> &alignment) {
     const int open = m_document.currentSource();
     if (open < 0 || !m_document.volume() || m_document.isPreview())
         return;
     const StudySource minuend = m_document.sources()[std::size_t(open)];
-    const int index = addDifference(minuend, subtrahend, method);
+    const int index = addDifference(minuend, subtrahend, alignment);
     openSource(index, [this, index](const Outcome &) {
         if (m_document.currentSource() != index) // it cannot be made, or was given up
             m_document.closeSource(index);

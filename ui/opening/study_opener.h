@@ -55,7 +55,7 @@ public:
     void openSource(int index, JobRunner::OnEnd onEnd = {});
     /// Opens the difference between the open volume and another one, which becomes a source of its
     /// own. Does nothing if no volume is open.
-    void openDifference(const StudySource &subtrahend, const DifferenceMethod &method);
+    void openDifference(const StudySource &subtrahend, const std::shared_ptr<Alignment> &alignment);
     /// Opens another volume of the same series: look, view, window, crosshair and planes stay, and
     /// so does the former volume until the new one is loaded. `onEnd`: as in `openSource`.
     void openPhase(int index, JobRunner::OnEnd onEnd = {});
@@ -96,7 +96,7 @@ private:
     /// The source among them that is to be resumed, or their difference.
     std::optional<int> resumedOf(const std::vector<int> &indices);
     int addDifference(const StudySource &minuend, const StudySource &subtrahend,
-                      const DifferenceMethod &method);
+                      const std::shared_ptr<Alignment> &alignment);
     void applyResumption();
     void keepCurrent();
     /// Reopens the previous study after a load that failed or was cancelled.

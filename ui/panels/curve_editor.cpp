@@ -11,6 +11,7 @@
 #include <QWheelEvent>
 
 #include "ui/language/number_text.h"
+#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 
@@ -32,7 +33,7 @@ double tickStep(double range) {
 
 } // namespace
 
-CurveEditor::CurveEditor(const Theme &theme, QWidget *parent) : QWidget(parent), m_theme(theme) {
+CurveEditor::CurveEditor(QWidget *parent) : QWidget(parent) {
     setObjectName("curveEditor");
     setAccessibleName(tr("Transfer function"));
     setToolTip(tr("Drag a segment up or down; double-click resets it to 1. The wheel zooms the "
@@ -108,7 +109,7 @@ bool CurveEditor::isOnAxis(const QPointF &at) const {
 
 void CurveEditor::paintAxes(QPainter &painter) {
     const QRectF area = plot();
-    painter.setPen(m_theme.color("muted"));
+    painter.setPen(Theme::current().color("muted"));
     QFont small = font();
     small.setPointSizeF(0.85 * small.pointSizeF());
     painter.setFont(small);
@@ -140,20 +141,20 @@ void CurveEditor::paintHistogram(QPainter &painter) {
                     area.bottom() - m_histogram[n] * 0.9 * area.height());
     path.lineTo(area.bottomRight());
     path.closeSubpath();
-    painter.fillPath(path, m_theme.color("line"));
+    painter.fillPath(path, Theme::current().color("line"));
 }
 
 void CurveEditor::paintEvent(QPaintEvent *) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const QRectF area = plot();
-    painter.fillRect(area, m_theme.color("background"));
+    painter.fillRect(area, Theme::current().color("background"));
     paintHistogram(painter);
     paintAxes(painter);
     const int count = int(m_function.weights.size());
     if (m_hovered >= 0) {
         const double width = area.width() / count;
-        QColor fill = m_theme.color("accent");
+        QColor fill = Theme::current().color("accent");
         painter.setPen(QPen(fill, 1.0));
         fill.setAlphaF(0.18F);
         painter.setBrush(fill);
@@ -168,21 +169,21 @@ void CurveEditor::paintEvent(QPaintEvent *) {
         n == 0 ? curve.moveTo(at) : curve.lineTo(at);
     }
     painter.setBrush(Qt::NoBrush);
-    painter.setPen(QPen(m_theme.color("curve"), 2.0));
+    painter.setPen(QPen(Theme::current().color("curve"), 2.0));
     painter.drawPath(curve);
     for (int n = 0; n < count; ++n) {
-        painter.setBrush(n == m_selected && hasFocus() ? m_theme.color("curve")
-                                                       : m_theme.color("background"));
+        painter.setBrush(n == m_selected && hasFocus() ? Theme::current().color("curve")
+                                                       : Theme::current().color("background"));
         painter.drawEllipse(handleAt(n), handleRadius, handleRadius);
     }
     if (m_mouseX < area.left() || m_mouseX > area.right())
         return;
-    painter.setPen(QPen(m_theme.color("error"), 1.0));
+    painter.setPen(QPen(Theme::current().color("error"), 1.0));
     painter.drawLine(QPointF(m_mouseX, area.top()), QPointF(m_mouseX, area.bottom()));
     const double share = (m_mouseX - area.left()) / area.width();
     const double f = m_function.low + share * (m_function.high - m_function.low);
     const double value = valueAt(share);
-    painter.setPen(m_theme.color("curve"));
+    painter.setPen(Theme::current().color("curve"));
     painter.drawText(area.adjusted(6, 2, 0, 0), Qt::AlignLeft | Qt::AlignTop,
                      tr("weight %1 at %2%3")
                          .arg(QString::number(m_function.at(f), 'f', 2), numberText(value),

@@ -9,7 +9,6 @@
 #include "core/classify/density_field.h"
 #include "core/classify/transfer_function.h"
 #include "ui/document/commands.h"
-#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 
@@ -21,7 +20,7 @@ namespace pellucid::ui {
 class CurveEditor : public QWidget {
     Q_OBJECT
 public:
-    explicit CurveEditor(const Theme &theme, QWidget *parent = nullptr);
+    explicit CurveEditor(QWidget *parent = nullptr);
 
     void setFunction(const classify::TransferFunction &function);
     /// `window`: the values of all densities.
@@ -64,7 +63,6 @@ private:
     void paintAxes(QPainter &painter);
     void paintHistogram(QPainter &painter);
 
-    Theme m_theme;
     classify::TransferFunction m_function;
     classify::FieldWindow m_window{0.0, 1.0};
     QString m_unit;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/depth_curve.h"
 
+#include "ui/theme/theme.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +15,7 @@ namespace pellucid::ui {
 
 using shading::largestCurveValue;
 
-DepthCurve::DepthCurve(const Theme &theme, QWidget *parent) : QWidget(parent), m_theme(theme) {
+DepthCurve::DepthCurve(QWidget *parent) : QWidget(parent) {
     setObjectName("depthCurve");
     setAccessibleName(tr("Weight by depth, far to near"));
     setToolTip(tr("Weight by depth, from far (left) to near (right); drag the points"));
@@ -49,8 +51,8 @@ int DepthCurve::nearest(const QPointF &point) const {
 void DepthCurve::paintEvent(QPaintEvent *) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QPen(m_theme.color("line"), 1.0));
-    painter.setBrush(m_theme.color("background"));
+    painter.setPen(QPen(Theme::current().color("line"), 1.0));
+    painter.setBrush(Theme::current().color("background"));
     painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 4.0, 4.0);
     painter.drawLine(QPointF(plot().left(), yOf(1.0)), QPointF(plot().right(), yOf(1.0)));
     painter.setBrush(Qt::NoBrush);
@@ -62,11 +64,11 @@ void DepthCurve::paintEvent(QPaintEvent *) {
                          yOf(std::clamp(m_cue.at(2.0 * share - 1.0), -0.1, 2.1)));
         n == 0 ? path.moveTo(at) : path.lineTo(at);
     }
-    painter.setPen(QPen(m_theme.color("curve"), 1.5));
+    painter.setPen(QPen(Theme::current().color("curve"), 1.5));
     painter.drawPath(path);
     for (int n = 0; n < int(m_cue.curve.size()); ++n) {
-        painter.setBrush(n == m_selected && hasFocus() ? m_theme.color("curve")
-                                                       : m_theme.color("background"));
+        painter.setBrush(n == m_selected && hasFocus() ? Theme::current().color("curve")
+                                                       : Theme::current().color("background"));
         painter.drawEllipse(handleAt(n), 3.5, 3.5);
     }
 }

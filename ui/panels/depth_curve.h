@@ -5,7 +5,6 @@
 
 #include "core/shading/shading.h"
 #include "ui/document/commands.h"
-#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 
@@ -14,7 +13,7 @@ namespace pellucid::ui {
 class DepthCurve : public QWidget {
     Q_OBJECT
 public:
-    explicit DepthCurve(const Theme &theme, QWidget *parent = nullptr);
+    explicit DepthCurve(QWidget *parent = nullptr);
 
     void setCue(const shading::DepthCue &cue);
     /// The center of a point's handle.
@@ -37,7 +36,6 @@ private:
     double yOf(double value) const;
     int nearest(const QPointF &point) const;
 
-    Theme m_theme;
     shading::DepthCue m_cue;
     int m_selected = 0;
     DragId m_drag = noDrag;

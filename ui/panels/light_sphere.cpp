@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/light_sphere.h"
 
+#include "ui/theme/theme.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,7 +27,7 @@ constexpr double degreesPerKey = 5.0;
 
 } // namespace
 
-LightSphere::LightSphere(const Theme &theme, QWidget *parent) : QWidget(parent), m_theme(theme) {
+LightSphere::LightSphere(QWidget *parent) : QWidget(parent) {
     setObjectName("lightSphere");
     setAccessibleName(tr("Light directions"));
     setToolTip(tr("Drag a light over the sphere; beyond the rim, it shines from behind"));
@@ -120,12 +122,12 @@ void LightSphere::paintEvent(QPaintEvent *) {
         const bool isBehind = m_lights[std::size_t(n)].direction.z < 0.0;
         painter.setPen(QPen(QColor(0, 0, 0, 160), 3.5));
         painter.drawEllipse(at, 5.0, 5.0);
-        painter.setPen(QPen(m_theme.color(n == m_selected ? "accent" : "muted"), 2.0,
+        painter.setPen(QPen(Theme::current().color(n == m_selected ? "accent" : "muted"), 2.0,
                             isBehind ? Qt::DotLine : Qt::SolidLine));
         painter.drawEllipse(at, 5.0, 5.0);
     }
     if (hasFocus()) {
-        painter.setPen(QPen(m_theme.color("accent"), 1.0));
+        painter.setPen(QPen(Theme::current().color("accent"), 1.0));
         painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 5.0, 5.0);
     }
 }

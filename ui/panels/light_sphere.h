@@ -10,7 +10,6 @@
 
 #include "core/shading/shading.h"
 #include "ui/document/commands.h"
-#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 
@@ -20,7 +19,7 @@ namespace pellucid::ui {
 class LightSphere : public QWidget {
     Q_OBJECT
 public:
-    explicit LightSphere(const Theme &theme, QWidget *parent = nullptr);
+    explicit LightSphere(QWidget *parent = nullptr);
 
     /// Lights in the viewer's frame.
     void setLights(const std::vector<shading::Light> &lights, double ambient, int selected);
@@ -44,7 +43,6 @@ private:
     glm::dvec3 directionAt(const QPointF &point) const;
     QImage drawnSphere() const;
 
-    Theme m_theme;
     std::vector<shading::Light> m_lights;
     double m_ambient = 1.0;
     int m_selected = -1;

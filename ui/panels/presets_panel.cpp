@@ -10,7 +10,6 @@
 #include <QListWidget>
 #include <QMenu>
 #include <QPainter>
-#include <QPointer>
 #include <QPushButton>
 #include <QStyledItemDelegate>
 #include <QUndoCommand>
@@ -389,12 +388,12 @@ bool PresetsPanel::eventFilter(QObject *watched, QEvent *event) {
     return QWidget::eventFilter(watched, event);
 }
 
-// Removes one of the user's presets and brings it back. The panel may be that of an earlier window.
+// Removes one of the user's presets and brings it back.
 class PresetsPanel::Removal : public QUndoCommand {
 public:
     Removal(PresetsPanel &panel, const presets::Preset &preset)
         : QUndoCommand(editText(tr("Delete preset %1").arg(QString::fromStdString(preset.name)))),
-          m_panel(&panel), m_preset(preset) {}
+          m_panel(panel), m_preset(preset) {}
     void redo() override {
         if (m_isRemoved)
             return;
@@ -414,18 +413,13 @@ public:
 
 private:
     template <class F> void change(const F &what) {
-        if (m_panel == nullptr) {
-            auto library = presets::PresetLibrary::ofUser();
-            what(library);
-            return;
-        }
-        m_panel->attempt([&] {
-            what(m_panel->m_library);
-            m_panel->list();
+        m_panel.attempt([&] {
+            what(m_panel.m_library);
+            m_panel.list();
         });
     }
 
-    QPointer<PresetsPanel> m_panel;
+    PresetsPanel &m_panel;
     const presets::Preset m_preset;
     bool m_isRemoved = false;
 };

@@ -15,6 +15,7 @@
 #include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
+#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 
@@ -35,9 +36,8 @@ bool isNoImage(const task::Reason &reason) {
 
 } // namespace
 
-ProblemList::ProblemList(Document &document, const Theme &theme, QWidget *parent)
-    : QWidget(parent), m_document(document), m_theme(theme), m_heading(new PlainLabel),
-      m_list(new QListWidget) {
+ProblemList::ProblemList(Document &document, QWidget *parent)
+    : QWidget(parent), m_document(document), m_heading(new PlainLabel), m_list(new QListWidget) {
     m_list->setObjectName("problemList");
     m_list->setAccessibleName(tr("Problems"));
     m_list->setToolTip(tr("Files not used, and why"));
@@ -63,6 +63,12 @@ ProblemList::ProblemList(Document &document, const Theme &theme, QWidget *parent
     showProblems();
 }
 
+void ProblemList::changeEvent(QEvent *event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) // the rows have a color of the theme
+        showProblems();
+}
+
 void ProblemList::showProblems() {
     m_list->clear();
     const auto &problems = m_document.problems();
@@ -78,7 +84,7 @@ void ProblemList::showProblems() {
         auto *item = new QListWidgetItem(text, m_list);
         item->setToolTip(plainToolTip(tip));
         if (isNoImage(reason))
-            item->setForeground(m_theme.color("muted"));
+            item->setForeground(Theme::current().color("muted"));
     };
     for (const task::Reason *reason : order) {
         const auto &same = byReason[reason->encoded()];

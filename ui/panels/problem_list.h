@@ -3,8 +3,6 @@
 
 #include <QWidget>
 
-#include "ui/theme/theme.h"
-
 class QListWidget;
 
 namespace pellucid::ui {
@@ -17,17 +15,19 @@ class PlainLabel;
 class ProblemList : public QWidget {
     Q_OBJECT
 public:
-    ProblemList(Document &document, const Theme &theme, QWidget *parent = nullptr);
+    ProblemList(Document &document, QWidget *parent = nullptr);
 
 protected:
     void resizeEvent(QResizeEvent *event) override;
+
+protected:
+    void changeEvent(QEvent *event) override;
 
 private:
     void showProblems();
     void fitHeight();
 
     Document &m_document;
-    Theme m_theme;
     PlainLabel *m_heading;
     QListWidget *m_list;
 };

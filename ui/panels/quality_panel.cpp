@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/quality_panel.h"
 
-#include <array>
 #include <cmath>
 #include <functional>
 
@@ -38,34 +37,6 @@ QComboBox *addBox(QFormLayout *form, const QString &text, const char *name, cons
     return box;
 }
 
-QString spectraName(plan::SpectrumOf what) {
-    switch (what) {
-    case plan::SpectrumOf::look:
-        return QObject::tr("look %1");
-    case plan::SpectrumOf::color:
-        return QObject::tr("colors %1");
-    case plan::SpectrumOf::layer:
-        return QObject::tr("layers %1");
-    case plan::SpectrumOf::gradient:
-        return QObject::tr("gradients %1");
-    }
-    return {};
-}
-
-QString whySpectra(plan::SpectrumOf what) {
-    switch (what) {
-    case plan::SpectrumOf::look:
-        return QObject::tr("Everything shown has one color, so it adds up to one field");
-    case plan::SpectrumOf::color:
-        return QObject::tr("The look is mixed from two or three colors, and each has a field");
-    case plan::SpectrumOf::layer:
-        return QObject::tr("Weights are changing, so each layer keeps its own spectrum");
-    case plan::SpectrumOf::gradient:
-        return QObject::tr("Light acts on the gradient, which has its own spectrum");
-    }
-    return {};
-}
-
 PlainLabel *addFigure(QFormLayout *form, const QString &text, const char *name,
                       const QString &tip) {
     auto *label = new PlainLabel;
@@ -92,11 +63,9 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_more->setProperty("role", "link");
     m_more->setCheckable(true);
     m_more->setToolTip(tr("Override what the planner chose"));
-    const std::array<QWidget *, 8> expert{m_kernel,    m_padding, m_storage, m_padded,
-                                          m_tolerance, m_model,   m_widths,  m_leftOut};
-    const auto showExpert = [form, expert](bool isShown) {
-        for (QWidget *widget : expert)
-            form->setRowVisible(widget, isShown);
+    const auto showExpert = [this, form](bool isShown) {
+        form->setRowVisible(m_tolerance, isShown);
+        form->setRowVisible(m_kernel, isShown);
     };
     connect(m_more, &QPushButton::toggled, this, showExpert);
     showExpert(false);
@@ -134,15 +103,6 @@ void QualityPanel::addChoices(QFormLayout *form) {
     for (const char *name : {"LS3", "LS4", "LS5", "LS6", "LS7", "ES4", "ES5", "KB4", "KB5",
                              "hamming-sinc", "b-spline", "catmull-rom", "trilinear", "nearest"})
         m_kernel->addItem(name, QString(name));
-    m_padding = addBox(form, tr("Padding"), "paddingBox",
-                       tr("Minimum ratio of the padded size to the field's along each axis"));
-    m_padding->addItem(tr("Automatic"), 0.0);
-    for (const double padding : {1.25, 1.5, 2.0})
-        m_padding->addItem(QString::number(padding), padding);
-    m_storage = addBox(form, tr("Storage"), "storageBox", tr("Number format of the spectrum"));
-    m_storage->addItem(tr("Automatic"), QString());
-    m_storage->addItem(tr("16 bit"), QString("f16"));
-    m_storage->addItem(tr("32 bit"), QString("f32"));
 }
 
 void QualityPanel::addFigures(QFormLayout *form) {
@@ -151,19 +111,6 @@ void QualityPanel::addFigures(QFormLayout *form) {
                         tr("Predicted relative error of a picture of the whole from any side; the "
                            "error of the picture shown is beside it"));
     m_plan = addFigure(form, tr("Plan"), "planLabel", tr("Kernel, storage and memory in use"));
-    m_padded = addFigure(form, tr("Padded"), "paddingLabel",
-                         tr("Padded size relative to the field's, along columns, rows and slices"));
-    m_model = addFigure(form, tr("Per frame"), "modelLabel",
-                        tr("Spectra, slices, images and multiplications that a frame needs"));
-    m_model->setWordWrap(true);
-    m_widths = addFigure(form, tr("Kernel widths"), "widthsLabel",
-                         tr("Share of the frequencies that kernels of each width read. Narrow "
-                            "kernels are accurate enough where there is little energy. "
-                            "Frequencies with almost none are not read."));
-    m_widths->setWordWrap(true);
-    m_leftOut = addFigure(form, tr("Skipped"), "leftOutLabel",
-                          tr("Stages that are skipped because this scene does not need them"));
-    m_leftOut->setWordWrap(true);
     m_reason = new PlainLabel;
     m_reason->setObjectName("planReasonLabel");
     m_reason->setProperty("role", "muted");
@@ -189,22 +136,6 @@ void QualityPanel::connectChoices() {
             scene.interpolation.kernel.reset();
             if (!name.empty())
                 scene.interpolation.kernel = fourier::kernelFromName(name);
-        });
-    });
-    connect(m_padding, &QComboBox::activated, this, [this] {
-        change(tr("Padding"), [this](scene::Scene &scene) {
-            const double padding = m_padding->currentData().toDouble();
-            scene.interpolation.padding.reset();
-            if (padding > 0.0)
-                scene.interpolation.padding = padding;
-        });
-    });
-    connect(m_storage, &QComboBox::activated, this, [this] {
-        change(tr("Storage"), [this](scene::Scene &scene) {
-            const std::string name = m_storage->currentData().toString().toStdString();
-            scene.interpolation.storage.reset();
-            if (!name.empty())
-                scene.interpolation.storage = fourier::storageFromName(name);
         });
     });
 }
@@ -258,27 +189,17 @@ void QualityPanel::showScene() {
     m_quality->setCurrentIndex(quality);
     m_tolerance->setText(percent(scene.tolerance));
     m_reconstruction->setCurrentIndex(m_reconstruction->findData(int(scene.image.reconstruction)));
-    const auto show = [](QComboBox *box, const std::string &name) {
-        const QString text = QString::fromStdString(name);
-        if (box->findData(text) < 0) // a value from a scene file
-            box->addItem(text, text);
-        box->setCurrentIndex(box->findData(text));
-    };
-    const scene::Interpolation &fixed = scene.interpolation;
-    show(m_kernel, fixed.kernel ? fourier::kernelName(*fixed.kernel) : std::string());
-    const double padding = fixed.padding.value_or(0.0);
-    if (m_padding->findData(padding) < 0)
-        m_padding->addItem(QString::number(padding), padding);
-    m_padding->setCurrentIndex(m_padding->findData(padding));
-    show(m_storage, fixed.storage ? fourier::storageName(*fixed.storage) : std::string());
+    const auto &fixed = scene.interpolation.kernel;
+    const QString kernel = fixed ? QString::fromStdString(fourier::kernelName(*fixed)) : QString();
+    if (m_kernel->findData(kernel) < 0) // from a scene file
+        m_kernel->addItem(kernel, kernel);
+    m_kernel->setCurrentIndex(m_kernel->findData(kernel));
 }
 
 void QualityPanel::clearPlan() {
-    for (PlainLabel *label : {m_time, m_error, m_plan, m_padded, m_model, m_widths, m_leftOut})
+    for (PlainLabel *label : {m_time, m_error, m_plan})
         label->setText(QString::fromUtf8("\xe2\x80\x93"));
     m_reason->clear();
-    m_shownFrame.reset();
-    m_times = {};
 }
 
 void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
@@ -290,21 +211,10 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
     // layers.
     const auto bound = prepare::boundOf(shown.prepared, m_document.scene().image);
     m_error->setText(bound ? tr("at most %1").arg(percent(bound->relative)) : tr("not known yet"));
-    const volume::GridSize box = spectrum.box.size();
-    const auto padding = [&](int d) {
-        return QString::number(double(spectrum.padded[d]) / box[d], 'f', 2);
-    };
-    m_padded->setText(tr("%1 x %2 x %3").arg(padding(0), padding(1), padding(2)));
     m_plan->setText(tr("%1, %2 bit, %3 MB")
                         .arg(QString::fromStdString(spectrum.kernels[0].name()),
                              QString::number(8 * fourier::bytesPerCell(spectrum.storage) / 2),
                              QString::number(spectrum.bytes() >> 20)));
-    const render::EngineParts parts = shown.prepared.engine->parts();
-    m_shownFrame = {plan,
-                    {int(parts.spectra.fields.size()), shown.prepared.of,
-                     render::colorsOf(parts.channelWeights)},
-                    !parts.spectra.gradients.empty()};
-    showModel();
     const QString reason = translated(plan.reason);
     const bool isSum = shown.prepared.of == plan::SpectrumOf::layer;
     showReason(isSum ? tr("The layers of the look, summed while their weights change")
@@ -313,47 +223,6 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
                : missed ? tr("The error exceeds the tolerance: %1").arg(reason)
                         : tr("Plan: %1").arg(reason),
                missed && (stage == EngineStage::full || stage == EngineStage::settled));
-}
-
-void QualityPanel::showModel() {
-    if (!m_document.volume() || !m_shownFrame)
-        return;
-    scene::Scene scene = m_document.scene();
-    if (!m_shownFrame->isLit)
-        scene.shading.lights.clear();
-    const plan::FrameModel model =
-        plan::modelFrame(m_shownFrame->plan, scene, m_shownFrame->fields,
-                         m_document.volume()->lattice(), m_times.widthShares);
-    QStringList spectra, reasons;
-    for (const plan::FrameModel::Spectra &kind : model.spectra) {
-        spectra << spectraName(kind.of).arg(kind.count);
-        reasons << whySpectra(kind.of);
-    }
-    m_model->setText(tr("Spectra: %1; slices: %2; images: %3; multiplications: %4 million")
-                         .arg(spectra.join(tr(", ")), QString::number(model.slices),
-                              QString::number(model.images),
-                              QString::number(1e-6 * model.multiplyAdds, 'f', 1)));
-    m_model->setToolTip(plainToolTip(reasons.join('\n')));
-    QStringList leftOut;
-    for (const plan::LeftOut what : model.leftOut)
-        switch (what) {
-        case plan::LeftOut::light:
-            leftOut << tr("light");
-            break;
-        case plan::LeftOut::depthCue:
-            leftOut << tr("depth cue");
-            break;
-        case plan::LeftOut::color:
-            leftOut << tr("color");
-            break;
-        case plan::LeftOut::emptySpace:
-            leftOut << tr("empty space");
-            break;
-        case plan::LeftOut::secondHalf: // skipped in every plan
-        case plan::LeftOut::cornersOfBand:
-            break;
-        }
-    m_leftOut->setText(leftOut.isEmpty() ? tr("nothing") : leftOut.join(", "));
 }
 
 void QualityPanel::showReason(const QString &text, bool isWarning) {
@@ -369,20 +238,6 @@ void QualityPanel::showError(const error::StatedError &measured) {
 void QualityPanel::showFrame(const picture::FrameTimes &times, bool draft) {
     const QString text = millisecondsText(times.totalMs());
     m_time->setText(draft ? tr("%1, draft").arg(text) : text);
-    if (draft)
-        return;
-    m_times = times;
-    showModel(); // the size of the pane may have changed
-    showWidths();
-}
-
-void QualityPanel::showWidths() {
-    QStringList shares;
-    for (std::size_t width = m_times.widthShares.size(); width-- > 0;)
-        if (const double share = m_times.widthShares[width]; share > 0.0)
-            shares << (width > 0 ? tr("width %1: %2").arg(QString::number(width), percent(share))
-                                 : tr("not read: %1").arg(percent(share)));
-    m_widths->setText(shares.isEmpty() ? QString::fromUtf8("\xe2\x80\x93") : shares.join(", "));
 }
 
 } // namespace pellucid::ui

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 
 #include <QWidget>
 
-#include "core/plan/frame_model.h"
 #include "ui/engine/look_preparer.h"
 #include "ui/engine/shown_engine.h"
 
@@ -26,7 +24,7 @@ class QualityPanel : public QWidget {
 public:
     explicit QualityPanel(Document &document, QWidget *parent = nullptr);
 
-    /// The button beside the panel's heading, which shows the expert settings.
+    /// The button beside the panel's heading, which shows tolerance and kernel.
     QWidget *corner();
     void showPlan(const ShownEngine &shown, EngineStage stage);
     void showFrame(const picture::FrameTimes &times, bool draft);
@@ -42,27 +40,16 @@ private:
     void connectChoices();
     void showScene();
     void clearPlan();
-    void showModel();
-    void showWidths();
     void showReason(const QString &text, bool isWarning);
     void chooseTolerance(int index);
     void typeTolerance();
     void change(const QString &what, const std::function<void(scene::Scene &)> &edit);
 
-    /// The plan and fields of the frames shown.
-    struct ShownFrame {
-        plan::RenderPlan plan;
-        plan::FrameFields fields;
-        bool isLit = false;
-    };
-
     Document &m_document;
-    std::optional<ShownFrame> m_shownFrame;
     QPushButton *m_more;
-    QComboBox *m_quality, *m_reconstruction, *m_kernel, *m_padding, *m_storage;
+    QComboBox *m_quality, *m_reconstruction, *m_kernel;
     QLineEdit *m_tolerance;
-    PlainLabel *m_time, *m_error, *m_plan, *m_padded, *m_model, *m_widths, *m_leftOut, *m_reason;
-    picture::FrameTimes m_times; ///< of the last frame that is no draft
+    PlainLabel *m_time, *m_error, *m_plan, *m_reason;
 };
 
 } // namespace pellucid::ui

@@ -58,9 +58,9 @@ Light newLight(std::size_t count) {
 
 } // namespace
 
-ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *parent)
-    : QWidget(parent), m_document(document), m_sphere(new LightSphere(theme)), m_cue(new QComboBox),
-      m_curveValues(new QSpinBox), m_curve(new DepthCurve(theme)),
+ShadingPanel::ShadingPanel(Document &document, QWidget *parent)
+    : QWidget(parent), m_document(document), m_sphere(new LightSphere), m_cue(new QComboBox),
+      m_curveValues(new QSpinBox), m_curve(new DepthCurve),
       m_strength(new ValueSlider({1.0, defaultCue}, "cueSlider", "cueValue")),
       m_light(new ValueSlider({1.0, defaultLight}, "lightSlider", "lightValue")),
       m_ambient(new ValueSlider({shading::largestAmbient, 1.0}, "ambientSlider", "ambientValue")),

@@ -7,7 +7,6 @@
 
 #include "core/shading/shading.h"
 #include "ui/document/commands.h"
-#include "ui/theme/theme.h"
 
 class QCheckBox;
 class QComboBox;
@@ -25,7 +24,7 @@ class ValueSlider;
 class ShadingPanel : public QWidget {
     Q_OBJECT
 public:
-    ShadingPanel(Document &document, const Theme &theme, QWidget *parent = nullptr);
+    ShadingPanel(Document &document, QWidget *parent = nullptr);
 
     /// The button beside the panel's heading, which removes the cue and all lights.
     QWidget *corner();

@@ -259,7 +259,7 @@ QStringList StudyList::files(const QModelIndex &at) const {
 
 Qt::ItemFlags StudyList::flags(const QModelIndex &at) const {
     const Qt::ItemFlags usual = QAbstractItemModel::flags(at);
-    const bool isHere = at.isValid() && !isOnlyRemote(at) && study(at).patientId != "phantoms";
+    const bool isHere = at.isValid() && !isOnlyRemote(at) && study(at).origin != Origin::phantom;
     return isHere ? usual | Qt::ItemIsDragEnabled : usual;
 }
 

@@ -43,7 +43,7 @@ constexpr int restingMs = 900, fewestLetters = 3;
 } // namespace
 
 StudyPanel::StudyPanel(Document &document, StudyLibrary &library, ServerSearch &servers,
-                       const Theme &theme, QWidget *parent)
+                       QWidget *parent)
     : QWidget(parent), m_document(document), m_library(library), m_list(document, library),
       m_search(new QLineEdit), m_tree(new QTreeView), m_corner(new QPushButton(tr("Import"))),
       m_empty(new PlainLabel), m_servers(servers), m_serverStates(new PlainLabel),
@@ -88,7 +88,7 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, ServerSearch &
     m_tree->setDragEnabled(true);
     m_tree->setDragDropMode(QAbstractItemView::DragOnly);
     m_tree->setModel(&m_list);
-    m_tree->setItemDelegate(new StudyRowPainter(m_list, theme, this));
+    m_tree->setItemDelegate(new StudyRowPainter(m_list, this));
     m_tree->header()->setSectionResizeMode(QHeaderView::Stretch);
     auto *top = new QHBoxLayout;
     top->addWidget(m_search, 1);
@@ -102,7 +102,7 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, ServerSearch &
     layout->addWidget(m_empty, 0, Qt::AlignTop);
     layout->addWidget(m_tree, 1);
     layout->addWidget(new JobStrip(library.jobs(), "import"));
-    layout->addWidget(new ProblemList(document, theme));
+    layout->addWidget(new ProblemList(document));
     connectControls();
     expandFew();
     showEmpty();
@@ -332,7 +332,7 @@ void StudyPanel::showMenu(const QPoint &at) {
         add(tr("Remove from the library..."), "removeStudyAction",
             [this, study] { remove(study); });
     } else {
-        if (study.patientId != "phantoms")
+        if (study.origin != Origin::phantom)
             add(tr("Add to the library..."), "addStudyAction",
                 [this, study] { importOpen(study); });
         add(tr("Close"), "closeStudyAction", [this, study] { close(study); });
@@ -344,7 +344,7 @@ void StudyPanel::showMenu(const QPoint &at) {
 void StudyPanel::addServersTo(QMenu &menu, const QModelIndex &index) {
     const QStringList servers = m_servers.serverNames();
     if (servers.isEmpty() || m_list.isOnlyRemote(index) ||
-        m_list.study(index).patientId == "phantoms")
+        m_list.study(index).origin == Origin::phantom)
         return;
     QMenu *const send = menu.addMenu(tr("Send to"));
     send->setObjectName("sendMenu");

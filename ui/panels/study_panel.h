@@ -7,7 +7,6 @@
 
 #include "ui/panels/study_list.h"
 #include "ui/studies/study_source.h"
-#include "ui/theme/theme.h"
 
 class QLineEdit;
 class QMenu;
@@ -25,7 +24,7 @@ class ServerSearch;
 class StudyPanel : public QWidget {
     Q_OBJECT
 public:
-    StudyPanel(Document &document, StudyLibrary &library, ServerSearch &servers, const Theme &theme,
+    StudyPanel(Document &document, StudyLibrary &library, ServerSearch &servers,
                QWidget *parent = nullptr);
 
     /// The button beside the panel's heading, which imports.

@@ -8,6 +8,7 @@
 #include <QTextLayout>
 
 #include "ui/panels/study_list.h"
+#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 
@@ -65,8 +66,8 @@ QStringList warningLines(const QFont &font, int width, const QStringList &warnin
 
 } // namespace
 
-StudyRowPainter::StudyRowPainter(const StudyList &list, const Theme &theme, QObject *parent)
-    : QStyledItemDelegate(parent), m_list(list), m_theme(theme) {}
+StudyRowPainter::StudyRowPainter(const StudyList &list, QObject *parent)
+    : QStyledItemDelegate(parent), m_list(list) {}
 
 QSize StudyRowPainter::sizeHint(const QStyleOptionViewItem &option,
                                 const QModelIndex &index) const {
@@ -96,24 +97,24 @@ void StudyRowPainter::paintStudy(QPainter &painter, const QStyleOptionViewItem &
     const StudyFacts &study = m_list.study(index);
     QRect rect = option.rect.adjusted(2, gap, -2, -gap / 2);
     if (option.state.testFlag(QStyle::State_HasFocus)) {
-        painter.setPen(m_theme.color("muted"));
+        painter.setPen(Theme::current().color("muted"));
         painter.drawRoundedRect(QRectF(option.rect).adjusted(0.5, 2.5, -0.5, -0.5), cornerRadius,
                                 cornerRadius);
     }
     const QFont name = bold(option.font);
     painter.setFont(name);
-    painter.setPen(m_theme.color("text"));
+    painter.setPen(Theme::current().color("text"));
     painter.drawText(
         rect, Qt::AlignTop | Qt::AlignLeft,
         QFontMetrics(name).elidedText(patientText(study), Qt::ElideRight, rect.width()));
     rect.adjust(0, lineHeight(name), 0, 0);
     painter.setFont(option.font);
-    painter.setPen(m_theme.color("muted"));
+    painter.setPen(Theme::current().color("muted"));
     painter.drawText(rect, Qt::AlignTop | Qt::AlignLeft,
                      option.fontMetrics.elidedText(studyText(study), Qt::ElideRight, rect.width()));
     if (const QString where = m_list.whereText(index); !where.isEmpty()) {
         rect.adjust(0, lineHeight(option.font), 0, 0);
-        painter.setPen(m_theme.color("accent"));
+        painter.setPen(Theme::current().color("accent"));
         painter.drawText(rect, Qt::AlignTop | Qt::AlignLeft,
                          option.fontMetrics.elidedText(where, Qt::ElideMiddle, rect.width()));
     }
@@ -126,9 +127,9 @@ void StudyRowPainter::paintVolume(QPainter &painter, const QStyleOptionViewItem 
     const bool isOpen = m_list.isOpen(index);
     const bool hasFocus = option.state.testFlag(QStyle::State_HasFocus);
     if (isOpen || hasFocus || option.state.testFlag(QStyle::State_MouseOver)) {
-        painter.setBrush(m_theme.color("raised"));
-        painter.setPen(isOpen     ? QPen(m_theme.color("accent"))
-                       : hasFocus ? QPen(m_theme.color("muted"))
+        painter.setBrush(Theme::current().color("raised"));
+        painter.setPen(isOpen     ? QPen(Theme::current().color("accent"))
+                       : hasFocus ? QPen(Theme::current().color("muted"))
                                   : QPen(Qt::NoPen));
         painter.drawRoundedRect(card, cornerRadius, cornerRadius);
     }
@@ -146,7 +147,7 @@ void StudyRowPainter::paintVolume(QPainter &painter, const QStyleOptionViewItem 
     QRect texts(frame.right() + gap + 1, frame.top(), textWidth(option.rect.width()), line);
     const auto draw = [&](const QString &text, const char *role,
                           Qt::TextElideMode elide = Qt::ElideRight) {
-        painter.setPen(m_theme.color(role));
+        painter.setPen(Theme::current().color(role));
         painter.drawText(texts, Qt::AlignTop | Qt::AlignLeft,
                          option.fontMetrics.elidedText(text, elide, texts.width()));
         texts.translate(0, line);

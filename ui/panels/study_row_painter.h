@@ -3,8 +3,6 @@
 
 #include <QStyledItemDelegate>
 
-#include "ui/theme/theme.h"
-
 namespace pellucid::ui {
 
 class StudyList;
@@ -14,7 +12,7 @@ class StudyList;
 class StudyRowPainter : public QStyledItemDelegate {
     Q_OBJECT
 public:
-    StudyRowPainter(const StudyList &list, const Theme &theme, QObject *parent = nullptr);
+    StudyRowPainter(const StudyList &list, QObject *parent = nullptr);
 
     void paint(QPainter *painter, const QStyleOptionViewItem &option,
                const QModelIndex &index) const override;
@@ -27,7 +25,6 @@ private:
                      const QModelIndex &index) const;
 
     const StudyList &m_list;
-    Theme m_theme;
 };
 
 } // namespace pellucid::ui

@@ -39,10 +39,9 @@ QPushButton *addLink(QHBoxLayout *row, const QString &text, const char *name, co
 
 } // namespace
 
-TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &theme,
-                                             QWidget *parent)
-    : QWidget(parent), m_document(document), m_editor(new CurveEditor(theme)),
-      m_subject(new PlainLabel), m_points(new QSpinBox), m_weight(new QDoubleSpinBox),
+TransferFunctionPanel::TransferFunctionPanel(Document &document, QWidget *parent)
+    : QWidget(parent), m_document(document), m_editor(new CurveEditor), m_subject(new PlainLabel),
+      m_points(new QSpinBox), m_weight(new QDoubleSpinBox),
       m_low(new LimitBox("curveLowBox", -maxValue, maxValue, typicalRange)),
       m_high(new LimitBox("curveHighBox", -maxValue, maxValue, typicalRange)) {
     setObjectName("transferFunctionPanel");

@@ -5,7 +5,6 @@
 
 #include "core/volume/statistics.h"
 #include "ui/document/commands.h"
-#include "ui/theme/theme.h"
 
 class QDoubleSpinBox;
 class QSpinBox;
@@ -22,7 +21,7 @@ class PlainLabel;
 class TransferFunctionPanel : public QWidget {
     Q_OBJECT
 public:
-    TransferFunctionPanel(Document &document, const Theme &theme, QWidget *parent = nullptr);
+    TransferFunctionPanel(Document &document, QWidget *parent = nullptr);
 
     /// The box beside the panel's heading.
     QWidget *corner();

@@ -2,7 +2,6 @@
 #include "ui/studies/difference_source.h"
 
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 #include <QCoreApplication>
@@ -38,16 +37,6 @@ QString nameOf(const StudySource &minuend) {
     const VolumeFacts &facts = minuend.volume;
     const QString name = facts.description.isEmpty() ? facts.modality : facts.description;
     return facts.label.empty() ? name : name + ", " + translated(facts.label);
-}
-
-QString weightedName(const QString &minuend, const QString &subtrahend,
-                     const subtraction::Weights &weights) {
-    if (weights == subtraction::Weights())
-        return DifferenceTexts::tr("%1 minus %2").arg(minuend, subtrahend);
-    return QString("%1 × %2 %3 %4 × %5")
-        .arg(QString::number(weights.minuend, 'g', 3), minuend,
-             weights.subtrahend < 0.0 ? "-" : "+",
-             QString::number(std::abs(weights.subtrahend), 'g', 3), subtrahend);
 }
 
 // Errors without a file are those of the source.
@@ -109,38 +98,34 @@ subtraction::Registration Alignment::of(const volume::Volume &minuend,
 }
 
 StudySource differenceSource(const StudySource &minuend, const StudySource &subtrahend,
-                             const DifferenceMethod &method, RenameSource onLoaded) {
-    const subtraction::Weights weights = method.weights;
+                             std::shared_ptr<Alignment> alignment, RenameSource onLoaded) {
     StudySource source =
         pairSource(minuend, subtrahend,
-                   QString("difference %1 %2 %3%4")
-                       .arg(QString::number(weights.minuend), QString::number(weights.subtrahend),
-                            minuend.digest().left(16) + " " + subtrahend.digest().left(16),
-                            method.alignment ? " aligned" : ""));
+                   QString("difference %1 %2%3")
+                       .arg(minuend.digest().left(16), subtrahend.digest().left(16),
+                            alignment ? " aligned" : ""));
     QString &name = source.volume.description;
-    name = weightedName(nameOf(minuend), seriesText(subtrahend.volume), weights);
-    source.difference = {minuend.digest(), subtrahend.digest(), method.alignment != nullptr,
-                         weights};
-    source.load = [minuend, subtrahend, method, key = source.key(), name,
+    name = DifferenceTexts::tr("%1 minus %2").arg(nameOf(minuend), seriesText(subtrahend.volume));
+    source.difference = {minuend.digest(), subtrahend.digest(), alignment != nullptr};
+    source.load = [minuend, subtrahend, alignment, key = source.key(), name,
                    onLoaded = std::move(onLoaded)](const task::Progress &progress,
                                                    const dicom::LoadObserver &) {
         LoadedPair pair(minuend, subtrahend, progress);
         const volume::Volume &a = pair.first.volume, &b = pair.second.volume;
         const task::Progress rest = progress.part(0.6, 1.0);
-        if (!method.alignment) {
+        if (!alignment) {
             subtraction::Subtraction made =
-                subtraction::subtract(a, b, subtraction::Registering::none, method.weights, rest);
+                subtraction::subtract(a, b, subtraction::Registering::none, {}, rest);
             if (made.needsAlignment && onLoaded)
                 onLoaded(key, name + "; " +
                                   DifferenceTexts::tr(
                                       "not aligned, although the frames of reference differ"));
             return pair.with(std::move(made.difference));
         }
-        const auto found = method.alignment->of(a, b, rest.part(0.0, 0.8));
+        const auto found = alignment->of(a, b, rest.part(0.0, 0.8));
         if (onLoaded)
             onLoaded(key, name + "; " + noteOn(found));
-        return pair.with(
-            subtraction::difference(a, b, found.toMoving, method.weights, rest.part(0.8, 1.0)));
+        return pair.with(subtraction::difference(a, b, found.toMoving, {}, rest.part(0.8, 1.0)));
     };
     return source;
 }

@@ -25,19 +25,13 @@ private:
     std::optional<subtraction::Registration> m_found;
 };
 
-/// How a difference is made.
-struct DifferenceMethod {
-    std::shared_ptr<Alignment> alignment; ///< null: the second volume is not aligned
-    subtraction::Weights weights;
-};
-
 /// The difference of two volumes on the lattice of the first, as a volume of the first one's study.
-/// Loading it loads both, and aligns the second if that is the method. `onLoaded` is called from
+/// Loading it loads both, and aligns the second if there is an alignment. `onLoaded` is called from
 /// the thread that loads, with a description that says what the alignment found or why one is
 /// needed; it may be empty. *Errors* of the load: those of both loads, of
 /// subtraction::registerRigidly, and of subtraction::difference.
 StudySource differenceSource(const StudySource &minuend, const StudySource &subtrahend,
-                             const DifferenceMethod &method, RenameSource onLoaded);
+                             std::shared_ptr<Alignment> alignment, RenameSource onLoaded);
 
 /// The second volume aligned with the first, on its lattice, to check the alignment. Loading it
 /// loads both.

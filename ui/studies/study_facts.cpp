@@ -84,7 +84,7 @@ bool areSeriesOfPhases(const VolumeFacts &a, const VolumeFacts &b) {
 } // namespace
 
 bool StudyFacts::hasPatient() const {
-    return !uid.isEmpty() || (patientId != "phantoms" && patientId != "files");
+    return origin == Origin::patient;
 }
 
 QString VolumeFacts::key() const {
@@ -100,6 +100,7 @@ QString VolumeFacts::key() const {
 
 StudyFacts studyFacts(const dicom::Selection &s) {
     StudyFacts facts;
+    facts.origin = s.patient->isOfVolumeFiles ? Origin::volumeFiles : Origin::patient;
     facts.patientId = text(s.patient->id);
     facts.patientName = text(s.patient->name);
     facts.birthDate = text(s.patient->birthDate);
@@ -144,9 +145,9 @@ QString personText(const QString &name) {
 }
 
 QString patientText(const StudyFacts &study) {
-    if (study.patientId == "phantoms")
+    if (study.origin == Origin::phantom)
         return StudyFactsTexts::tr("Phantoms");
-    if (study.patientId == "files") // these contain no patient data
+    if (study.origin == Origin::volumeFiles)
         return StudyFactsTexts::tr("Files");
     const QString name = personText(study.patientName);
     if (!name.isEmpty())
@@ -155,7 +156,7 @@ QString patientText(const StudyFacts &study) {
 }
 
 QString studyText(const StudyFacts &study) {
-    if (study.patientId == "files")
+    if (study.origin == Origin::volumeFiles)
         return StudyFactsTexts::tr("Volume files");
     const QString result =
         shownText(dateText(study.date) + " " + study.modalities + " " + study.description)

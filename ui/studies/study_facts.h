@@ -15,10 +15,14 @@
 
 namespace pellucid::ui {
 
+/// Where the volumes of a study are from.
+enum class Origin { patient, volumeFiles, phantom };
+
 /// What a list of studies shows about a study. Names are for display only: never put them in a log,
 /// a title or a file name.
 struct StudyFacts {
     QString patientId, patientName, birthDate, sex; ///< as in the headers: Name^First, YYYYMMDD
+    Origin origin = Origin::patient;
     QString uid, date, description;
     QString modalities; ///< of its series, separated by spaces
     /// Identifier in the library; 0: open, but not in the library.

@@ -150,6 +150,7 @@ StudySource phantomSource(const QString &name) {
     const volume::Lattice lattice = phantom::phantomLattice(kind, {});
     StudySource source;
     source.phantom = name;
+    source.study.origin = Origin::phantom;
     source.study.patientId = "phantoms";
     source.study.patientName = "Phantoms"; // patientText() translates it
     source.study.description = StudySourceTexts::tr("Made by Pellucid");

@@ -20,7 +20,6 @@ namespace pellucid::ui {
 struct DifferenceOf {
     QString minuend, subtrahend;
     bool isAligned = false;
-    subtraction::Weights weights;
 };
 
 /// A volume that can be shown: its facts and how to load it. A value.

@@ -9,6 +9,8 @@
 #include <QPainter>
 #include <QSvgRenderer>
 
+#include "ui/theme/theme.h"
+
 namespace pellucid::ui {
 
 namespace {
@@ -16,8 +18,7 @@ namespace {
 // Rendered at the requested size, never scaled from a different one.
 class ThemedIcon : public QIconEngine {
 public:
-    ThemedIcon(QByteArray drawing, const Theme &theme)
-        : m_drawing(std::move(drawing)), m_theme(theme) {}
+    explicit ThemedIcon(QByteArray drawing) : m_drawing(std::move(drawing)) {}
 
     void paint(QPainter *painter, const QRect &rect, QIcon::Mode mode,
                QIcon::State state) override {
@@ -25,7 +26,7 @@ public:
                                  : state == QIcon::On    ? "accent"
                                                          : "text";
         QByteArray drawing = m_drawing;
-        drawing.replace("currentColor", m_theme.color(role).name().toUtf8());
+        drawing.replace("currentColor", Theme::current().color(role).name().toUtf8());
         QSvgRenderer(drawing).render(painter, rect);
     }
     QPixmap pixmap(const QSize &size, QIcon::Mode mode, QIcon::State state) override {
@@ -39,19 +40,18 @@ public:
 
 private:
     QByteArray m_drawing;
-    Theme m_theme;
 };
 
 } // namespace
 
-QIcon themedIcon(const QString &name, const Theme &theme) {
+QIcon themedIcon(const QString &name) {
     QFile file(":/pellucid/icons/" + name + ".svg");
     if (!file.open(QIODevice::ReadOnly))
         throw std::logic_error("no icon " + name.toStdString());
-    return QIcon(new ThemedIcon(file.readAll(), theme));
+    return QIcon(new ThemedIcon(file.readAll()));
 }
 
-void setActionIcons(QObject &window, const Theme &theme) {
+void setActionIcons(QObject &window) {
     const struct {
         const char *action, *icon;
     } icons[] = {{"openFilesAction", "open"},
@@ -89,7 +89,7 @@ void setActionIcons(QObject &window, const Theme &theme) {
                  {"manualAction", "manual"}};
     for (const auto &[action, icon] : icons) {
         QAction *const found = window.findChild<QAction *>(action);
-        found->setIcon(themedIcon(icon, theme));
+        found->setIcon(themedIcon(icon));
         // Menus show text only; icons beside it would add nothing.
         found->setIconVisibleInMenu(false);
     }

@@ -3,15 +3,13 @@
 
 #include <QIcon>
 
-#include "ui/theme/theme.h"
-
 namespace pellucid::ui {
 
-/// An icon from resources/icons in a theme's colors: text by default, accent when checked, muted
-/// when disabled. Sharp at any pixel density.
-QIcon themedIcon(const QString &name, const Theme &theme);
+/// An icon from resources/icons in the colors of the current theme: text by default, accent when
+/// checked, muted when disabled. Sharp at any pixel density.
+QIcon themedIcon(const QString &name);
 
 /// Sets the icons of a window's actions, which only the tool bar shows.
-void setActionIcons(QObject &window, const Theme &theme);
+void setActionIcons(QObject &window);
 
 } // namespace pellucid::ui

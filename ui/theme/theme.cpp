@@ -28,7 +28,16 @@ QByteArray resource(const QString &path) {
     return file.readAll();
 }
 
+Theme &appliedTheme() {
+    static Theme theme = Theme::named("dark");
+    return theme;
+}
+
 } // namespace
+
+const Theme &Theme::current() {
+    return appliedTheme();
+}
 
 Theme Theme::named(const QString &name) {
     registerResources();
@@ -49,6 +58,7 @@ QColor Theme::color(const QString &role) const {
 }
 
 void Theme::apply(QApplication &application) const {
+    appliedTheme() = *this;
     application.setStyle(QStyleFactory::create("Fusion"));
     QPalette palette;
     palette.setColor(QPalette::Window, color("background"));

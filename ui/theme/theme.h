@@ -14,10 +14,13 @@ class Theme {
 public:
     /// Reads a theme of the file: "dark" or "light".
     static Theme named(const QString &name);
+    /// The theme that was applied last; dark at first. Widgets that paint read it in each paint
+    /// event.
+    static const Theme &current();
 
-    /// *Throws* Error{internal} for a role that the file does not have.
+    /// *Throws* std::logic_error for a role that the file does not have.
     QColor color(const QString &role) const;
-    /// Sets palette, font and style sheet of the whole program.
+    /// Sets palette, font and style sheet of the whole program; its widgets are painted again.
     void apply(QApplication &application) const;
 
 private:

@@ -114,7 +114,8 @@ void ProjectionView::forgetVolume() {
     m_fitsNext = true;
     m_body = {};
     m_drawnShading = {};
-    m_message = m_document.volume() ? tr("Preparing the projection") : QString();
+    m_message.clear();
+    m_waiting = m_document.volume() ? Waiting::underway : Waiting::no;
     m_canvas->setImage(nullptr);
     showTexts();
 }
@@ -130,6 +131,7 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     }
     m_prepared = shown.prepared;
     m_message.clear();
+    m_waiting = Waiting::no;
     // Weights that move are meant to change the brightness. Other fields, and the full ones after
     // the coarse ones, have a brightness of their own.
     const bool sameFields = stage == EngineStage::live || stage == EngineStage::settled;
@@ -149,13 +151,13 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
 }
 
 void ProjectionView::jobEnded() {
-    if (m_document.volume() && !m_prepared && m_message == tr("Preparing the projection"))
-        setMessage(tr("Cancelled: there is no projection"));
+    if (m_waiting == Waiting::underway)
+        setWaiting(Waiting::cancelled);
 }
 
 void ProjectionView::jobStarted() {
-    if (m_document.volume() && !m_prepared && m_message == tr("Cancelled: there is no projection"))
-        setMessage(tr("Preparing the projection"));
+    if (m_waiting == Waiting::cancelled)
+        setWaiting(Waiting::underway);
 }
 
 void ProjectionView::adoptCamera(const scene::Camera &wanted,
@@ -195,6 +197,11 @@ void ProjectionView::setPlanState(PlanState state) {
 
 void ProjectionView::setMessage(const QString &message) {
     m_message = message;
+    setWaiting(Waiting::no);
+}
+
+void ProjectionView::setWaiting(Waiting waiting) {
+    m_waiting = waiting;
     showTexts();
 }
 
@@ -491,7 +498,11 @@ void ProjectionView::lookAlong(const glm::dvec3 &right, const glm::dvec3 &up) {
 }
 
 void ProjectionView::showTexts() {
-    ProjectionOverlay::Texts texts{m_lookName, m_message, {}};
+    const QString message = m_waiting == Waiting::underway ? tr("Preparing the projection")
+                            : m_waiting == Waiting::cancelled
+                                ? tr("Cancelled: there is no projection")
+                                : m_message;
+    ProjectionOverlay::Texts texts{m_lookName, message, {}};
     if (m_frame)
         texts.figures = figuresText({*m_frame, m_frameError, m_frameStage, m_planState, m_pending});
     m_overlay->setTexts(texts);

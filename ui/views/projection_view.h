@@ -185,6 +185,10 @@ private:
     std::optional<error::StatedError> m_frameError; ///< against the study, if known
     EngineStage m_frameStage = EngineStage::coarse;
     picture::AutomaticTone m_tone;
+    /// What the pane waits for while there is no picture.
+    enum class Waiting { no, underway, cancelled };
+    void setWaiting(Waiting waiting);
+    Waiting m_waiting = Waiting::no;
     QString m_message, m_lookName;
     shading::Shading m_drawnShading; ///< of the last requested frame
     double m_fullFrameMs = 0.0;

@@ -129,13 +129,13 @@ void FileMenu::chooseSubtrahend() {
     auto *dialog =
         new SubtractionDialog(minuend, subtrahends(document, m_bench.library), &m_window);
     connect(dialog, &SubtractionDialog::chosen, this,
-            [this, minuend](const StudySource &subtrahend, const DifferenceMethod &method,
-                            BesideDifference beside) {
-                m_bench.study.opener.openDifference(subtrahend, method);
+            [this, minuend](const StudySource &subtrahend,
+                            const std::shared_ptr<Alignment> &alignment, BesideDifference beside) {
+                m_bench.study.opener.openDifference(subtrahend, alignment);
                 if (beside == BesideDifference::minuend)
                     emit besideRequested(minuend);
                 else if (beside == BesideDifference::alignedSubtrahend)
-                    emit besideRequested(alignedSource(minuend, subtrahend, method.alignment));
+                    emit besideRequested(alignedSource(minuend, subtrahend, alignment));
             });
     dialog->open();
 }

@@ -2,8 +2,10 @@
 #include "ui/window/help_menu.h"
 
 #include <QCoreApplication>
+#include <QDesktopServices>
 #include <QDialog>
 #include <QDialogButtonBox>
+#include <QDir>
 #include <QFile>
 #include <QHeaderView>
 #include <QLocale>
@@ -11,12 +13,14 @@
 #include <QPlainTextEdit>
 #include <QTabWidget>
 #include <QTreeWidget>
+#include <QUrl>
 #include <QVBoxLayout>
 
+#include "core/files/reasons.h"
 #include "ui/document/add_command.h"
 #include "ui/language/plain_label.h"
 #include "ui/window/libraries.h"
-#include "ui/window/manual_window.h"
+#include "ui/window/reasons.h"
 
 namespace pellucid::ui {
 
@@ -26,13 +30,13 @@ struct HelpMenuTexts {
     Q_DECLARE_TR_FUNCTIONS(HelpMenuTexts)
 };
 
-// The manual in the program's language, or in English.
-QUrl manual() {
+// The manual in the program's language, or in English, where the installer puts it.
+QString manual() {
+    const QDir folder(QCoreApplication::applicationDirPath() + "/../share/doc/pellucid/manual");
     const QString translated = QCoreApplication::translate("HelpMenuTexts", "manual.html",
                                                            "file name of the translated manual");
-    const QString english = "manual.html";
-    return QUrl("qrc:/pellucid/manual/" +
-                (QFile::exists(":/pellucid/manual/" + translated) ? translated : english));
+    return QDir::cleanPath(
+        folder.filePath(folder.exists(translated) ? translated : QString("manual.html")));
 }
 
 QWidget *libraryTable() {
@@ -92,10 +96,16 @@ void showAbout(QWidget &window) {
 
 } // namespace
 
-void addHelpMenu(QMenu &menu, QWidget &window) {
+void addHelpMenu(QMenu &menu, QWidget &window,
+                 const std::function<void(const task::Reason &, const QString &)> &failed) {
     addCommand(menu, HelpMenuTexts::tr("&Manual"), "manualAction", QKeySequence("F1"), &menu,
-               // Not modal: people read and try.
-               [] { (new ManualWindow(manual()))->show(); });
+               [failed] {
+                   const QString page = manual();
+                   if (!QFile::exists(page))
+                       failed(task::because::doesNotExist, page);
+                   else if (!QDesktopServices::openUrl(QUrl::fromLocalFile(page)))
+                       failed(task::because::noBrowserForTheManual, page);
+               });
     addCommand(menu, HelpMenuTexts::tr("&About Pellucid"), "aboutAction", {}, &menu,
                [&window] { showAbout(window); });
 }

@@ -43,11 +43,11 @@ QWidget *scrolling(QWidget *panel) {
 } // namespace
 
 LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer,
-                     CardCopier &copier, ProjectionView &projection, const Theme &theme)
+                     CardCopier &copier, ProjectionView &projection)
     : QObject(&window), m_window(window), m_previewer(document),
       m_presets(new PresetsPanel(document)), m_radiograph(new RadiographPanel(document)),
-      m_classes(new ClassesPanel(document)), m_function(new TransferFunctionPanel(document, theme)),
-      m_shading(new ShadingPanel(document, theme)), m_quality(new QualityPanel(document)) {
+      m_classes(new ClassesPanel(document)), m_function(new TransferFunctionPanel(document)),
+      m_shading(new ShadingPanel(document)), m_quality(new QualityPanel(document)) {
     // At these heights, the docks fit in 900 pixels.
     dock(window, tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 150);
     dock(window, tr("RADIOGRAPH"), "radiographDock", scrolling(m_radiograph),

@@ -6,7 +6,6 @@
 #include <QObject>
 
 #include "ui/engine/look_previewer.h"
-#include "ui/theme/theme.h"
 
 class QDockWidget;
 class QMainWindow;
@@ -31,7 +30,7 @@ class LookDocks : public QObject {
     Q_OBJECT
 public:
     LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer, CardCopier &copier,
-              ProjectionView &projection, const Theme &theme);
+              ProjectionView &projection);
 
     const std::vector<QDockWidget *> &docks() const { return m_docks; }
     PresetsPanel &presets() { return *m_presets; }

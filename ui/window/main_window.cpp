@@ -64,10 +64,8 @@
 
 namespace pellucid::ui {
 
-MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &preferences,
-                       QWidget *parent)
-    : QMainWindow(parent), m_bench(bench), m_theme(theme), m_preferences(preferences) {
-    const auto exposure = bench.study.document.exposure(); // of the study that is open already
+MainWindow::MainWindow(Workbench &bench, const Preferences &preferences, QWidget *parent)
+    : QMainWindow(parent), m_bench(bench), m_preferences(preferences) {
     setObjectName("mainWindow");
     setAcceptDrops(true);
     // With the frame that the desktop adds.
@@ -75,10 +73,10 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     resize(preferred.boundedTo(screen()->availableGeometry().size() - frame));
     qApp->installEventFilter(new WheelGuard(this));
     createPanes();
-    m_docks = new StudyDocks(*this, m_bench, m_theme);
+    m_docks = new StudyDocks(*this, m_bench);
     connectStudyDocks();
     m_look = new LookDocks(*this, m_bench.study.document, m_bench.study.preparer,
-                           m_bench.study.copier, *m_projection, m_theme);
+                           m_bench.study.copier, *m_projection);
     connect(&m_look->presets(), &PresetsPanel::failed, this, &MainWindow::report);
     createFileMenu();
     createEditMenu();
@@ -103,10 +101,10 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
             menus->addBeside(*m_pair->beside());
     });
     createHelpMenu();
-    setActionIcons(*this, m_theme);
+    setActionIcons(*this);
     const auto focusedDocument = [this]() -> Document & { return m_pair->focused().document; };
     WindowChooser *chooser =
-        makeToolBar(*this, m_bench.study.document, m_theme, m_preferences.toolBar,
+        makeToolBar(*this, m_bench.study.document, m_preferences.toolBar,
                     {*m_tools, m_view->layouts(), m_view->standardViews(), lookMenu->windowMenu()});
     chooser->setTarget(focusedDocument);
     m_file->setFocused([this] { return m_pair->focused(); });
@@ -122,10 +120,6 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     connect(new ProjectionKeys(*this, *m_projection), &ProjectionKeys::comparisonRequested, this,
             &MainWindow::compareLooks);
     showVolumeState();
-    bench.study.document.announce();
-    if (exposure)
-        m_projection->adoptExposure(*exposure);
-    bench.study.preparer.announce();
 }
 
 MainWindow::~MainWindow() {
@@ -284,8 +278,6 @@ void MainWindow::createEditMenu() {
 void MainWindow::createViewMenu() {
     m_view = new ViewMenu(*menuBar()->addMenu(tr("&View")), *this,
                           {m_bench.study.document, m_mpr, m_projection, m_panes}, m_bench.card);
-    m_view->addPane(*m_docks->spectrum().toggleViewAction(), tr("Spectr&um"), "spectrumAction",
-                    QKeySequence("Shift+S"));
     connect(m_view, &ViewMenu::comparisonRequested, this, &MainWindow::compareLooks);
     connect(m_view, &ViewMenu::anglesRequested, this, &MainWindow::showAngles);
     connect(m_projection, &ProjectionView::anglesRequested, this, &MainWindow::showAngles);
@@ -308,7 +300,8 @@ void MainWindow::createHelpMenu() {
         window->addAction(dock->toggleViewAction());
     window->addSeparator();
     command(*window, tr("&Reset layout"), "resetLayoutAction", {}, [this] { resetLayout(); });
-    addHelpMenu(*menuBar()->addMenu(tr("&Help")), *this);
+    addHelpMenu(*menuBar()->addMenu(tr("&Help")), *this,
+                [this](const task::Reason &what, const QString &path) { report(what, path); });
 }
 
 void MainWindow::createStatusBar() {
@@ -401,6 +394,7 @@ void MainWindow::openLink(const QString &link) {
 
 void MainWindow::setPreferences(const Preferences &preferences) {
     m_preferences = preferences;
+    setToolBarStyle(*this, preferences.toolBar);
     m_reopening->setPreferences(preferences);
     showTitle();
 }

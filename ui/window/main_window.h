@@ -8,7 +8,6 @@
 
 #include "core/task/reason.h"
 #include "ui/settings/preferences.h"
-#include "ui/theme/theme.h"
 #include "ui/window/workbench.h"
 
 class QStackedWidget;
@@ -30,20 +29,17 @@ class StudyPair;
 class ToolsMenu;
 class ViewMenu;
 
-/// The workstation's window: creates the panes and docks, names the menus, connects intents. A new
-/// window shows the study that is open on the bench already.
+/// The workstation's window: creates the panes and docks, names the menus, connects intents.
 class MainWindow : public QMainWindow {
     Q_OBJECT
 public:
-    MainWindow(Workbench &bench, const Theme &theme, const Preferences &preferences = {},
-               QWidget *parent = nullptr);
+    MainWindow(Workbench &bench, const Preferences &preferences = {}, QWidget *parent = nullptr);
     ~MainWindow() override;
 
     void openPaths(const QStringList &paths);
     /// Opens what a link of another program names, see OpenRequest.
     void openLink(const QString &link);
     void openPhantom(const QString &kind);
-    /// Applies the preferences that need no new window.
     void setPreferences(const Preferences &preferences);
     PreferencesDialog &openPreferences();
     /// Saves the sizes and places of window, docks and panes in the settings.
@@ -90,7 +86,6 @@ private:
                      const std::function<void()> &run);
 
     Workbench &m_bench;
-    Theme m_theme;
     Preferences m_preferences;
     FileMenu *m_file = nullptr;
     ServerCommands *m_servers = nullptr;

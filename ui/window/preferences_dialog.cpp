@@ -50,30 +50,16 @@ PreferencesDialog::PreferencesDialog(QWidget *window)
     setObjectName("preferencesDialog");
     setWindowTitle(tr("Preferences"));
     setAttribute(Qt::WA_DeleteOnClose);
-    m_tabs = new QTabWidget;
-    m_tabs->setObjectName("preferencesTabs");
-    m_tabs->addTab(makeGeneral(), tr("General"));
-    m_tabs->addTab(makeShortcuts(), tr("Keys"));
+    auto *tabs = new QTabWidget;
+    tabs->setObjectName("preferencesTabs");
+    tabs->addTab(makeGeneral(), tr("General"));
+    tabs->addTab(makeShortcuts(), tr("Keys"));
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
     auto *layout = new QVBoxLayout(this);
-    layout->addWidget(m_tabs);
+    layout->addWidget(tabs);
     layout->addWidget(buttons);
     resize(640, 560);
-}
-
-PreferencesDialog::Place PreferencesDialog::place() const {
-    const QWidget *const focus = focusWidget();
-    return {saveGeometry(), m_tabs->currentIndex(), focus != nullptr ? focus->objectName() : "",
-            m_filter->text()};
-}
-
-void PreferencesDialog::setPlace(const Place &place) {
-    restoreGeometry(place.geometry);
-    m_tabs->setCurrentIndex(place.tab);
-    m_filter->setText(place.filter);
-    if (auto *const focus = findChild<QWidget *>(place.focus); focus && !place.focus.isEmpty())
-        focus->setFocus();
 }
 
 QWidget *PreferencesDialog::makeGeneral() {
@@ -103,16 +89,22 @@ QWidget *PreferencesDialog::makeGeneral() {
     auto *page = new QWidget;
     auto *form = new QFormLayout(page);
     form->setVerticalSpacing(10);
+    auto *restart = new PlainLabel(tr("The language changes at the next start"));
+    restart->setObjectName("languageNote");
+    restart->setProperty("role", "muted");
+    restart->hide();
+    connect(m_language, &QComboBox::activated, restart, [this, restart, spoken = now.language] {
+        restart->setVisible(m_language->currentData() != spoken);
+    });
     form->addRow(tr("Language"), m_language);
+    form->addRow(QString(), restart);
     form->addRow(tr("Theme"), m_theme);
     form->addRow(tr("Tool bar"), m_toolBar);
     form->addRow(m_remembers);
     form->addRow(m_resumes);
     form->addRow(m_title);
-    // Queued: a change of language rebuilds the window and deletes this dialog.
     for (QComboBox *choice : {m_language, m_theme, m_toolBar})
-        connect(choice, &QComboBox::activated, this, &PreferencesDialog::change,
-                Qt::QueuedConnection);
+        connect(choice, &QComboBox::activated, this, &PreferencesDialog::change);
     for (QCheckBox *choice : {m_remembers, m_resumes, m_title})
         connect(choice, &QCheckBox::toggled, this, &PreferencesDialog::change);
     return page;

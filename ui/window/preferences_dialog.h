@@ -10,27 +10,18 @@ class QCheckBox;
 class QComboBox;
 class QKeySequenceEdit;
 class QLineEdit;
-class QTabWidget;
 class QTreeWidget;
 
 namespace pellucid::ui {
 
 class PlainLabel;
 
-/// The preferences and the keys of all actions. Changes are saved and take effect at once.
+/// The preferences and the keys of all actions. Changes are saved and, but for the language, take
+/// effect at once.
 class PreferencesDialog : public QDialog {
     Q_OBJECT
 public:
     explicit PreferencesDialog(QWidget *window);
-
-    /// The position and state of the dialog, for the dialog that replaces it.
-    struct Place {
-        QByteArray geometry;
-        int tab = 0;
-        QString focus, filter;
-    };
-    Place place() const;
-    void setPlace(const Place &place);
 
 signals:
     void changed(const pellucid::ui::Preferences &preferences);
@@ -45,7 +36,6 @@ private:
     int chosen() const;
 
     std::vector<ShortcutEntry> m_entries;
-    QTabWidget *m_tabs;
     QComboBox *m_language, *m_theme, *m_toolBar;
     QCheckBox *m_remembers, *m_resumes, *m_title;
     QLineEdit *m_filter;

@@ -8,18 +8,16 @@
 
 #include "ui/panels/earlier_panel.h"
 #include "ui/panels/measurements_panel.h"
-#include "ui/panels/spectrum_panel.h"
 #include "ui/panels/study_panel.h"
 #include "ui/panels/transfers_panel.h"
 #include "ui/theme/dock.h"
-#include "ui/views/spectrum_sampler.h"
 #include "ui/window/workbench.h"
 
 namespace pellucid::ui {
 
-StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme)
+StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench)
     : QObject(&window), m_window(window),
-      m_studies(new StudyPanel(bench.study.document, bench.library, bench.serverSearch, theme)),
+      m_studies(new StudyPanel(bench.study.document, bench.library, bench.serverSearch)),
       m_measurements(new MeasurementsPanel(bench.study.document)),
       m_earlier(new EarlierPanel(bench.earlier)) {
     m_study = makeDock(tr("STUDIES"), "studyDock", m_studies, m_studies->corner());
@@ -38,7 +36,6 @@ StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme
     window.addDockWidget(Qt::LeftDockWidgetArea, m_transfers);
     m_transfers->hide();
     m_history = addHistory(window, bench);
-    m_spectrum = addSpectrum(window, bench, theme);
     arrange();
     // A tab that is asked for comes to the front.
     for (QDockWidget *dock : {m_measured, m_earlierDock, m_transfers})
@@ -55,8 +52,7 @@ void StudyDocks::arrange() {
 }
 
 void StudyDocks::reset() {
-    for (QDockWidget *dock :
-         {m_study, m_measured, m_earlierDock, m_transfers, m_history, m_spectrum}) {
+    for (QDockWidget *dock : {m_study, m_measured, m_earlierDock, m_transfers, m_history}) {
         dock->setFloating(false);
         m_window.addDockWidget(Qt::LeftDockWidgetArea, dock);
         dock->setVisible(dock == m_study || dock == m_measured);
@@ -74,19 +70,6 @@ QDockWidget *StudyDocks::addHistory(QMainWindow &window, Workbench &bench) {
     history->setToolTip(tr("Click an edit to return to the state after it"));
     history->setEmptyLabel(tr("As opened"));
     QDockWidget *dock = makeDock(tr("HISTORY"), "historyDock", history, nullptr);
-    window.addDockWidget(Qt::LeftDockWidgetArea, dock);
-    dock->hide();
-    return dock;
-}
-
-QDockWidget *StudyDocks::addSpectrum(QMainWindow &window, Workbench &bench, const Theme &theme) {
-    auto *sampler = new SpectrumSampler(bench.study.document, this);
-    auto *panel = new SpectrumPanel(theme);
-    connect(&bench.study.copier, &CardCopier::engineReady, sampler, &SpectrumSampler::setEngine);
-    connect(sampler, &SpectrumSampler::sampled, panel, &SpectrumPanel::showSlice);
-    connect(sampler, &SpectrumSampler::cleared, panel, &SpectrumPanel::clear);
-    connect(panel, &SpectrumPanel::visibilityChanged, sampler, &SpectrumSampler::setActive);
-    QDockWidget *dock = makeDock(tr("SPECTRUM"), "spectrumDock", panel, nullptr);
     window.addDockWidget(Qt::LeftDockWidgetArea, dock);
     dock->hide();
     return dock;

@@ -5,8 +5,6 @@
 
 #include <QObject>
 
-#include "ui/theme/theme.h"
-
 class QDockWidget;
 class QMainWindow;
 
@@ -19,11 +17,11 @@ class TransfersPanel;
 struct Workbench;
 
 /// The docks on the left of the window: studies; measurements, earlier studies and transfers, as
-/// tabs; edit history and spectrum. Earlier studies and those after them are hidden at first.
+/// tabs; edit history. Earlier studies and those after them are hidden at first.
 class StudyDocks : public QObject {
     Q_OBJECT
 public:
-    StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme);
+    StudyDocks(QMainWindow &window, Workbench &bench);
 
     StudyPanel &studies() { return *m_studies; }
     MeasurementsPanel &measurements() { return *m_measurements; }
@@ -35,7 +33,6 @@ public:
     TransfersPanel &transfersPanel() { return *m_transfersPanel; }
     QDockWidget &study() { return *m_study; }
     QDockWidget &transfers() { return *m_transfers; }
-    QDockWidget &spectrum() { return *m_spectrum; }
 
     /// Shows studies and measurements where they were at first, and hides the others.
     void reset();
@@ -43,14 +40,13 @@ public:
 private:
     void arrange();
     QDockWidget *addHistory(QMainWindow &window, Workbench &bench);
-    QDockWidget *addSpectrum(QMainWindow &window, Workbench &bench, const Theme &theme);
 
     QMainWindow &m_window;
     StudyPanel *m_studies;
     MeasurementsPanel *m_measurements;
     EarlierPanel *m_earlier;
     TransfersPanel *m_transfersPanel = nullptr;
-    QDockWidget *m_study, *m_measured, *m_earlierDock, *m_transfers, *m_history, *m_spectrum;
+    QDockWidget *m_study, *m_measured, *m_earlierDock, *m_transfers, *m_history;
 };
 
 } // namespace pellucid::ui

@@ -6,9 +6,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
-#include <QDoubleSpinBox>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QListWidget>
 #include <QPushButton>
 #include <QVBoxLayout>
@@ -57,8 +55,7 @@ std::vector<StudySource> subtrahends(const Document &document, StudyLibrary &lib
 SubtractionDialog::SubtractionDialog(const StudySource &minuend,
                                      std::vector<StudySource> subtrahends, QWidget *parent)
     : QDialog(parent), m_subtrahends(std::move(subtrahends)), m_list(new QListWidget),
-      m_align(new QCheckBox(tr("&Align it first (rotation and shift)"))), m_beside(new QComboBox),
-      m_weight(new QDoubleSpinBox), m_otherWeight(new QDoubleSpinBox) {
+      m_align(new QCheckBox(tr("&Align it first (rotation and shift)"))), m_beside(new QComboBox) {
     setObjectName("subtractionDialog");
     setWindowTitle(tr("Subtract a volume"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -105,33 +102,9 @@ SubtractionDialog::SubtractionDialog(const StudySource &minuend,
     }
     auto *form = new QFormLayout;
     form->addRow(m_align);
-    form->addRow(tr("Weights"), makeWeights());
     form->addRow(tr("Beside the difference"), m_beside);
     layout->addLayout(form);
     layout->addWidget(buttons);
-}
-
-QWidget *SubtractionDialog::makeWeights() {
-    auto *row = new QWidget;
-    auto *layout = new QHBoxLayout(row);
-    layout->setContentsMargins(0, 0, 0, 0);
-    const subtraction::Weights defaults;
-    const auto add = [&](QDoubleSpinBox *box, const char *name, double value,
-                         const QString &meaning) {
-        box->setObjectName(name);
-        box->setRange(-subtraction::Weights::largest, subtraction::Weights::largest);
-        box->setSingleStep(0.1);
-        box->setValue(value);
-        box->setAccessibleName(tr("Weight of %1").arg(meaning));
-        box->setToolTip(plainToolTip(tr("%1, from -2 to 2").arg(box->accessibleName())));
-        layout->addWidget(box);
-        layout->addWidget(new PlainLabel("× " + meaning));
-    };
-    add(m_weight, "minuendWeightBox", defaults.minuend, tr("the open volume"));
-    layout->addSpacing(8);
-    add(m_otherWeight, "subtrahendWeightBox", defaults.subtrahend, tr("the other"));
-    layout->addStretch();
-    return row;
 }
 
 // Only an aligned volume is worth checking.
@@ -150,11 +123,8 @@ void SubtractionDialog::accept() {
     const int row = m_list->currentRow();
     if (row < 0)
         return;
-    DifferenceMethod method;
-    if (m_align->isChecked())
-        method.alignment = std::make_shared<Alignment>();
-    method.weights = {m_weight->value(), m_otherWeight->value()};
-    emit chosen(m_subtrahends[std::size_t(row)], method,
+    emit chosen(m_subtrahends[std::size_t(row)],
+                m_align->isChecked() ? std::make_shared<Alignment>() : nullptr,
                 BesideDifference(m_beside->currentIndex()));
     QDialog::accept();
 }

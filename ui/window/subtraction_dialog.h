@@ -9,7 +9,6 @@
 
 class QCheckBox;
 class QComboBox;
-class QDoubleSpinBox;
 class QListWidget;
 class QPushButton;
 
@@ -25,8 +24,8 @@ std::vector<StudySource> subtrahends(const Document &document, StudyLibrary &lib
 /// The study beside a difference.
 enum class BesideDifference { nothing, minuend, alignedSubtrahend };
 
-/// Selects the volume to subtract, whether it is aligned first, the weights of both, and what is
-/// shown beside the difference.
+/// Selects the volume to subtract, whether it is aligned first, and what is shown beside the
+/// difference.
 class SubtractionDialog : public QDialog {
     Q_OBJECT
 public:
@@ -35,19 +34,17 @@ public:
 
 signals:
     void chosen(const pellucid::ui::StudySource &subtrahend,
-                const pellucid::ui::DifferenceMethod &method,
+                const std::shared_ptr<pellucid::ui::Alignment> &alignment,
                 pellucid::ui::BesideDifference beside);
 
 private:
     void accept() override;
-    QWidget *makeWeights();
     void showAlignment();
 
     std::vector<StudySource> m_subtrahends;
     QListWidget *m_list;
     QCheckBox *m_align;
     QComboBox *m_beside;
-    QDoubleSpinBox *m_weight, *m_otherWeight;
     QPushButton *m_subtract;
 };
 

@@ -47,13 +47,12 @@ QComboBox *makeWindowBox() {
 
 } // namespace
 
-WindowChooser *makeToolBar(QMainWindow &window, Document &document, const Theme &theme,
-                           ToolBarStyle style, const ToolBarSources &sources) {
+WindowChooser *makeToolBar(QMainWindow &window, Document &document, ToolBarStyle style,
+                           const ToolBarSources &sources) {
     QToolBar *bar = window.addToolBar(ToolBarTexts::tr("Tools"));
     bar->setObjectName("toolBar");
     bar->setMovable(false);
     bar->setIconSize({20, 20});
-    bar->setToolButtonStyle(buttonStyle(style));
     bar->addAction(window.findChild<QAction *>("openFilesAction"));
     bar->addAction(window.findChild<QAction *>("importAction"));
     bar->addSeparator();
@@ -65,10 +64,11 @@ WindowChooser *makeToolBar(QMainWindow &window, Document &document, const Theme 
     auto *views = new QToolButton;
     views->setObjectName("viewsButton");
     views->setText(ToolBarTexts::tr("View"));
-    views->setIcon(themedIcon("cube", theme));
+    views->setIcon(themedIcon("cube"));
     views->setToolTip(ToolBarTexts::tr("See the patient from a side, or at an angle"));
     views->setPopupMode(QToolButton::InstantPopup);
-    views->setToolButtonStyle(bar->toolButtonStyle());
+    QObject::connect(bar, &QToolBar::toolButtonStyleChanged, views,
+                     &QToolButton::setToolButtonStyle);
     auto *sides = new QMenu(views);
     sides->addActions(sources.views);
     views->setMenu(sides);
@@ -84,11 +84,16 @@ WindowChooser *makeToolBar(QMainWindow &window, Document &document, const Theme 
     auto *chooser = new WindowChooser(document, sources.windowMenu, *windowBox);
     // Qt draws the overflow arrow in the colors of its own style.
     if (auto *more = bar->findChild<QToolButton *>("qt_toolbar_ext_button")) {
-        more->setIcon(themedIcon("down", theme));
+        more->setIcon(themedIcon("down"));
         more->setToolTip(ToolBarTexts::tr("More"));
         more->setAccessibleName(ToolBarTexts::tr("More"));
     }
+    setToolBarStyle(window, style);
     return chooser;
+}
+
+void setToolBarStyle(QMainWindow &window, ToolBarStyle style) {
+    window.findChild<QToolBar *>("toolBar")->setToolButtonStyle(buttonStyle(style));
 }
 
 } // namespace pellucid::ui

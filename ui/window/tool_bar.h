@@ -12,7 +12,6 @@ class QMenu;
 namespace pellucid::ui {
 
 class Document;
-class Theme;
 class ToolsMenu;
 class WindowChooser;
 
@@ -26,7 +25,9 @@ struct ToolBarSources {
 
 /// Adds the tool bar to a window: opening, tools, layouts, export, and the window box of the
 /// planes. Returns the chooser of that box.
-WindowChooser *makeToolBar(QMainWindow &window, Document &document, const Theme &theme,
-                           ToolBarStyle style, const ToolBarSources &sources);
+WindowChooser *makeToolBar(QMainWindow &window, Document &document, ToolBarStyle style,
+                           const ToolBarSources &sources);
+/// What the buttons of the window's tool bar show from now on.
+void setToolBarStyle(QMainWindow &window, ToolBarStyle style);
 
 } // namespace pellucid::ui

@@ -7,8 +7,8 @@
 
 #include "ui/opening/recent_paths.h"
 #include "ui/opening/session.h"
+#include "ui/theme/theme.h"
 #include "ui/window/main_window.h"
-#include "ui/window/preferences_dialog.h"
 
 namespace pellucid::ui {
 
@@ -21,7 +21,10 @@ constexpr int keepingMs = 1500;
 Workstation::Workstation(std::optional<EngineChoice> engine)
     : m_preferences(Preferences::load()), m_bench(engine) {
     speak(m_preferences.language);
-    makeWindow();
+    Theme::named(m_preferences.theme).apply(*qApp);
+    m_window = std::make_unique<MainWindow>(m_bench, m_preferences);
+    connect(m_window.get(), &MainWindow::preferencesChanged, this, &Workstation::follow);
+    m_window->show();
     m_keeping.setSingleShot(true);
     m_keeping.setInterval(keepingMs);
     connect(&m_keeping, &QTimer::timeout, this, [this] { keepWhatIsOpen(false); });
@@ -62,46 +65,12 @@ void Workstation::keepWhatIsOpen(bool hasEnded) {
 
 // The texts of the program are English; a text without a translation stays English.
 void Workstation::speak(const QString &language) {
-    QCoreApplication::removeTranslator(&m_texts);
-    QCoreApplication::removeTranslator(&m_ofQt);
     const QLocale locale = language.isEmpty() ? QLocale() : QLocale(language);
     // English has a file, too, for its plurals.
     if (m_texts.load(locale, "pellucid", "_", ":/i18n"))
         QCoreApplication::installTranslator(&m_texts);
-    if (m_ofQt.load(locale, "qtbase", "_", QLibraryInfo::path(QLibraryInfo::TranslationsPath)))
-        QCoreApplication::installTranslator(&m_ofQt);
-}
-
-void Workstation::makeWindow() {
-    const Theme theme = Theme::named(m_preferences.theme);
-    theme.apply(*qApp);
-    const bool wasThere = m_window != nullptr;
-    QByteArray geometry;
-    if (wasThere) {
-        geometry = m_window->saveGeometry();
-        m_window->keepLayout();
-    }
-    std::optional<PreferencesDialog::Place> preferences; // the user is making a choice in it
-    if (wasThere)
-        if (const auto *const dialog = m_window->findChild<PreferencesDialog *>())
-            preferences = dialog->place();
-    m_window.reset();
-    m_window = std::make_unique<MainWindow>(m_bench, theme, m_preferences);
-    if (wasThere)
-        m_window->restoreGeometry(geometry);
-    connect(m_window.get(), &MainWindow::preferencesChanged, this, &Workstation::follow);
-    m_window->show();
-    if (preferences)
-        m_window->openPreferences().setPlace(*preferences);
-}
-
-// Exports refer to the panes: they finish first.
-void Workstation::makeWindowWhenIdle() {
-    if (m_bench.exports.isRunning())
-        connect(&m_bench.exports, &JobRunner::finished, this, &Workstation::makeWindowWhenIdle,
-                Qt::ConnectionType(Qt::QueuedConnection | Qt::SingleShotConnection));
-    else
-        makeWindow();
+    if (m_qtTexts.load(locale, "qtbase", "_", QLibraryInfo::path(QLibraryInfo::TranslationsPath)))
+        QCoreApplication::installTranslator(&m_qtTexts);
 }
 
 void Workstation::follow(const Preferences &preferences) {
@@ -113,14 +82,9 @@ void Workstation::follow(const Preferences &preferences) {
     }
     if (before.showsPatient && !preferences.showsPatient)
         forgetPaths();
-    if (preferences.language != before.language)
-        speak(preferences.language);
-    if (preferences.language != before.language || preferences.theme != before.theme ||
-        preferences.toolBar != before.toolBar)
-        // Queued: the caller is a dialog of the old window.
-        QMetaObject::invokeMethod(this, &Workstation::makeWindowWhenIdle, Qt::QueuedConnection);
-    else
-        m_window->setPreferences(preferences);
+    if (preferences.theme != before.theme)
+        Theme::named(preferences.theme).apply(*qApp);
+    m_window->setPreferences(preferences);
 }
 
 } // namespace pellucid::ui

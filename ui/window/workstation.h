@@ -14,8 +14,8 @@ namespace pellucid::ui {
 
 class MainWindow;
 
-/// The running program: the bench, the window over it, language and theme. A change of language or
-/// theme makes a new window; the bench stays.
+/// The running program: the bench, the window over it, language and theme. A language that
+/// the user chooses is spoken from the next start.
 class Workstation : public QObject {
     Q_OBJECT
 public:
@@ -27,13 +27,11 @@ public:
 
 private:
     void follow(const Preferences &preferences);
-    void makeWindow();
-    void makeWindowWhenIdle();
     void speak(const QString &language);
     void keepWhatIsOpen(bool hasEnded);
 
     Preferences m_preferences;
-    QTranslator m_texts, m_ofQt;
+    QTranslator m_texts, m_qtTexts;
     Workbench m_bench;
     std::unique_ptr<MainWindow> m_window;
     bool m_hasKept = false; ///< in this run

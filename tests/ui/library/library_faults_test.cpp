@@ -81,7 +81,7 @@ private slots:
         const OpenedLibrary opened = openLibrary(at.folder);
         QVERIFY(opened.place.inMemory);
         QVERIFY(opened.notices.at(0).reason ==
-                task::because::listedForThisRun(task::because::isANewerLibrary));
+                task::because::listedForThisRun(task::because::isALibraryOfAnotherVersion));
         Library memory(opened.place);
         memory.put({librarySeries(2, "Roe^Richard", "Knee", 1)});
         QCOMPARE(count(Library(opened.place), "richard"), 1); // shared between connections
