@@ -184,7 +184,7 @@ void writeSessions(const fs::path &folder) {
     ui::Session session;
     session.files = {"/a/b.dcm", "/a/c.dcm"};
     session.key = "0123456789abcdef";
-    session.shown.exposure = scene::Exposure();
+    session.view.exposure = {scene::Exposure(), picture::ToneSubject(session.view.scene)};
     writeText(folder / "files", ui::toJson(session));
     session.files.clear();
     session.phantom = "head";

@@ -5,7 +5,6 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
-#include <QSignalSpy>
 #include <QToolButton>
 
 #include "ui/beside/study_beside.h"
@@ -63,7 +62,7 @@ private:
     void resizeThePanes() {
         turnWheel(projection(), 1);
         const ui::Pose pose = now().pose();
-        QSignalSpy moved(&now(), &ui::Document::poseChanged);
+        const ChangeCount moved(now(), ui::Change::pose);
         for (const int wider : {160, -160}) {
             const int width = now().scene().camera.width;
             mainWindow().resize(mainWindow().width() + wider, mainWindow().height());
@@ -73,7 +72,7 @@ private:
             requirePlanesAlike();
         }
         QVERIFY(now().pose() == pose);
-        QCOMPARE(moved.size(), 0);
+        QCOMPARE(moved.count(), 0);
     }
 
     // Each turns about its own crosshair, and both are at the same place of the pictures.

@@ -7,7 +7,6 @@
 #include <QLabel>
 #include <QListWidget>
 #include <QProcess>
-#include <QSignalSpy>
 #include <QSpinBox>
 #include <QToolButton>
 
@@ -60,8 +59,7 @@ private slots:
         const scene::Camera before = document.scene().camera;
         const QImage picture = projection()->picture();
         const int edits = document.undoStack()->count();
-        QSignalSpy sceneChanged(&document, &ui::Document::sceneChanged),
-            poseChanged(&document, &ui::Document::poseChanged);
+        const ChangeCount edited(document, ui::Change::scene | ui::Change::pose);
         QTest::mouseDClick(projection(), Qt::LeftButton); // fills the window
         QTRY_VERIFY(document.scene().camera.height > before.height);
         settle();
@@ -77,8 +75,7 @@ private slots:
         QVERIFY(projection()->picture() == picture);
         QVERIFY(document.pose() == pose);
         QCOMPARE(document.undoStack()->count(), edits);
-        QCOMPARE(sceneChanged.size(), 0);
-        QCOMPARE(poseChanged.size(), 0);
+        QCOMPARE(edited.count(), 0);
     }
 
     // Even if the pane has another size by then.

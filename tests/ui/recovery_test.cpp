@@ -108,7 +108,7 @@ private slots:
             scene.look.transferFunction.weights = {0.0, 0.7, 1.9, 0.3};
         });
         const classify::Look edited = document().scene().look;
-        QTRY_VERIFY_WITH_TIMEOUT(hasSession() && kept().shown.scene.look == edited, patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(hasSession() && kept().view.scene.look == edited, patienceMs);
         QVERIFY(!kept().hasEnded);
         // The session as a kill would leave it now.
         fs::copy_file(m_sessionFile, m_folder / "killed.json");
@@ -172,7 +172,7 @@ private slots:
         const auto exposure = document().exposure();
         const QImage picture = projection()->picture();
         endProgram();
-        QVERIFY(exposure && kept().shown.exposure == exposure);
+        QVERIFY(exposure && kept().view.exposure->exposure == *exposure);
         resume();
         settle();
         QVERIFY(document().exposure() == exposure);

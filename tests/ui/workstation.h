@@ -73,6 +73,18 @@ inline int sharedGlObjects() {
     return count;
 }
 
+/// Counts the changes of a document of some kinds.
+class ChangeCount : public QObject {
+public:
+    ChangeCount(ui::Document &document, ui::Changes what) {
+        document.whenever(what, this, [this] { ++m_count; });
+    }
+    int count() const { return m_count; }
+
+private:
+    int m_count = 0;
+};
+
 /// The fixture of all tests of the window: the program, which starts for the first time before each
 /// test, and a head to open in it.
 class Workstation : public QObject {

@@ -121,7 +121,7 @@ private slots:
         QUndoStack &edits = *document().undoStack();
         find<QAction>("filmAction")->trigger();
         find<QAction>("undoAction")->trigger();
-        QSignalSpy sceneChanged(&document(), &ui::Document::sceneChanged);
+        const ChangeCount edited(document(), ui::Change::scene);
         const auto nothing = [](scene::Scene &) {};
         QVERIFY(!ui::editScene(document(), "Nothing", ui::noDrag, nothing));
         // Looking is no edit either.
@@ -132,7 +132,7 @@ private slots:
         find<QAction>("automaticToneAction")->trigger();
         QCOMPARE(edits.count(), 1);
         QVERIFY(edits.canRedo()); // an edit would have cleared the edits to redo
-        QCOMPARE(sceneChanged.size(), 0);
+        QCOMPARE(edited.count(), 0);
         QVERIFY(ui::editScene(document(), "Film", ui::noDrag,
                               [](scene::Scene &scene) { scene.tone.inverted = true; }));
         QCOMPARE(edits.count(), 1);
@@ -167,7 +167,7 @@ private slots:
             {scene, classify::ShownFields{{classify::densityField(volume, {-900, 2000})}, {}}});
         ui::KeptStudies kept;
         ui::KeptStudy study{
-            .volume = volume, .scene = scene, .preparedFor = ui::PreparedFor(), .engine = engine};
+            .opened = {volume, {}, {}}, .preparedFor = ui::PreparedFor(), .engine = engine};
         for (study.source = 0; study.source < 3; ++study.source)
             kept.keep(study);
         const std::size_t one = volume.bytes() + engine.bytes;

@@ -81,8 +81,8 @@ StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *pare
             });
     connect(&m_measurements, &MeasurementStore::failed, this, &StudyBeside::failed);
     // Also if a load is cancelled and the former study comes back. A failed load keeps its name.
-    connect(&document(), &Document::currentSourceChanged, this, &StudyBeside::showName);
-    connect(&document(), &Document::volumeChanged, this, [this] {
+    document().whenever(Change::currentSource, this, &StudyBeside::showName);
+    document().whenever(Change::volume, this, [this] {
         if (jobs().isRunning()) { // the volume was loaded
             beginLink();
             return;

@@ -21,31 +21,47 @@ StudyLink::StudyLink(const Viewer &leader, const Viewer &follower, QObject *pare
     linkViews(follower, leader);
     linkPanes(leader, follower);
     linkPanes(follower, leader);
-    connect(&leader.document, &Document::crosshairChanged, this,
-            [this] { passCrosshair(m_leader, m_follower, 1.0); });
-    connect(&follower.document, &Document::crosshairChanged, this,
-            [this] { passCrosshair(m_follower, m_leader, -1.0); });
+    connect(&leader.document, &Document::changed, this, &StudyLink::followLeader);
+    connect(&follower.document, &Document::changed, this, &StudyLink::passBack);
     // A pane that is resized keeps its zoom; the scale of both is that of the leader.
     for (const Viewer &resized : {leader, follower})
         for (std::size_t n = 0; n < resized.planes.size(); ++n)
             connect(resized.planes[n], &MprView::resized, this, [this, n] {
                 pass([&] { m_follower.planes[n]->adoptScale(*m_leader.planes[n]); });
             });
-    for (const Viewer &resized : {leader, follower})
-        connect(&resized.document, &Document::projectionResized, this,
-                [this] { pass([this] { passCamera(m_leader, m_follower); }); });
-    for (const auto changed : {&Document::sceneChanged, &Document::displayWindowChanged})
-        connect(&leader.document, changed, this, &StudyLink::follow);
-    // Look, pose and crosshair of the leader's next volume are set after it.
-    connect(&leader.document, &Document::volumeChanged, this, [this] {
+    // The signal also comes after a merged edit.
+    connect(follower.document.undoStack(), &QUndoStack::indexChanged, this,
+            &StudyLink::passWindowBack);
+}
+
+void StudyLink::followLeader(Changes changes) {
+    if (changes & Change::volume) { // it is linked when its study is open
         const bool isWaited = m_isHeld;
         m_isHeld = true;
         if (!isWaited)
             QMetaObject::invokeMethod(this, &StudyLink::begin, Qt::QueuedConnection);
-    });
-    // The signal also comes after a merged edit.
-    connect(follower.document.undoStack(), &QUndoStack::indexChanged, this,
-            &StudyLink::passWindowBack);
+        return;
+    }
+    if (changes & (Change::scene | Change::displayWindow))
+        follow();
+    passView(changes, m_leader, m_follower, 1.0);
+}
+
+void StudyLink::passBack(Changes changes) {
+    if (changes & Change::volume) // the study beside links it again
+        return;
+    passView(changes, m_follower, m_leader, -1.0);
+}
+
+void StudyLink::passView(Changes changes, const Viewer &from, const Viewer &to, double sign) {
+    if (changes & Change::crosshair)
+        passCrosshair(from, to, sign);
+    if (changes & Change::pose)
+        pass([&] { passCamera(from, to); });
+    if (changes & Change::paneSize)
+        pass([&] { passCamera(m_leader, m_follower); });
+    if (changes & Change::cut)
+        pass([&] { to.document.setCut(from.document.cut()); });
 }
 
 template <class F> void StudyLink::pass(F &&f) {
@@ -91,7 +107,7 @@ void StudyLink::follow() {
             scene::Scene scene = m_follower.document.scene();
             // Points, strokes and cuts are places in one space.
             scene.look = sharesSpace() ? shown.look : classify::withoutMarks(shown.look);
-            dropMissing(scene.look, m_follower.document);
+            dropMissing(scene.look, m_follower.document.segments().get());
             scene.crop = shown.crop;
             scene.shading = shown.shading;
             scene.image = shown.image;
@@ -114,10 +130,6 @@ void StudyLink::follow() {
 }
 
 void StudyLink::linkViews(const Viewer &from, const Viewer &to) {
-    connect(&from.document, &Document::poseChanged, this,
-            [this, from, to] { pass([&] { passCamera(from, to); }); });
-    connect(&from.document, &Document::cutChanged, this,
-            [this, from, to] { pass([&] { to.document.setCut(from.document.cut()); }); });
     for (std::size_t n = 0; n < from.planes.size(); ++n)
         connect(from.planes[n], &MprView::viewMoved, this,
                 [this, from, to, n] { pass([&] { to.planes[n]->adoptScale(*from.planes[n]); }); });

@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "ui/document/study_view.h"
 #include "ui/views/viewer.h"
 
 namespace pellucid::ui {
@@ -27,6 +28,9 @@ public:
     void begin();
 
 private:
+    void followLeader(Changes changes);
+    void passBack(Changes changes);
+    void passView(Changes changes, const Viewer &from, const Viewer &to, double sign);
     void follow();
     bool sharesUnit() const;
     bool sharesSpace() const;

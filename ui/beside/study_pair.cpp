@@ -41,8 +41,7 @@ StudyPair::StudyPair(const Viewer &open, GraphicsCard &card, QWidget *parent)
     column->addWidget(m_heading);
     column->addWidget(open.area, 1);
     addWidget(panes);
-    for (const auto changed : {&Document::volumeChanged, &Document::currentSourceChanged})
-        connect(&open.document, changed, this, &StudyPair::showHeading);
+    open.document.whenever(Change::volume | Change::currentSource, this, &StudyPair::showHeading);
 }
 
 void StudyPair::openBeside(const StudySource &source) {

@@ -13,7 +13,6 @@ void connectProjection(OpenStudy &study, ProjectionView &projection, GraphicsCar
     };
     deliver(study.copier, &CardCopier::engineReady, &ProjectionView::setEngine);
     deliver(study.preparer, &LookPreparer::planChanged, &ProjectionView::setPlanState);
-    deliver(study.opener, &StudyOpener::exposureKept, &ProjectionView::adoptExposure);
     deliver(study.opener, &StudyOpener::phaseLeft, &ProjectionView::holdExposure);
     deliver(study.opener, &StudyOpener::notProjectable, &ProjectionView::setMessage);
     deliver(study.jobs, &JobRunner::started, &ProjectionView::jobStarted);

@@ -17,6 +17,10 @@ namespace pellucid::ui {
 namespace {
 
 constexpr int fewSlices = 6;
+// What a new volume brings with it.
+constexpr Changes ofVolume = Change::volume | Change::scene | Change::pose | Change::displayWindow |
+                             Change::crosshair | Change::cut | Change::segments | Change::exposure |
+                             Change::traits | Change::measurements | Change::selection;
 
 QStringList filesOf(const StudySource &source) {
     QStringList files = source.files + source.lasting;
@@ -49,13 +53,13 @@ std::vector<int> Document::addSources(std::vector<StudySource> sources) {
             m_sources[std::size_t(index)] = std::move(source);
         }
     }
-    emit sourcesChanged();
+    emit changed(Change::sources);
     return indices;
 }
 
 void Document::closeSource(int index) {
     m_sources.at(std::size_t(index)).isClosed = true;
-    emit sourcesChanged();
+    emit changed(Change::sources);
 }
 
 QString Document::place() const {
@@ -66,7 +70,7 @@ void Document::setCurrentSource(int index) {
     if (index == m_currentSource)
         return;
     m_currentSource = index;
-    emit currentSourceChanged();
+    emit changed(Change::currentSource);
 }
 
 void Document::addProblems(const std::vector<dicom::Skipped> &problems) {
@@ -79,7 +83,7 @@ void Document::addProblems(const std::vector<dicom::Skipped> &problems) {
     for (const dicom::Skipped &problem : problems)
         if (known.emplace(problem.path.native(), problem.reason.encoded()).second)
             m_problems.push_back(problem);
-    emit problemsChanged();
+    emit changed(Change::problems);
 }
 
 void Document::requireOther(const std::vector<std::filesystem::path> &targets) const {
@@ -92,8 +96,8 @@ void Document::requireOther(const std::vector<std::filesystem::path> &targets) c
                 throw task::Error(
                     task::ErrorCode::usage,
                     task::because::isOfAnOpenStudy(QFileInfo(file).fileName().toStdString()));
-    if (m_segments)
-        for (const segment::Segmentation &segmentation : m_segments->segmentations())
+    if (m_view.segments)
+        for (const segment::Segmentation &segmentation : m_view.segments->segmentations())
             if (there.find(segmentation.path))
                 throw task::Error(
                     task::ErrorCode::usage,
@@ -102,75 +106,73 @@ void Document::requireOther(const std::vector<std::filesystem::path> &targets) c
 
 void Document::clearProblems() {
     m_problems.clear();
-    emit problemsChanged();
+    emit changed(Change::problems);
 }
 
-void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow &initialWindow,
-                         const classify::FieldWindow &fieldWindow, bool preview) {
-    m_initialWindow = initialWindow;
-    m_fieldWindow = fieldWindow;
+void Document::show(const OpenVolume &opened, const std::function<void(StudyView &)> &adjust) {
+    const volume::Volume &volume = opened.volume;
+    m_initialWindow = opened.initialWindow;
+    m_fieldWindow = opened.fieldWindow;
     const bool same = m_volume && m_preview;
     // Slices that were not there may lie elsewhere than expected.
     const bool isInPlace = same && m_volume->lattice().fillsSameBox(volume.lattice());
-    const bool isInTheMiddle = same && m_crosshair == middleSample(m_volume->lattice());
+    const bool isInTheMiddle = same && m_view.crosshair == middleSample(m_volume->lattice());
     m_volume = volume;
-    m_preview = preview;
-    m_exposure.reset(); // that of a preview, which lacks slices, is another one
+    m_preview = opened.isPreview;
+    m_view.exposure.reset(); // that of a preview, which lacks slices, is another one
     if (!same) {
         // Edits belong to their study.
         m_undo.clear();
         m_isWindowSet = false;
-        m_traits = {presets::regionsNamed(volume.notes().bodyPart, volume.notes().title)};
-        m_crosshair = middleSample(volume.lattice());
-        // Other planes would cut only a strip out of a few slices.
-        m_cut.axes = (volume.lattice().size().k < fewSlices || volume.notes().isLocalizer) &&
-                             volume.notes().placed
-                         ? mpr::PlaneAxes::along(volume.lattice())
-                         : mpr::PlaneAxes();
         m_measured.clear();
         m_selectedMeasurement = -1;
-        // The quality of pictures is the user's choice and stays; what they show belongs to the
-        // study.
-        scene::Scene fresh;
-        fresh.tolerance = m_scene.tolerance;
-        fresh.interpolation = m_scene.interpolation;
-        fresh.tone.inverted = initialWindow.isInverted; // in the same sense as the planes
-        m_scene = fresh;
         m_selectedClass = -1;
         RegionOptions options = m_marking.options();
         options.addsPoints = false; // of a class that is gone
         m_marking.setOptions(options);
-        m_pose = {};
-        setSegments(nullptr);
+        m_view = freshView(m_view);
     }
     if (same && (!isInPlace || isInTheMiddle)) // through samples, as if it had come at once
-        m_crosshair = middleSample(volume.lattice());
+        m_view.crosshair = middleSample(volume.lattice());
     // A preview's quantiles are those of the slices that came first; a window that the user has set
     // meanwhile stays.
-    if (!same || (!preview && !m_isWindowSet))
-        m_window = initialWindow;
+    if (!same || (!m_preview && !m_isWindowSet))
+        m_view.displayWindow = m_initialWindow;
+    if (adjust)
+        adjust(m_view);
     updateCamera();
-    emit volumeChanged();
+    emit changed(ofVolume);
 }
 
-void Document::setTraits(const presets::StudyTraits &traits) {
-    if (traits == m_traits)
-        return;
-    m_traits = traits;
-    emit traitsChanged();
+StudyView Document::freshView(const StudyView &former) const {
+    const volume::Lattice &lattice = m_volume->lattice();
+    const volume::VolumeNotes &notes = m_volume->notes();
+    StudyView view;
+    // The quality of pictures and the slab are the user's choice and stay; what they show belongs
+    // to the study.
+    view.scene.tolerance = former.scene.tolerance;
+    view.scene.interpolation = former.scene.interpolation;
+    view.scene.tone.inverted = m_initialWindow.isInverted; // in the same sense as the planes
+    view.traits = {presets::regionsNamed(notes.bodyPart, notes.title)};
+    view.crosshair = middleSample(lattice);
+    view.cut.options = former.cut.options;
+    // Other planes would cut only a strip out of a few slices.
+    if ((lattice.size().k < fewSlices || notes.isLocalizer) && notes.placed)
+        view.cut.axes = mpr::PlaneAxes::along(lattice);
+    return view;
 }
 
 void Document::closeVolume() {
     m_volume.reset();
-    m_exposure.reset();
-    m_traits = {};
+    m_view.exposure.reset();
+    m_view.traits = {};
+    m_view.segments = nullptr;
     m_measured.clear();
     m_selectedMeasurement = -1;
     m_preview = false;
     m_undo.clear();
-    setSegments(nullptr);
     updateCamera();
-    emit volumeChanged();
+    emit changed(ofVolume);
 }
 
 double Document::fittingPixelMm() const {
@@ -178,23 +180,23 @@ double Document::fittingPixelMm() const {
 }
 
 void Document::updateCamera() {
-    m_scene.camera = cameraOf(m_pose, fittingPixelMm(), m_projectionSize);
+    m_view.scene.camera = cameraOf(m_view.pose, fittingPixelMm(), m_projectionSize);
 }
 
 void Document::setScene(const scene::Scene &scene) {
-    m_scene = scene;
+    m_view.scene = scene;
     updateCamera();
-    emit sceneChanged();
+    emit changed(Change::scene);
 }
 
-void Document::setPose(const Pose &pose) {
+void Document::setPose(const Pose &pose, bool isMoving) {
     Pose limited = pose;
     limited.zoom = std::clamp(pose.zoom, minZoom, maxZoom);
-    if (m_pose == limited)
+    if (m_view.pose == limited)
         return;
-    m_pose = limited;
+    m_view.pose = limited;
     updateCamera();
-    emit poseChanged();
+    emit changed(isMoving ? Change::pose | Change::moving : Changes(Change::pose));
 }
 
 Pose Document::poseOf(const scene::Camera &camera) const {
@@ -206,11 +208,11 @@ void Document::setProjectionSize(const QSizeF &size) {
         return;
     m_projectionSize = size;
     updateCamera();
-    emit projectionResized();
+    emit changed(Change::paneSize);
 }
 
 int Document::selectedClass() const {
-    const int count = int(m_scene.look.classes.size());
+    const int count = int(m_view.scene.look.classes.size());
     return count == 0 ? -1 : std::clamp(m_selectedClass, 0, count - 1);
 }
 
@@ -218,44 +220,34 @@ void Document::selectClass(int index) {
     if (index == m_selectedClass)
         return;
     m_selectedClass = index;
-    emit selectedClassChanged();
+    emit changed(Change::selection);
 }
 
 void Document::setTint(const std::optional<classify::TissueClass> &tint) {
     if (tint == m_tint)
         return;
     m_tint = tint;
-    emit tintChanged();
+    emit changed(Change::tint);
 }
 
 void Document::setSegments(std::shared_ptr<const segment::SegmentSet> segments) {
-    if (segments == m_segments)
+    if (segments == m_view.segments)
         return;
-    m_segments = std::move(segments);
-    emit segmentsChanged();
+    m_view.segments = std::move(segments);
+    emit changed(Change::segments);
 }
 
 void Document::setTintsSegments(bool tints) {
     if (tints == m_tintsSegments)
         return;
     m_tintsSegments = tints;
-    emit segmentsChanged();
-}
-
-QStringList Document::missingSegments(const classify::Look &look) const {
-    QStringList missing;
-    for (const std::set<std::string> &segments : classify::segmentsOf(look))
-        for (const std::string &name : segments)
-            if (!m_segments || m_segments->find(name) == nullptr)
-                missing << QString::fromStdString(name);
-    missing.removeDuplicates();
-    return missing;
+    emit changed(Change::segments);
 }
 
 void Document::setDisplayWindow(const volume::ValueWindow &window) {
-    m_window = window;
+    m_view.displayWindow = window;
     m_isWindowSet = true;
-    emit displayWindowChanged();
+    emit changed(Change::displayWindow);
 }
 
 void Document::centerCrosshair() {
@@ -264,10 +256,10 @@ void Document::centerCrosshair() {
 }
 
 void Document::setCut(const Cut &cut) {
-    if (cut == m_cut)
+    if (cut == m_view.cut)
         return;
-    m_cut = cut;
-    emit cutChanged();
+    m_view.cut = cut;
+    emit changed(Change::cut);
 }
 
 std::vector<measure::Measurement> Document::measurements() const {
@@ -289,7 +281,7 @@ void Document::setMeasurements(const std::vector<measure::Measurement> &measurem
                                    : measure::measure(m, *m_volume)});
     }
     m_measured = std::move(measured);
-    emit measurementsChanged();
+    emit changed(Change::measurements);
     if (m_selectedMeasurement >= int(m_measured.size()))
         selectMeasurement(-1);
 }
@@ -298,28 +290,28 @@ void Document::selectMeasurement(int index) {
     if (index == m_selectedMeasurement)
         return;
     m_selectedMeasurement = index;
-    emit selectedMeasurementChanged();
+    emit changed(Change::selection);
 }
 
 std::optional<scene::Exposure> Document::exposure() const {
-    return m_exposure && m_exposure->of == picture::ToneSubject(m_scene)
-               ? std::optional(m_exposure->exposure)
+    return m_view.exposure && m_view.exposure->of == picture::ToneSubject(m_view.scene)
+               ? std::optional(m_view.exposure->exposure)
                : std::nullopt;
 }
 
 void Document::setExposure(const scene::Exposure &exposure) {
-    const MeasuredExposure measured{exposure, picture::ToneSubject(m_scene)};
-    if (measured == m_exposure)
+    const MeasuredExposure measured{exposure, picture::ToneSubject(m_view.scene)};
+    if (measured == m_view.exposure)
         return;
-    m_exposure = measured;
-    emit exposureChanged();
+    m_view.exposure = measured;
+    emit changed(Change::exposure);
 }
 
 void Document::setCrosshair(volume::PatientPoint point) {
-    if (m_crosshair.mm == point.mm)
+    if (m_view.crosshair.mm == point.mm)
         return;
-    m_crosshair = point;
-    emit crosshairChanged();
+    m_view.crosshair = point;
+    emit changed(Change::crosshair);
 }
 
 } // namespace pellucid::ui

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include <QHash>
@@ -13,25 +15,19 @@
 
 #include "core/dicom/catalogue.h"
 #include "core/measure/measurement.h"
-#include "core/mpr/reslice.h"
-#include "core/picture/compose.h"
-#include "core/picture/tone_subject.h"
-#include "core/presets/study_traits.h"
-#include "core/scene/scene.h"
-#include "core/segment/segment_set.h"
 #include "core/task/reason.h"
-#include "core/volume/volume.h"
-#include "ui/document/pose.h"
 #include "ui/document/region_marking.h"
+#include "ui/document/study_view.h"
 #include "ui/studies/study_source.h"
 
 namespace pellucid::ui {
 
-/// How the planes cut the volume, the same for all three.
-struct Cut {
-    mpr::PlaneAxes axes;
-    mpr::ResliceOptions options;
-    bool operator==(const Cut &) const = default;
+/// A volume to show. A preview is the part that has been loaded so far.
+struct OpenVolume {
+    volume::Volume volume;
+    volume::ValueWindow initialWindow;   ///< the display window at first and after a reset
+    classify::FieldWindow fieldWindow{}; ///< of the field, unless the scene has one
+    bool isPreview = false;
 };
 
 /// A measurement and its result on the open volume.
@@ -40,10 +36,9 @@ struct Measured {
     measure::Result result;
 };
 
-/// The open studies and what the user asked to see: the volume, the Scene, the pose, the display
-/// window, the crosshair, the measurements, and the undo stack. Views and panels read it, listen to
-/// it, and change it by edits. Looking (pose, crosshair, cut) changes it directly and cannot be
-/// undone.
+/// The open studies and what the user asked to see: the volume, the view of it, the measurements,
+/// and the undo stack. Views and panels read it, listen to it, and change it by edits. Looking
+/// (pose, crosshair, cut) changes it directly and cannot be undone.
 class Document : public QObject {
     Q_OBJECT
 public:
@@ -68,35 +63,33 @@ public:
     /// The open volume. A preview is the part that has been loaded so far.
     const std::optional<volume::Volume> &volume() const { return m_volume; }
     bool isPreview() const { return m_preview; }
-    /// Opens a volume. Scene, pose, crosshair and window are reset and the edits are dropped,
-    /// unless the volume completes a preview; `volumeChanged` alone announces all of it.
-    /// `initialWindow`: the display window at first and after a reset. `fieldWindow`: the window of
-    /// the field unless the scene has one.
-    void setVolume(const volume::Volume &volume, const volume::ValueWindow &initialWindow,
-                   const classify::FieldWindow &fieldWindow, bool preview);
+    /// Opens a volume, as one change. The view is reset and the edits are dropped, unless the
+    /// volume completes a preview; then `adjust` may change the view.
+    void show(const OpenVolume &opened, const std::function<void(StudyView &)> &adjust = {});
     /// The scene's field window, or the volume's own.
     classify::FieldWindow fieldWindow() const {
-        return m_scene.fieldWindow.value_or(m_fieldWindow);
+        return m_view.scene.fieldWindow.value_or(m_fieldWindow);
     }
     const classify::FieldWindow &defaultFieldWindow() const { return m_fieldWindow; }
     const volume::ValueWindow &initialWindow() const { return m_initialWindow; }
     /// What the open volume shows, as far as known.
-    const presets::StudyTraits &traits() const { return m_traits; }
-    void setTraits(const presets::StudyTraits &traits);
+    const presets::StudyTraits &traits() const { return m_view.traits; }
     void closeVolume();
 
     /// Protects the open studies from being overwritten: *throws* Error{usage} if one of the paths
     /// leads to a file of a study.
     void requireOther(const std::vector<std::filesystem::path> &targets) const;
 
+    /// How the volume is looked at. Its parts have names of their own, below.
+    const StudyView &view() const { return m_view; }
     /// Its camera is that of the pose in the projection's pane.
-    const scene::Scene &scene() const { return m_scene; }
+    const scene::Scene &scene() const { return m_view.scene; }
     /// The state behind the edits; call through `editScene`. The camera of `scene` is ignored.
     void setScene(const scene::Scene &scene);
 
-    const Pose &pose() const { return m_pose; }
-    /// Limits the zoom to `minZoom` .. `maxZoom`.
-    void setPose(const Pose &pose);
+    const Pose &pose() const { return m_view.pose; }
+    /// Limits the zoom to `minZoom` .. `maxZoom`. `isMoving`: more moves may follow.
+    void setPose(const Pose &pose, bool isMoving = false);
     /// See ui::fittingPixelMm; 1 without a volume.
     double fittingPixelMm() const;
     /// The pose that looks the way a camera does, at its pixel size. The camera may belong to
@@ -106,7 +99,7 @@ public:
     /// rounded.
     void setProjectionSize(const QSizeF &size);
 
-    const volume::ValueWindow &displayWindow() const { return m_window; }
+    const volume::ValueWindow &displayWindow() const { return m_view.displayWindow; }
     /// The state behind the edits; call through `EditDisplayWindow`.
     void setDisplayWindow(const volume::ValueWindow &window);
 
@@ -115,13 +108,13 @@ public:
     std::optional<scene::Exposure> exposure() const;
     void setExposure(const scene::Exposure &exposure);
 
-    volume::PatientPoint crosshair() const { return m_crosshair; }
+    volume::PatientPoint crosshair() const { return m_view.crosshair; }
     void setCrosshair(volume::PatientPoint point);
     /// Moves it to the sample in the middle of the volume: the planes then show slices of the scan
     /// and not a mixture of two.
     void centerCrosshair();
 
-    const Cut &cut() const { return m_cut; }
+    const Cut &cut() const { return m_view.cut; }
     void setCut(const Cut &cut);
 
     const std::vector<Measured> &measured() const { return m_measured; }
@@ -141,7 +134,7 @@ public:
 
     /// The segments that are loaded for the volume; null if there are none. They stay loaded when
     /// an undo removes their classes.
-    const std::shared_ptr<const segment::SegmentSet> &segments() const { return m_segments; }
+    const std::shared_ptr<const segment::SegmentSet> &segments() const { return m_view.segments; }
     void setSegments(std::shared_ptr<const segment::SegmentSet> segments);
     /// Whether the planes tint the segments of shown classes.
     bool tintsSegments() const { return m_tintsSegments; }
@@ -149,37 +142,34 @@ public:
     /// The marking of regions by hand.
     RegionMarking &marking() { return m_marking; }
     const RegionMarking &marking() const { return m_marking; }
-    /// The names of segments that the classes of a look need but that are not loaded.
-    QStringList missingSegments(const classify::Look &look) const;
 
     QUndoStack *undoStack() { return &m_undo; }
 
+    /// Calls `react`, a method of the listener or a function, with or without the changes, after
+    /// each change of one of these kinds.
+    template <class Listener, class React>
+    void whenever(Changes what, Listener *listener, React react) {
+        connect(this, &Document::changed, listener, [what, listener, react](Changes changes) {
+            if (!(changes & what))
+                return;
+            if constexpr (std::is_invocable_v<React, Changes>)
+                react(changes);
+            else if constexpr (std::is_invocable_v<React, Listener *>)
+                std::invoke(react, listener);
+            else
+                react();
+        });
+    }
+
 signals:
-    void sourcesChanged();
-    void currentSourceChanged();
-    void problemsChanged();
-    void volumeChanged();
-    void sceneChanged();
-    /// The camera of the scene has changed with it.
-    void poseChanged();
-    /// The camera of the scene has other pixels; the pose is the same.
-    void projectionResized();
-    void displayWindowChanged();
-    void traitsChanged();
-    void exposureChanged();
-    void crosshairChanged();
-    void cutChanged();
-    void measurementsChanged();
-    void selectedMeasurementChanged();
-    void selectedClassChanged();
-    void tintChanged();
+    void changed(pellucid::ui::Changes what);
     /// An edit would make an invalid look, and was not made.
     void editRefused(const pellucid::task::Reason &reason);
-    /// Also after a new volume, which has none at first, and if the planes tint them or not.
-    void segmentsChanged();
 
 private:
     void updateCamera();
+    /// How the open volume is looked at first, after a former view.
+    StudyView freshView(const StudyView &former) const;
 
     std::vector<StudySource> m_sources;
     QHash<QString, int> m_sourceIndices; ///< by key: a disc may contain a thousand series
@@ -190,23 +180,12 @@ private:
     classify::FieldWindow m_fieldWindow;
     int m_selectedClass = -1;
     std::optional<classify::TissueClass> m_tint;
-    std::shared_ptr<const segment::SegmentSet> m_segments;
     bool m_tintsSegments = true;
     RegionMarking m_marking;
-    scene::Scene m_scene;
-    Pose m_pose;
+    StudyView m_view;
     QSizeF m_projectionSize{2.0, 2.0};
-    volume::ValueWindow m_window{40.0, 400.0, {}}, m_initialWindow{40.0, 400.0, {}};
+    volume::ValueWindow m_initialWindow{40.0, 400.0, {}};
     bool m_isWindowSet = false; ///< for this volume, after it was opened
-    struct MeasuredExposure {
-        scene::Exposure exposure;
-        picture::ToneSubject of;
-        bool operator==(const MeasuredExposure &) const = default;
-    };
-    presets::StudyTraits m_traits;
-    std::optional<MeasuredExposure> m_exposure;
-    volume::PatientPoint m_crosshair;
-    Cut m_cut;
     std::vector<Measured> m_measured;
     int m_selectedMeasurement = -1;
     QUndoStack m_undo;

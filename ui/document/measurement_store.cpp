@@ -32,8 +32,12 @@ void write(const fs::path &path, const std::string &text) {
 
 MeasurementStore::MeasurementStore(Document &document, QObject *parent)
     : QObject(parent), m_document(document) {
-    connect(&document, &Document::volumeChanged, this, &MeasurementStore::load);
-    connect(&document, &Document::measurementsChanged, this, &MeasurementStore::rememberToWrite);
+    document.whenever(Change::volume | Change::measurements, this, [this](Changes changes) {
+        if (changes & Change::volume)
+            load();
+        else
+            rememberToWrite();
+    });
     m_rest.setSingleShot(true);
     m_rest.setInterval(restMs);
     connect(&m_rest, &QTimer::timeout, this, &MeasurementStore::writePending);

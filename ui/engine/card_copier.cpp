@@ -46,7 +46,7 @@ CardCopier::Copied CardCopier::copyTo(const std::shared_ptr<gpu::FramePasses> &p
 
 CardCopier::CardCopier(Document &document, JobRunner &jobs, GraphicsCard &card, QObject *parent)
     : QObject(parent), m_document(document), m_jobs(jobs), m_card(card) {
-    connect(&document, &Document::volumeChanged, this, [this] {
+    document.whenever(Change::volume, this, [this] {
         if (!m_document.isPreview())
             forget();
     });

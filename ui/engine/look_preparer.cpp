@@ -41,10 +41,26 @@ LookPreparer::LookPreparer(Document &document, JobRunner &jobs, QObject *parent)
     m_rest.setSingleShot(true);
     m_rest.setInterval(restMs);
     connect(&m_rest, &QTimer::timeout, this, [this] { act(Occasion::handRested); });
-    connect(&document, &Document::sceneChanged, this, [this] { act(Occasion::sceneChanged); });
+    document.whenever(Change::scene, this, [this](Changes changes) {
+        if (!(changes & Change::volume)) // what opens a volume says what it expects
+            act(Occasion::sceneChanged);
+    });
+    // Queued: the code that ended the job may start the next one.
+    connect(
+        &jobs, &JobRunner::finished, this,
+        [this] {
+            if (m_jobs.isRunning() || !std::exchange(m_have.isHeld, false))
+                return;
+            prepareAgain();
+        },
+        Qt::QueuedConnection);
 }
 
 LookPreparer::~LookPreparer() = default;
+
+void LookPreparer::awaitJob() {
+    m_have.isHeld = m_jobs.isRunning(); // it is not if no thread could be had
+}
 
 void LookPreparer::prepareAgain() {
     m_have.givenUp.reset();
@@ -56,7 +72,7 @@ PreparedFor LookPreparer::forgetVolume() {
     m_rest.stop();
     if (m_have.underway)
         take(Step::stopJob, {});
-    m_have = {.isHeld = m_have.isHeld};
+    m_have = {};
     m_layers.reset();
     m_full.reset();
     PreparedFor wanted = wantedOf(m_document);

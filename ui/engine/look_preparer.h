@@ -42,9 +42,9 @@ public:
     /// Prepares the projection that the document's scene asks for, unless it is ready or underway,
     /// even if that was cancelled or failed before.
     void prepareAgain();
-    /// Prepares nothing while studies are being scanned.
-    void setHeld(bool held) { m_have.isHeld = held; }
-    bool isHeld() const { return m_have.isHeld; }
+    /// Prepares nothing while the job that runs now, such as a scan of studies, or one that follows
+    /// it at once is running, and prepares again afterwards: that job may have stopped it.
+    void awaitJob();
 
     /// The results of classes' steps.
     const std::shared_ptr<preprocess::StepCache> &steps() const { return m_steps; }

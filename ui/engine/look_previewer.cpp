@@ -57,7 +57,7 @@ QImage pictureOf(const volume::Volume &volume, const classify::FieldWindow &wind
 
 LookPreviewer::LookPreviewer(Document &document, QObject *parent)
     : QObject(parent), m_document(document) {
-    connect(&document, &Document::volumeChanged, this, [this] {
+    document.whenever(Change::volume, this, [this] {
         if (!m_document.volume() || m_document.isPreview())
             m_jobs.cancel();
     });

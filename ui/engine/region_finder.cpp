@@ -21,12 +21,12 @@ RegionFinder::RegionFinder(Document &document, std::shared_ptr<preprocess::StepC
     const RegionMarking &marking = document.marking();
     for (const auto changed : {&RegionMarking::toolChanged, &RegionMarking::soughtChanged})
         connect(&marking, changed, this, &RegionFinder::update);
-    for (const auto changed : {&Document::sceneChanged, &Document::selectedClassChanged})
-        connect(&document, changed, this, &RegionFinder::update);
-    for (const auto changed : {&Document::volumeChanged, &Document::segmentsChanged})
-        connect(&document, changed, this, [this] {
-            m_wanted.reset(); // the same class of another volume is another region
-            m_document.marking().setTint(std::nullopt);
+    document.whenever(
+        Change::scene | Change::selection | Change::segments, this, [this](Changes changes) {
+            if (changes & Change::segments) { // the same class of another volume is another region
+                m_wanted.reset();
+                m_document.marking().setTint(std::nullopt);
+            }
             update();
         });
 }

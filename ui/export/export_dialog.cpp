@@ -128,7 +128,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     for (QCheckBox *choice : {m_annotated, m_deidentified})
         connect(choice, &QCheckBox::toggled, this, &ExportDialog::showChosen);
     connect(m_panes.projection, &ProjectionView::finalImageShown, this, &ExportDialog::showChosen);
-    connect(&document, &Document::volumeChanged, this, [this] {
+    document.whenever(Change::volume, this, [this] {
         offerPatient();
         showChosen();
     });

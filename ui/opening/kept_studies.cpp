@@ -6,7 +6,8 @@
 namespace pellucid::ui {
 
 std::size_t KeptStudy::bytes() const {
-    return volume.bytes() + (engine ? engine->bytes : 0) + (segments ? segments->bytes() : 0);
+    return opened.volume.bytes() + (engine ? engine->bytes : 0) +
+           (view.segments ? view.segments->bytes() : 0);
 }
 
 void KeptStudies::keep(KeptStudy study) {

@@ -2,16 +2,10 @@
 #pragma once
 
 #include <list>
-#include <memory>
 #include <optional>
 
-#include "core/dicom/load_volume.h"
-#include "core/mpr/plane.h"
-#include "core/picture/compose.h"
 #include "core/prepare/prepared_engine.h"
-#include "core/presets/study_traits.h"
-#include "core/segment/segment_set.h"
-#include "ui/document/pose.h"
+#include "ui/document/document.h"
 #include "ui/engine/look_preparer.h"
 
 namespace pellucid::ui {
@@ -19,20 +13,11 @@ namespace pellucid::ui {
 /// A study as it was when another one was opened, so that it can come back at once.
 struct KeptStudy {
     int source = -1;
-    volume::Volume volume;
-    volume::ValueWindow initialWindow;
-    classify::FieldWindow fieldWindow;
-    scene::Scene scene;
-    Pose pose;
+    OpenVolume opened;
+    StudyView view;
     /// The engine of its projection, unless it was dropped or never made.
     std::optional<PreparedFor> preparedFor;
     std::optional<prepare::PreparedEngine> engine;
-    volume::ValueWindow displayWindow;
-    volume::PatientPoint crosshair;
-    mpr::PlaneAxes axes;
-    std::optional<scene::Exposure> exposure;
-    presets::StudyTraits traits;
-    std::shared_ptr<const segment::SegmentSet> segments; ///< or null
 
     std::size_t bytes() const;
 };

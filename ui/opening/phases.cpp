@@ -24,8 +24,7 @@ bool arePhases(const StudySource &a, const StudySource &b) {
 Phases::Phases(Document &document, StudyOpener &opener, JobRunner &jobs, QObject *parent)
     : QObject(parent), m_document(document), m_opener(opener), m_jobs(jobs) {
     m_timer.setInterval(playMs);
-    connect(&document, &Document::sourcesChanged, this, &Phases::findPhases);
-    connect(&document, &Document::currentSourceChanged, this, &Phases::findPhases);
+    document.whenever(Change::sources | Change::currentSource, this, &Phases::findPhases);
     connect(&m_timer, &QTimer::timeout, this, [this] {
         if (!m_jobs.isRunning()) // wait for the phase that is being loaded
             step(1);

@@ -38,17 +38,6 @@ LoadedSegments loadSegments(const QStringList &paths, const volume::Volume &volu
     return loaded;
 }
 
-void dropMissing(classify::Look &look, const Document &document) {
-    const QStringList missing = document.missingSegments(look);
-    // A class that needs one through another is dropped, too.
-    const auto needs = classify::segmentsOf(look);
-    for (std::size_t n = look.classes.size(); n-- > 0;)
-        if (std::any_of(needs[n].begin(), needs[n].end(), [&](const std::string &name) {
-                return missing.contains(QString::fromStdString(name));
-            }))
-            look.classes.erase(look.classes.begin() + std::ptrdiff_t(n));
-}
-
 SegmentOpener::SegmentOpener(Document &document, JobRunner &jobs, LookPreparer &preparer,
                              QObject *parent)
     : QObject(parent), m_document(document), m_jobs(jobs), m_preparer(preparer) {}
@@ -63,13 +52,8 @@ void SegmentOpener::open(const QStringList &paths) {
             const LoadedSegments loaded = loadSegments(paths, volume, present, job.progress());
             job.deliver([this, loaded] { show(loaded); });
         },
-        [this](const Outcome &) {
-            m_preparer.setHeld(false);
-            m_preparer.prepareAgain();
-        },
-        paths.front());
-    if (m_jobs.isRunning()) // it is not if no thread could be had
-        m_preparer.setHeld(true);
+        {}, paths.front());
+    m_preparer.awaitJob();
 }
 
 void SegmentOpener::show(const LoadedSegments &loaded) {

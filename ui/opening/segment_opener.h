@@ -30,9 +30,6 @@ LoadedSegments loadSegments(const QStringList &paths, const volume::Volume &volu
                             std::shared_ptr<const segment::SegmentSet> present,
                             const task::Progress &progress);
 
-/// Removes the classes whose segments are not loaded.
-void dropMissing(classify::Look &look, const Document &document);
-
 /// Opens files of segments for the open volume, as jobs: their segments become classes of the look.
 /// Meanwhile no projection is prepared, which would stop the job.
 class SegmentOpener : public QObject {

@@ -43,9 +43,10 @@ std::optional<Session> currentSession(const Document &document) {
     session.phantom = source.phantom;
     session.difference = source.difference;
     session.key = source.digest();
-    session.shown = {document.scene(),        document.displayWindow(), document.crosshair(),
-                     document.cut(),          document.exposure(),      nullptr,
-                     document.pose().isFitted};
+    session.view = document.view();
+    session.view.segments = nullptr;
+    if (!document.exposure()) // it is of another scene
+        session.view.exposure.reset();
     if (document.segments())
         for (const segment::Segmentation &segmentation : document.segments()->segmentations())
             session.segmentations << QString::fromStdString(segmentation.path.string());
@@ -55,7 +56,7 @@ std::optional<Session> currentSession(const Document &document) {
 }
 
 void resume(const Session &session, StudyOpener &opener) {
-    const StudyOpener::Resumption resumption{session.key, session.shown, session.leftOut,
+    const StudyOpener::Resumption resumption{session.key, session.view, session.leftOut,
                                              session.segmentations, session.difference};
     if (!session.phantom.isEmpty())
         opener.openPhantom(session.phantom, resumption);

@@ -27,7 +27,7 @@ struct Session {
     std::optional<DifferenceOf> difference; ///< of what the open volume is a difference
     QString phantom;                        ///< name of the phantom, if the study is one
     QString key;                            ///< digest of the source
-    Continuity shown;
+    StudyView view;                         ///< without segments, which are in files
     /// The program that wrote the session ended normally.
     bool hasEnded = false;
 };

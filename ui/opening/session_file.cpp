@@ -113,13 +113,16 @@ mpr::PlaneAxes planesFrom(const QJsonArray &in) {
 }
 
 QJsonObject objectOf(const Session &s) {
-    const mpr::ResliceOptions &cut = s.shown.cut.options;
+    const StudyView &view = s.view;
+    const mpr::ResliceOptions &cut = view.cut.options;
     QJsonArray leftOut;
     for (const dicom::Skipped &skipped : s.leftOut)
         leftOut << QJsonObject{{"path", QString::fromStdString(skipped.path.string())},
                                {"reason", toLine(skipped.reason)}};
-    scene::Scene scene = s.shown.scene;
-    scene.tone.exposure = s.shown.exposure;
+    scene::Scene scene = view.scene;
+    scene.tone.exposure.reset();
+    if (view.exposure)
+        scene.tone.exposure = view.exposure->exposure;
     QJsonObject difference;
     if (s.difference)
         difference = {{"minuend", s.difference->minuend},
@@ -135,15 +138,15 @@ QJsonObject objectOf(const Session &s) {
             {"key", s.key},
             {"scene",
              QJsonDocument::fromJson(QByteArray::fromStdString(scene::toJson(scene))).object()},
-            {"window", QJsonObject{{"center", s.shown.displayWindow.center},
-                                   {"width", s.shown.displayWindow.width},
-                                   {"name", QString::fromStdString(s.shown.displayWindow.name)},
-                                   {"inverted", s.shown.displayWindow.isInverted},
-                                   {"function", int(s.shown.displayWindow.function)},
-                                   {"curve", curveOf(s.shown.displayWindow)}}},
-            {"fitted", s.shown.isFitted},
-            {"crosshair", toJson(s.shown.crosshair.mm)},
-            {"planes", toJson(s.shown.cut.axes)},
+            {"window", QJsonObject{{"center", view.displayWindow.center},
+                                   {"width", view.displayWindow.width},
+                                   {"name", QString::fromStdString(view.displayWindow.name)},
+                                   {"inverted", view.displayWindow.isInverted},
+                                   {"function", int(view.displayWindow.function)},
+                                   {"curve", curveOf(view.displayWindow)}}},
+            {"pose", QJsonObject{{"zoom", view.pose.zoom}, {"fitted", view.pose.isFitted}}},
+            {"crosshair", toJson(view.crosshair.mm)},
+            {"planes", toJson(view.cut.axes)},
             {"slab", QJsonObject{{"mm", cut.slab.thicknessMm}, {"mode", int(cut.slab.mode)}}},
             {"nearest", cut.interpolation == mpr::Interpolation::nearest}};
 }
@@ -167,22 +170,26 @@ Session fromJson(const QJsonObject &in) {
     s.hasEnded = in["ended"].toBool();
     if (!s.phantom.isEmpty()) // throws for a phantom of a newer version
         phantom::kindFromName(s.phantom.toStdString());
-    s.shown.scene = scene::sceneFromJson(
+    s.view.scene = scene::sceneFromJson(
         QJsonDocument(in["scene"].toObject()).toJson(QJsonDocument::Compact).toStdString());
     const QJsonObject window = in["window"].toObject();
-    s.shown.displayWindow = {window["center"].toDouble(),
-                             std::max(1e-6, window["width"].toDouble(1.0)),
-                             window["name"].toString().toStdString(), window["inverted"].toBool()};
-    setFunction(window, s.shown.displayWindow);
-    s.shown.exposure = std::exchange(s.shown.scene.tone.exposure, std::nullopt);
-    s.shown.isFitted = in["fitted"].toBool();
-    s.shown.crosshair = {vectorFrom(in["crosshair"])};
-    s.shown.cut.axes = planesFrom(in["planes"].toArray());
+    s.view.displayWindow = {window["center"].toDouble(),
+                            std::max(1e-6, window["width"].toDouble(1.0)),
+                            window["name"].toString().toStdString(), window["inverted"].toBool()};
+    setFunction(window, s.view.displayWindow);
+    if (const auto exposure = std::exchange(s.view.scene.tone.exposure, std::nullopt))
+        s.view.exposure = {*exposure, picture::ToneSubject(s.view.scene)};
+    const QJsonObject pose = in["pose"].toObject();
+    s.view.pose = {s.view.scene.camera.orientation, s.view.scene.camera.panMm,
+                   std::clamp(pose["zoom"].toDouble(1.0), minZoom, maxZoom),
+                   pose["fitted"].toBool()};
+    s.view.crosshair = {vectorFrom(in["crosshair"])};
+    s.view.cut.axes = planesFrom(in["planes"].toArray());
     const QJsonObject slab = in["slab"].toObject();
-    s.shown.cut.options.slab = {std::clamp(slab["mm"].toDouble(), 0.0, 500.0),
-                                mpr::SlabMode(std::clamp(slab["mode"].toInt(), 0, 2))};
+    s.view.cut.options.slab = {std::clamp(slab["mm"].toDouble(), 0.0, 500.0),
+                               mpr::SlabMode(std::clamp(slab["mode"].toInt(), 0, 2))};
     if (in["nearest"].toBool())
-        s.shown.cut.options.interpolation = mpr::Interpolation::nearest;
+        s.view.cut.options.interpolation = mpr::Interpolation::nearest;
     return s;
 }
 

@@ -66,80 +66,47 @@ void StudyOpener::goBack() {
         openSource(*former);
 }
 
-void StudyOpener::endScan() {
-    if (!m_preparer.isHeld())
-        return;
-    m_preparer.setHeld(false);
-    m_preparer.prepareAgain(); // the scan may have stopped it, or the scene may have changed
-}
-
 void StudyOpener::keepCurrent() {
     const auto &volume = m_document.volume();
     if (!volume || m_document.isPreview() || m_document.currentSource() < 0)
         return;
-    m_kept.keep({m_document.currentSource(), *volume, m_document.initialWindow(),
-                 m_document.defaultFieldWindow(), m_document.scene(), m_document.pose(),
-                 m_preparer.preparedFor(), m_preparer.fullEngine(), m_document.displayWindow(),
-                 m_document.crosshair(), m_document.cut().axes, m_document.exposure(),
-                 m_document.traits(), m_document.segments()});
+    m_kept.keep({m_document.currentSource(),
+                 {*volume, m_document.initialWindow(), m_document.defaultFieldWindow()},
+                 m_document.view(),
+                 m_preparer.preparedFor(),
+                 m_preparer.fullEngine()});
     // The next study may need half of the memory.
     m_kept.trim(system::availableMemoryBytes() / 2 + m_kept.bytes() / 2);
 }
 
-void StudyOpener::resume(const Continuity &continuity) {
-    if (continuity.segments && m_document.volume() &&
-        continuity.segments->lattice() == m_document.volume()->lattice())
-        m_document.setSegments(continuity.segments);
-    scene::Scene scene = continuity.scene;
-    const QStringList missing = m_document.missingSegments(scene.look);
-    if (!missing.isEmpty()) {
-        m_document.addProblems(
-            {{m_document.place().toStdString(),
-              task::because::sceneNeedsSegments(missing.join(", ").toStdString())}});
-        dropMissing(scene.look, m_document);
-    }
-    m_preparer.setHeld(true);
-    m_document.setScene(scene);
-    m_preparer.setHeld(false);
-    Pose pose = m_document.poseOf(continuity.scene.camera);
-    pose.isFitted = continuity.isFitted;
-    m_document.setPose(pose);
-    m_document.setDisplayWindow(continuity.displayWindow);
-    m_document.setCrosshair(continuity.crosshair);
-    m_document.setCut(continuity.cut);
-    if (continuity.exposure)
-        emit exposureKept(*continuity.exposure);
+void StudyOpener::take(StudyView &view, const StudyView &wanted) {
+    const presets::StudyTraits traits = view.traits;
+    const auto segments = view.segments;
+    view = wanted;
+    view.traits = traits;
+    view.segments = wanted.segments && wanted.segments->lattice() == m_document.volume()->lattice()
+                        ? wanted.segments
+                        : segments;
+    const QStringList missing = missingSegments(view.scene.look, view.segments.get());
+    if (missing.isEmpty())
+        return;
+    m_document.addProblems({{m_document.place().toStdString(),
+                             task::because::sceneNeedsSegments(missing.join(", ").toStdString())}});
+    dropMissing(view.scene.look, view.segments.get());
 }
 
-void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &continuity) {
-    m_document.setVolume(study.volume, study.initialWindow, study.fieldWindow, false);
-    m_document.setTraits(study.traits);
-    m_document.setSegments(study.segments);
-    if (continuity) {
-        resume(*continuity);
-        if (study.engine)
-            m_preparer.adopt(*study.preparedFor, *study.engine);
-        m_preparer.prepareAgain();
-        return;
-    }
-    scene::Scene scene = study.scene;
-    // The quality of pictures is the user's choice, not a property of the study.
-    scene.tolerance = m_document.scene().tolerance;
-    scene.interpolation = m_document.scene().interpolation;
-    // Before the engine: its first frame sets the brightness of a study that has none yet.
-    m_preparer.setHeld(true);
-    m_document.setScene(scene);
-    m_preparer.setHeld(false);
-    m_document.setPose(study.pose);
+void StudyOpener::show(const KeptStudy &study, const std::function<void(StudyView &)> &adjust) {
+    m_document.show(study.opened, [&](StudyView &view) {
+        const scene::Scene before = view.scene;
+        view = study.view;
+        // The quality of pictures is the user's choice, not a property of the study.
+        view.scene.tolerance = before.tolerance;
+        view.scene.interpolation = before.interpolation;
+        if (adjust)
+            adjust(view);
+    });
     if (study.engine)
         m_preparer.adopt(*study.preparedFor, *study.engine);
-    m_document.setDisplayWindow(study.displayWindow);
-    m_document.setCrosshair(study.crosshair);
-    Cut cut = m_document.cut();
-    cut.axes = study.axes;
-    m_document.setCut(cut);
-    if (study.exposure)
-        emit exposureKept(*study.exposure);
     m_preparer.prepareAgain(); // if the quality changed or the engine was dropped
 }
 
@@ -171,14 +138,10 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
                     emit hugeFound(paths, huge);
                 if (catalogue->empty()) {
                     const QStringList segmentations = segmentationsIn(*catalogue);
-                    if (!segmentations.isEmpty() && m_document.volume()) {
-                        m_preparer.setHeld(false); // the opener holds it
+                    if (!segmentations.isEmpty() && m_document.volume())
                         emit segmentationsFound(segmentations);
-                        return;
-                    }
-                    if (catalogue->skipped.empty())
+                    else if (catalogue->skipped.empty())
                         m_document.addProblems({{files.front(), task::because::holdsNoImages}});
-                    endScan();
                     return;
                 }
                 const auto indices = m_document.addSources(sourcesFrom(catalogue));
@@ -190,17 +153,11 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
                     emit pathsOpened(paths);
                 else if (!resumed)
                     m_document.addProblems({{files.front(), task::because::isAnotherStudy}});
-                m_preparer.setHeld(false); // another volume comes, or the open one stays
                 openSource(resumed.value_or(indices[defaultSource(*catalogue)]));
             });
         },
-        [this](const Outcome &) {
-            if (!m_jobs.isRunning()) // no other scan replaces this one
-                endScan();
-        },
-        paths.front());
-    if (m_jobs.isRunning()) // it is not if no thread could be had
-        m_preparer.setHeld(true);
+        {}, paths.front());
+    m_preparer.awaitJob();
 }
 
 std::optional<int> StudyOpener::resumedOf(const std::vector<int> &indices) {
@@ -258,18 +215,15 @@ void StudyOpener::openDifference(const StudySource &subtrahend,
     });
 }
 
-void StudyOpener::applyResumption() {
-    if (!m_resumption)
-        return;
-    const Resumption resumption = *m_resumption;
-    m_resumption.reset();
-    if (m_document.currentSource() < 0)
+void StudyOpener::resume(StudyView &view) {
+    const auto resumption = std::exchange(m_resumption, std::nullopt);
+    if (!resumption || m_document.currentSource() < 0)
         return;
     const StudySource &open = m_document.sources()[std::size_t(m_document.currentSource())];
-    if (open.digest() == resumption.digest) {
-        m_document.addProblems(resumption.leftOut);
-        resume(resumption.shown);
-    }
+    if (open.digest() != resumption->digest)
+        return;
+    m_document.addProblems(resumption->leftOut);
+    take(view, resumption->view);
 }
 
 void StudyOpener::openPhantom(const QString &kind, const std::optional<Resumption> &resumption) {
@@ -300,18 +254,26 @@ void StudyOpener::closeSource(int index) {
     m_document.closeSource(index);
 }
 
-Continuity StudyOpener::leavePhase(int next) {
-    Continuity stays{m_document.scene(),        m_document.displayWindow(), m_document.crosshair(),
-                     m_document.cut(),          m_document.exposure(),      m_document.segments(),
-                     m_document.pose().isFitted};
+StudyView StudyOpener::leavePhase(int next) {
+    StudyView stays = m_document.view();
+    const auto exposure = m_document.exposure();
     // A volume's own window would differ from phase to phase.
     if (!volume::isCalibrated(m_document.volume()->unit()))
         stays.scene.fieldWindow = m_document.fieldWindow();
+    stays.exposure.reset();
+    if (exposure)
+        stays.exposure = {*exposure, picture::ToneSubject(stays.scene)};
     keepCurrent();
     m_preparer.forgetVolume();
     m_document.setCurrentSource(next);
     emit phaseLeft();
     return stays;
+}
+
+void StudyOpener::continuePhase(StudyView &view, const StudyView &former) {
+    take(view, former);
+    view.pose = m_document.poseOf(former.scene.camera);
+    view.pose.isFitted = former.pose.isFitted;
 }
 
 void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
@@ -322,8 +284,8 @@ void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
     m_jobs.cancel();
     // Taken first: keeping the former phase may drop another one.
     if (const auto kept = m_kept.take(index)) {
-        const Continuity stays = leavePhase(index);
-        show(*kept, stays);
+        const StudyView stays = leavePhase(index);
+        show(*kept, [&](StudyView &view) { continuePhase(view, stays); });
         return;
     }
     // The former phase stays until this one is loaded.
@@ -340,23 +302,23 @@ void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
             const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), {});
             const volume::ValueWindow window = initialWindow(loaded.volume);
             const auto field = classify::defaultFieldWindow(loaded.volume);
+            const auto open = [this, loaded, window, field, index] {
+                const StudyView stays = leavePhase(index);
+                m_document.addProblems(loaded.skipped);
+                m_document.show({loaded.volume, window, field},
+                                [&](StudyView &view) { continuePhase(view, stays); });
+            };
             // Segments of this phase are not on the lattice of another.
             if (hasSegments && !(loaded.volume.lattice() == lattice)) {
-                job.deliver([this, loaded, window, field, index] {
-                    const Continuity stays = leavePhase(index);
-                    m_document.addProblems(loaded.skipped);
-                    m_document.setVolume(loaded.volume, window, field, false);
-                    resume(stays);
+                job.deliver([this, open] {
+                    open();
                     m_preparer.prepareAgain();
                 });
                 return;
             }
-            job.deliver([this, loaded, window, field, index, wanted] {
-                const Continuity stays = leavePhase(index);
-                m_document.addProblems(loaded.skipped);
-                m_document.setVolume(loaded.volume, window, field, false);
+            job.deliver([this, open, wanted] {
+                open();
                 m_preparer.expect(wanted);
-                resume(stays);
                 m_preparer.prepareAgain(); // the look may have changed meanwhile
             });
             job.stage(tr("Preparing the projection"));
@@ -393,7 +355,7 @@ void StudyOpener::openSource(int index, JobRunner::OnEnd onEnd) {
     const PreparedFor wanted = leaveFor(index);
     if (const auto kept = m_kept.take(index)) {
         m_former.reset(); // it cannot fail
-        show(*kept, std::nullopt);
+        show(*kept, {});
         return;
     }
     m_preparer.expect(wanted);
@@ -418,7 +380,7 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
         dicom::LoadObserver observer;
         observer.preview = [&](const volume::Volume &soFar) {
             const volume::ValueWindow window = initialWindow(soFar);
-            job.deliver([this, soFar, window] { m_document.setVolume(soFar, window, {}, true); });
+            job.deliver([this, soFar, window] { m_document.show({soFar, window, {}, true}); });
         };
         finish(job, source.load(job.progress().part(0.0, 0.6), observer));
     };
@@ -442,18 +404,15 @@ StudyOpener::Finish StudyOpener::finishing(const QStringList &segmentations,
         job.deliver([this, loaded, window, field, segments, bare, content] {
             m_document.addProblems(loaded.skipped);
             m_document.addProblems(segments.problems);
-            m_preparer.setHeld(true);
-            m_document.setVolume(loaded.volume, window, field, false);
-            m_document.setTraits(content.traits);
-            if (content.hasCouch && m_document.scene().look == classify::Look()) {
-                scene::Scene scene = m_document.scene();
-                scene.look = bare.look;
-                m_document.setScene(scene);
-                m_preparer.expect(bare);
-            }
-            m_preparer.setHeld(false);
-            m_document.setSegments(segments.set);
-            applyResumption();
+            m_document.show({loaded.volume, window, field}, [&](StudyView &view) {
+                view.traits = content.traits;
+                if (content.hasCouch && view.scene.look == classify::Look()) {
+                    view.scene.look = bare.look;
+                    m_preparer.expect(bare);
+                }
+                view.segments = segments.set;
+                resume(view);
+            });
             // The quality may have changed during the load.
             m_preparer.prepareAgain();
         });
@@ -493,7 +452,7 @@ void StudyOpener::openArriving(const StudyFacts &study,
                     tr("%1 of %2 slices")
                         .arg(QString::number(partial.slices), QString::number(partial.count)));
                 job.deliver([this, soFar, window = initialWindow(soFar)] {
-                    m_document.setVolume(soFar, window, classify::defaultFieldWindow(soFar), true);
+                    m_document.show({soFar, window, classify::defaultFieldWindow(soFar), true});
                 });
                 // As fine as the slices allow, in a part of the time until the next ones.
                 if (partial.stride <= 8)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -17,18 +18,6 @@
 
 namespace pellucid::ui {
 
-/// How a volume is looked at, in terms that apply to another volume, too.
-struct Continuity {
-    scene::Scene scene; ///< with its camera, whose pixel size is kept
-    volume::ValueWindow displayWindow;
-    volume::PatientPoint crosshair;
-    Cut cut;
-    std::optional<scene::Exposure> exposure; ///< see Document
-    /// Kept if the other volume has the same lattice; may be null.
-    std::shared_ptr<const segment::SegmentSet> segments = nullptr;
-    bool isFitted = false; ///< see Pose
-};
-
 /// Opens studies, as jobs: scans paths, chooses a volume, loads it with previews, and has its
 /// projection prepared. Former studies are kept as long as memory allows.
 class StudyOpener : public QObject {
@@ -40,7 +29,7 @@ public:
     /// How to look at a certain source when it is opened.
     struct Resumption {
         QString digest; ///< of the source
-        Continuity shown;
+        StudyView view;
         /// Other files of its folders that could not be used then.
         std::vector<dicom::Skipped> leftOut;
         /// Files of segments to load for it.
@@ -76,8 +65,6 @@ signals:
     void pathsOpened(const QStringList &paths);
     /// They contain images so large that they are opened only if the user asks for it.
     void hugeFound(const QStringList &paths, const std::vector<pellucid::dicom::Skipped> &huge);
-    /// A study came back with the exposure that it had.
-    void exposureKept(const pellucid::scene::Exposure &exposure);
     /// Another phase follows: the exposure of the projection has to stay.
     void phaseLeft();
     /// The open volume cannot be projected.
@@ -91,20 +78,22 @@ private:
     Finish finishing(const QStringList &segmentations, const PreparedFor &wanted);
     /// Leaves what is open for another source, and returns what its projection is made for.
     PreparedFor leaveFor(int index);
-    /// Lets the preparer continue.
-    void endScan();
     /// The source among them that is to be resumed, or their difference.
     std::optional<int> resumedOf(const std::vector<int> &indices);
     int addDifference(const StudySource &minuend, const StudySource &subtrahend,
                       const std::shared_ptr<Alignment> &alignment);
-    void applyResumption();
+    /// Gives the view of a study that has been loaded the values with which it is resumed.
+    void resume(StudyView &view);
     void keepCurrent();
     /// Reopens the previous study after a load that failed or was cancelled.
     void goBack();
-    Continuity leavePhase(int next);
-    /// Without classes whose segments are not loaded.
-    void resume(const Continuity &continuity);
-    void show(const KeptStudy &study, const std::optional<Continuity> &continuity);
+    /// Leaves a phase for another, and returns how it was looked at.
+    StudyView leavePhase(int next);
+    /// Looks at the volume as at the former phase, at the same pixel size.
+    void continuePhase(StudyView &view, const StudyView &former);
+    /// Sets the view, but not what the volume shows, without classes whose segments are not loaded.
+    void take(StudyView &view, const StudyView &wanted);
+    void show(const KeptStudy &study, const std::function<void(StudyView &)> &adjust);
 
     Document &m_document;
     JobRunner &m_jobs;

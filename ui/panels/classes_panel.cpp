@@ -75,17 +75,17 @@ ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
     column->addWidget(m_search);
     column->addWidget(m_area, 1);
     connect(m_add, &QPushButton::clicked, this, &ClassesPanel::showAddMenu);
-    connect(&document, &Document::sceneChanged, this, &ClassesPanel::showScene);
-    connect(&document, &Document::selectedClassChanged, this, &ClassesPanel::showScene);
-    connect(&document, &Document::segmentsChanged, this, &ClassesPanel::showScene);
     connect(m_search, &QLineEdit::textChanged, this, &ClassesPanel::arrange);
-    connect(&document, &Document::volumeChanged, this, [this] {
-        setEnabled(m_document.volume() && !m_document.isPreview());
-        m_add->setEnabled(isEnabled());
-        if (m_dialog)
-            m_dialog->close();
-        showScene();
-    });
+    document.whenever(Change::scene | Change::selection | Change::segments, this,
+                      [this](Changes changes) {
+                          if (changes & Change::volume) {
+                              setEnabled(m_document.volume() && !m_document.isPreview());
+                              m_add->setEnabled(isEnabled());
+                              if (m_dialog)
+                                  m_dialog->close();
+                          }
+                          showScene();
+                      });
     setEnabled(false);
     m_add->setEnabled(false);
     showScene();

@@ -50,10 +50,8 @@ MeasurementsPanel::MeasurementsPanel(Document &document, QWidget *parent)
     connect(m_list, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem *item) {
         rename(m_list->indexOfTopLevelItem(item), item->text(0));
     });
-    connect(&document, &Document::measurementsChanged, this, &MeasurementsPanel::showAll);
-    connect(&document, &Document::volumeChanged, this, &MeasurementsPanel::showAll);
-    connect(&document, &Document::selectedMeasurementChanged, this,
-            &MeasurementsPanel::showSelected);
+    document.whenever(Change::measurements, this, &MeasurementsPanel::showAll);
+    document.whenever(Change::selection, this, &MeasurementsPanel::showSelected);
     showAll();
 }
 

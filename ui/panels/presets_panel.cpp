@@ -168,14 +168,13 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
 void PresetsPanel::connectControls() {
     connect(m_save, &QPushButton::clicked, this, &PresetsPanel::askForName);
     connect(m_listsAll, &QPushButton::toggled, this, &PresetsPanel::list);
-    connect(&m_document, &Document::traitsChanged, this, &PresetsPanel::list);
     connect(m_confirm, &QPushButton::clicked, this, &PresetsPanel::saveLook);
     connect(m_name, &QLineEdit::returnPressed, this, &PresetsPanel::saveLook);
     connect(m_gallery, &QListWidget::itemClicked, this, &PresetsPanel::apply);
     connect(m_gallery, &QListWidget::itemActivated, this, &PresetsPanel::apply);
     connect(m_gallery, &QListWidget::customContextMenuRequested, this, &PresetsPanel::showMenu);
-    connect(&m_document, &Document::sceneChanged, this, &PresetsPanel::showCurrent);
-    connect(&m_document, &Document::volumeChanged, this, [this] {
+    m_document.whenever(Change::scene, this, &PresetsPanel::showCurrent);
+    m_document.whenever(Change::volume, this, [this] {
         if (m_document.isPreview())
             return;
         m_nameRow->hide();
@@ -322,7 +321,8 @@ void PresetsPanel::apply(QListWidgetItem *item) {
     if (entry == nullptr || !m_document.volume())
         return;
     m_chosen = item->data(nameRole).toString();
-    if (const QStringList missing = m_document.missingSegments(entry->preset.look);
+    if (const QStringList missing =
+            missingSegments(entry->preset.look, m_document.segments().get());
         !missing.isEmpty()) {
         emit failed(task::because::sceneNeedsSegments(missing.join(", ").toStdString()),
                     item->text());

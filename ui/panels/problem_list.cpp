@@ -59,7 +59,7 @@ ProblemList::ProblemList(Document &document, QWidget *parent)
     row->addWidget(clear);
     layout->addLayout(row);
     layout->addWidget(m_list);
-    connect(&document, &Document::problemsChanged, this, &ProblemList::showProblems);
+    document.whenever(Change::problems, this, &ProblemList::showProblems);
     showProblems();
 }
 

@@ -70,10 +70,9 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     connect(m_more, &QPushButton::toggled, this, showExpert);
     showExpert(false);
     connectChoices();
-    connect(&document, &Document::sceneChanged, this, &QualityPanel::showScene);
-    connect(&document, &Document::volumeChanged, this, [this] {
+    document.whenever(Change::scene, this, [this](Changes changes) {
         showScene();
-        if (!m_document.isPreview())
+        if ((changes & Change::volume) && !m_document.isPreview())
             clearPlan();
     });
     showScene();

@@ -69,9 +69,7 @@ RadiographPanel::RadiographPanel(Document &document, QWidget *parent)
             scene.tone.latitude.reset();
         });
     });
-    connect(&document, &Document::sceneChanged, this, &RadiographPanel::showScene);
-    connect(&document, &Document::exposureChanged, this, &RadiographPanel::showScene);
-    connect(&document, &Document::volumeChanged, this, &RadiographPanel::showScene);
+    document.whenever(Change::scene | Change::exposure, this, &RadiographPanel::showScene);
     showScene();
 }
 

@@ -112,9 +112,7 @@ RegionBar::RegionBar(Document &document, QWidget *parent)
     for (const auto changed :
          {&RegionMarking::toolChanged, &RegionMarking::optionsChanged, &RegionMarking::tintChanged})
         connect(&marking, changed, this, &RegionBar::showMarking);
-    for (const auto changed :
-         {&Document::sceneChanged, &Document::selectedClassChanged, &Document::volumeChanged})
-        connect(&document, changed, this, &RegionBar::showMarking);
+    document.whenever(Change::scene | Change::selection, this, &RegionBar::showMarking);
     showMarking();
 }
 

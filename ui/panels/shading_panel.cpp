@@ -76,12 +76,15 @@ ShadingPanel::ShadingPanel(Document &document, QWidget *parent)
     layOut();
     connectCue();
     connectLights();
-    connect(&document, &Document::sceneChanged, this, &ShadingPanel::showScene);
-    connect(&document, &Document::poseChanged, this, &ShadingPanel::showLights);
-    connect(&document, &Document::volumeChanged, this, [this] {
-        setEnabled(m_document.volume().has_value() && !m_document.isPreview());
-        m_reset->setEnabled(isEnabled());
-        showScene();
+    document.whenever(Change::scene | Change::pose, this, [this](Changes changes) {
+        if (changes & Change::volume) {
+            setEnabled(m_document.volume().has_value() && !m_document.isPreview());
+            m_reset->setEnabled(isEnabled());
+        }
+        if (changes & Change::scene)
+            showScene();
+        else
+            showLights();
     });
     setEnabled(false);
     m_reset->setEnabled(false);

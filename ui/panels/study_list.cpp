@@ -40,7 +40,7 @@ int receivedObjects(const QString &studyUid) {
 
 StudyList::StudyList(Document &document, StudyLibrary &library, QObject *parent)
     : QAbstractItemModel(parent), m_document(document), m_library(library) {
-    connect(&document, &Document::sourcesChanged, this, &StudyList::rebuild);
+    document.whenever(Change::sources, this, &StudyList::rebuild);
     connect(&library, &StudyLibrary::changed, this, &StudyList::rebuild);
     connect(&m_maker, &ThumbnailMaker::made, this, [this](const QString &key, const QImage &image) {
         m_thumbnails[key] = image;

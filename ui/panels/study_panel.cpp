@@ -142,7 +142,7 @@ void StudyPanel::connectControls() {
         showCurrent();
         showEmpty();
     });
-    connect(&m_document, &Document::currentSourceChanged, this, &StudyPanel::showCurrent);
+    m_document.whenever(Change::currentSource, this, &StudyPanel::showCurrent);
     m_tree->setExpandsOnDoubleClick(false);
     connect(m_tree, &QTreeView::clicked, this, &StudyPanel::activate);
     connect(m_tree, &QTreeView::activated, this, &StudyPanel::activate);

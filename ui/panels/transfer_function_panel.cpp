@@ -77,12 +77,12 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, QWidget *parent
         if (std::abs(weight - function().weights[std::size_t(at)]) > 0.005)
             setWeight(at, weight, noDrag);
     });
-    connect(&document, &Document::sceneChanged, this, &TransferFunctionPanel::showScene);
-    connect(&document, &Document::selectedClassChanged, this, &TransferFunctionPanel::showScene);
-    connect(&document, &Document::volumeChanged, this, [this] {
-        setEnabled(m_document.volume().has_value() && !m_document.isPreview());
-        m_points->setEnabled(isEnabled());
-        m_histogram = {};
+    document.whenever(Change::scene | Change::selection, this, [this](Changes changes) {
+        if (changes & Change::volume) {
+            setEnabled(m_document.volume().has_value() && !m_document.isPreview());
+            m_points->setEnabled(isEnabled());
+            m_histogram = {};
+        }
         showScene();
     });
     setEnabled(false);

@@ -66,7 +66,7 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
         m_isResting = true;
         refresh();
     });
-    connect(&document, &Document::volumeChanged, this, [this] {
+    document.whenever(Change::volume, this, [this] {
         const auto &volume = m_document.volume();
         const bool isSameBox = volume && m_lattice.fillsSameBox(volume->lattice());
         dropTextFields(*this); // their texts belong to the former volume
@@ -82,15 +82,12 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
         }
         refresh();
     });
-    for (const auto changed : {&Document::displayWindowChanged, &Document::tintChanged,
-                               &Document::crosshairChanged, &Document::cutChanged})
-        connect(&document, changed, this, &MprView::refresh);
-    for (const auto changed : {&Document::sceneChanged, &Document::segmentsChanged})
-        connect(&document, changed, this, &MprView::refreshTints);
+    document.whenever(Change::displayWindow | Change::tint | Change::crosshair | Change::cut, this,
+                      &MprView::refresh);
+    document.whenever(Change::scene | Change::segments, this, &MprView::refreshTints);
     connect(&document.marking(), &RegionMarking::tintChanged, this, &MprView::refreshTints);
-    for (const auto changed : {&Document::measurementsChanged,
-                               &Document::selectedMeasurementChanged, &Document::sceneChanged})
-        connect(&document, changed, this, qOverload<>(&QWidget::update));
+    document.whenever(Change::measurements | Change::selection | Change::scene, this,
+                      qOverload<>(&QWidget::update));
 }
 
 void MprView::refresh() {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <QScopedValueRollback>
-
 #include <glm/geometric.hpp>
 
 #include "core/task/error.h"
@@ -66,37 +64,36 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         setMessage(translated(reason));
     });
     connect(&m_worker, &RenderWorker::cardFailed, this, &ProjectionView::cardFailed);
-    connect(&document, &Document::volumeChanged, this, [this] {
-        m_overlay->setMapping(mapping());
-        if (!m_document.volume() || !m_document.isPreview())
-            forgetVolume();
-    });
-    connect(&document, &Document::crosshairChanged, this, [this] {
-        if (m_orbitsCrosshair)
-            m_overlay->update();
-    });
-    // The points of a figure belong to one view.
-    connect(&document, &Document::poseChanged, this, [this] {
-        if (m_tools.isMeasuring() && m_document.scene().camera.orientation != m_measuredFrom)
-            m_tools.cancel();
-    });
-    for (const auto changed : {&Document::poseChanged, &Document::projectionResized})
-        connect(&document, changed, this, [this] {
-            m_overlay->setMapping(mapping());
-            requestFrame(m_isMoving);
-        });
-    for (const auto changed :
-         {&Document::measurementsChanged, &Document::selectedMeasurementChanged})
-        connect(&document, changed, this, [this] { m_overlay->update(); });
-    connect(&document, &Document::sceneChanged, this, [this] {
-        updateTone();
-        requestFrame(false);
-    });
+    connect(&document, &Document::changed, this, &ProjectionView::follow);
 }
 
 ProjectionView::~ProjectionView() {
     // The canvas is also a child widget: destroy it before the base class deletes the children.
     m_canvas.reset();
+}
+
+void ProjectionView::follow(Changes changes) {
+    if (changes & (Change::pose | Change::paneSize))
+        m_overlay->setMapping(mapping());
+    if (changes & (Change::measurements | Change::selection) ||
+        (m_orbitsCrosshair && (changes & Change::crosshair)))
+        m_overlay->update();
+    if (changes & Change::volume) {
+        if (!m_document.volume() || !m_document.isPreview())
+            forgetVolume();
+        if (const auto exposure = m_document.exposure()) // of a study that comes back
+            m_tone.adopt(*exposure, m_document.scene());
+        updateTone();
+        return;
+    }
+    // The points of a figure belong to one view.
+    if ((changes & Change::pose) && m_tools.isMeasuring() &&
+        m_document.scene().camera.orientation != m_measuredFrom)
+        m_tools.cancel();
+    if (changes & Change::scene)
+        updateTone();
+    if (changes & (Change::scene | Change::pose | Change::paneSize))
+        requestFrame(bool(changes & Change::moving));
 }
 
 // Engine and picture belong to another volume.
@@ -164,7 +161,7 @@ void ProjectionView::adoptCamera(const scene::Camera &wanted,
                                  const std::optional<glm::dvec3> &pivotMm) {
     Pose pose = m_document.poseOf(wanted);
     pose.panMm = pannedTo(pose, pivotMm.value_or(this->pivotMm()), this->pivotMm());
-    moveTo(pose, true); // a linked view may be moving
+    m_document.setPose(pose, true); // a linked view may be moving
 }
 
 void ProjectionView::setLookName(const QString &name) {
@@ -175,12 +172,6 @@ void ProjectionView::setLookName(const QString &name) {
 void ProjectionView::holdExposure() {
     if (m_frame)
         m_tone.hold();
-}
-
-void ProjectionView::adoptExposure(const scene::Exposure &exposure) {
-    m_tone.adopt(exposure, m_document.scene());
-    m_document.setExposure(exposure);
-    updateTone();
 }
 
 void ProjectionView::retakeExposure() {
@@ -207,7 +198,7 @@ void ProjectionView::setWaiting(Waiting waiting) {
 
 void ProjectionView::resetView() {
     m_body = m_tone.exposure();
-    moveTo(fittedToBody({}), false);
+    m_document.setPose(fittedToBody({}));
     editScene(m_document, tr("Reset window"), noDrag, [](scene::Scene &scene) {
         scene.tone.low.reset();
         scene.tone.high.reset();
@@ -216,7 +207,7 @@ void ProjectionView::resetView() {
 
 void ProjectionView::fitView() {
     m_body = m_tone.exposure();
-    moveTo(fittedToBody(m_document.pose()), false);
+    m_document.setPose(fittedToBody(m_document.pose()));
 }
 
 void ProjectionView::fitOrResetView() {
@@ -225,11 +216,6 @@ void ProjectionView::fitOrResetView() {
         resetView();
     else
         fitView();
-}
-
-void ProjectionView::moveTo(const Pose &pose, bool isMoving) {
-    const QScopedValueRollback moving(m_isMoving, isMoving);
-    m_document.setPose(pose);
 }
 
 void ProjectionView::setOrbitsCrosshair(bool isAboutCrosshair) {
@@ -253,7 +239,7 @@ void ProjectionView::showStandardView(scene::StandardView view) {
 
 void ProjectionView::showOrientation(const glm::dquat &orientation) {
     const Pose turned = turnedTo(m_document.pose(), orientation, pivotMm());
-    moveTo(turned.isFitted ? fittedToBody(turned) : turned, false);
+    m_document.setPose(turned.isFitted ? fittedToBody(turned) : turned);
 }
 
 void ProjectionView::setComparing(bool isComparing) {
@@ -337,7 +323,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
         const Pose now = m_document.pose(), pose = fittedToBody(now);
         const bool isNew = now.isFitted && now.zoom == 1.0 && now.panMm == glm::dvec2(0.0);
         if (isNew && !(pose == now)) {
-            moveTo(pose, false); // and its own frame follows
+            m_document.setPose(pose); // and its own frame follows
             return;
         }
     }
@@ -470,7 +456,7 @@ void ProjectionView::resizeEvent(QResizeEvent *) {
     m_overlay->setGeometry(rect());
     m_document.setProjectionSize(sizeInPixels());
     if (m_document.pose().isFitted && m_frame)
-        moveTo(fittedToBody(m_document.pose()), false);
+        m_document.setPose(fittedToBody(m_document.pose()));
 }
 
 PaneMapping ProjectionView::mapping() const {
@@ -489,7 +475,7 @@ PaneMapping ProjectionView::mappingOf(const scene::Camera &camera) const {
 }
 
 void ProjectionView::turnAroundPatient(double degrees) {
-    moveTo(ui::turnedAroundPatient(m_document.pose(), degrees, pivotMm()), true);
+    m_document.setPose(ui::turnedAroundPatient(m_document.pose(), degrees, pivotMm()), true);
 }
 
 void ProjectionView::lookAlong(const glm::dvec3 &right, const glm::dvec3 &up) {

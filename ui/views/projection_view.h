@@ -10,7 +10,7 @@
 
 #include "core/picture/automatic_tone.h"
 #include "core/task/reason.h"
-#include "ui/document/pose.h"
+#include "ui/document/study_view.h"
 #include "ui/engine/error_meter.h"
 #include "ui/engine/look_preparer.h"
 #include "ui/engine/reasons.h"
@@ -44,8 +44,6 @@ public:
     PlanState planState() const { return m_planState; }
     /// Measures the exposure again with the next frame.
     void retakeExposure();
-    /// Uses this exposure for the present scene.
-    void adoptExposure(const scene::Exposure &exposure);
     /// The next volume is another phase: exposure and picture stay until its own picture comes.
     void holdExposure();
     void setMessage(const QString &message);
@@ -134,6 +132,7 @@ protected:
     bool event(QEvent *event) override;
 
 private:
+    void follow(Changes changes);
     void forgetVolume();
     void requestFrame(bool moving);
     void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
@@ -143,8 +142,6 @@ private:
     Pose fittedToBody(const Pose &pose) const;
     /// Cube and angles, which take clicks.
     bool pressOnCube(const QPointF &at);
-    /// `isMoving`: more moves may follow, so a draft will do.
-    void moveTo(const Pose &pose, bool isMoving);
     QSizeF sizeInPixels() const;
     PaneMapping mappingOf(const scene::Camera &camera) const;
     void showComparison();
@@ -198,7 +195,6 @@ private:
     bool m_fitsNext = true; ///< the next picture is the first of its volume
     /// Has the box of the body that the view was fitted to; other looks may show less of it.
     scene::Exposure m_body;
-    bool m_isMoving = false; ///< while moveTo sets the pose
     bool m_pending = false;
     bool m_isComparing = false;
     glm::dquat m_measuredFrom{1.0, 0.0, 0.0, 0.0}; ///< the view of an unfinished figure

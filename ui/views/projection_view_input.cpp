@@ -117,21 +117,22 @@ void ProjectionView::mouseDoubleClickEvent(QMouseEvent *event) {
 }
 
 void ProjectionView::orbitBy(const QPoint &delta) {
-    moveTo((m_turnsFreely ? orbited : turnedByTable)(m_document.pose(), delta, pivotMm()), true);
+    m_document.setPose(
+        (m_turnsFreely ? orbited : turnedByTable)(m_document.pose(), delta, pivotMm()), true);
 }
 
 void ProjectionView::rollBy(double radians) {
-    moveTo(rolled(m_document.pose(), radians, pivotMm()), true);
+    m_document.setPose(rolled(m_document.pose(), radians, pivotMm()), true);
 }
 
 void ProjectionView::panBy(const QPoint &delta) {
-    moveTo(
+    m_document.setPose(
         panned(m_document.pose(), delta, m_document.scene().camera.pixelMm * devicePixelRatioF()),
         true);
 }
 
 void ProjectionView::zoomBy(double factor) {
-    moveTo(zoomed(m_document.pose(), factor), true);
+    m_document.setPose(zoomed(m_document.pose(), factor), true);
 }
 
 void ProjectionView::askForText(const QPointF &at, const QString &text,

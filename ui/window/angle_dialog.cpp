@@ -109,7 +109,7 @@ AngleDialog::AngleDialog(const Document &document, ProjectionView &projection, Q
     };
     connect(m_common, &QListWidget::itemClicked, this, choose);
     connect(m_common, &QListWidget::itemActivated, this, choose);
-    connect(&document, &Document::poseChanged, this, &AngleDialog::showView);
+    document.whenever(Change::pose, this, &AngleDialog::showView);
     showView();
     m_primary->setFocus();
     m_primary->selectAll();

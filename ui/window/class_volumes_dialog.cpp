@@ -91,12 +91,12 @@ ClassVolumesDialog::ClassVolumesDialog(const Document &document, QWidget *parent
     connect(m_save, &QPushButton::clicked, this, &ClassVolumesDialog::save);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
     // The table is of this look and this volume.
-    connect(&document, &Document::volumeChanged, this, &QDialog::close);
-    connect(&document, &Document::sceneChanged, this, [this] {
-        if (!(m_document.scene().look.classes == m_measured))
+    document.whenever(Change::scene | Change::segments, this, [this](Changes changes) {
+        if (changes & Change::volume)
+            close();
+        else if ((changes & Change::segments) || !(m_document.scene().look.classes == m_measured))
             measure();
     });
-    connect(&document, &Document::segmentsChanged, this, &ClassVolumesDialog::measure);
     measure();
 }
 

@@ -99,8 +99,7 @@ DisplayWindowDialog::DisplayWindowDialog(Document &document, QWidget *parent)
         store(-1);
     });
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
-    connect(&document, &Document::displayWindowChanged, this, &DisplayWindowDialog::showWindow);
-    connect(&document, &Document::volumeChanged, this, &DisplayWindowDialog::showWindow);
+    document.whenever(Change::displayWindow, this, &DisplayWindowDialog::showWindow);
     showPresets(-1);
     showWindow();
     m_width->setFocus();

@@ -60,7 +60,7 @@ FileMenu::FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &
         subtraction->setEnabled(isOpen && !document.volume()->notes().isDifference &&
                                 document.volume()->notes().placed);
     };
-    connect(&bench.study.document, &Document::volumeChanged, this, enable);
+    bench.study.document.whenever(Change::volume, this, enable);
     enable();
     QMenu *phantoms = menu.addMenu(tr("Open &phantom"));
     add(*phantoms, tr("&Head"), "headPhantomAction", {}, [this] { emit phantomChosen("head"); });
@@ -82,15 +82,15 @@ FileMenu::FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &
     add(menu, tr("Export &measurements..."), "exportMeasurementsAction", {},
         [this] { exportMeasurements(); });
     // Nothing is made of a part of a study.
-    connect(&bench.study.document, &Document::volumeChanged, this, [this] {
+    bench.study.document.whenever(Change::volume, this, [this] {
         for (const char *const name : {"saveSceneAction", "saveSegmentsAction", "savePictureAction",
                                        "exportPictureAction", "copyPictureAction", "printAction"})
             m_window.findChild<QAction *>(name)->setEnabled(!m_bench.study.document.isPreview());
     });
     QAction *const header = add(menu, tr("&DICOM header..."), "headerAction",
                                 QKeySequence("Ctrl+D"), [this] { showHeader(); });
-    connect(&bench.study.document, &Document::volumeChanged, this,
-            [this, header] { header->setEnabled(!headerFiles().isEmpty()); });
+    bench.study.document.whenever(Change::volume, this,
+                                  [this, header] { header->setEnabled(!headerFiles().isEmpty()); });
     header->setEnabled(!headerFiles().isEmpty());
     menu.addSeparator();
     add(menu, tr("P&references..."), "preferencesAction", QKeySequence("Ctrl+,"),
@@ -363,7 +363,8 @@ void FileMenu::openScene() {
         return;
     attempt([&] {
         scene::Scene scene = readSceneFile(path);
-        if (const QStringList missing = m_bench.study.document.missingSegments(scene.look);
+        if (const QStringList missing =
+                missingSegments(scene.look, m_bench.study.document.segments().get());
             !missing.isEmpty())
             throw task::Error(task::ErrorCode::usage,
                               task::because::sceneNeedsSegments(missing.join(", ").toStdString()),

@@ -49,8 +49,7 @@ LookMenu::LookMenu(QMenu &menu, Document &document, LookDocks &docks, Projection
     m_couch->setCheckable(true);
     m_windowMenu = menu.addMenu(tr("&Window presets"));
     m_windowMenu->setObjectName("windowMenu");
-    connect(&m_document, &Document::sceneChanged, this, &LookMenu::showScene);
-    connect(&m_document, &Document::volumeChanged, this, &LookMenu::showScene);
+    m_document.whenever(Change::scene, this, &LookMenu::showScene);
     showScene();
 }
 

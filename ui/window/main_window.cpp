@@ -163,7 +163,8 @@ void MainWindow::createPanes() {
 }
 
 void MainWindow::connectBench() {
-    connect(&m_bench.study.document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
+    m_bench.study.document.whenever(Change::volume | Change::currentSource, this,
+                                    &MainWindow::showVolumeState);
     connectProjection(m_bench.study, *m_projection, m_bench.card);
     connect(&m_bench.card, &GraphicsCard::changed, this, [this] {
         if (!m_bench.study.document.volume())
@@ -175,8 +176,6 @@ void MainWindow::connectBench() {
                     m_bench.study.opener.openPaths(paths, {}, {.includesHuge = true});
                 });
             });
-    connect(&m_bench.study.document, &Document::currentSourceChanged, this,
-            &MainWindow::showVolumeState);
 }
 
 void MainWindow::connectStudyDocks() {

@@ -44,8 +44,7 @@ ServerCommands::ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks
 }
 
 void ServerCommands::connectTransfers() {
-    connect(&m_bench.study.document, &Document::currentSourceChanged, this,
-            [this] { m_awaited.reset(); });
+    m_bench.study.document.whenever(Change::currentSource, this, [this] { m_awaited.reset(); });
     connect(&m_bench.transfers, &TransferQueue::arriving, this,
             [this](const QString &uid, const std::shared_ptr<dicom::ArrivingSeries> &series) {
                 if (m_awaited && m_awaited->study.uid == uid) {
@@ -141,8 +140,7 @@ void ServerCommands::connectEarlier() {
         if (m_besideAwaited && (!study || study->key() != m_besideAwaited->openStudy))
             m_besideAwaited.reset();
     };
-    connect(&m_bench.study.document, &Document::currentSourceChanged, this, follow);
-    connect(&m_bench.study.document, &Document::sourcesChanged, this, follow);
+    m_bench.study.document.whenever(Change::currentSource | Change::sources, this, follow);
     connect(&m_bench.earlier, &EarlierStudies::retrievalSuggested, this,
             [this](const RemoteStudy &study) {
                 m_bench.transfers.add(study, nullptr, TransferQueue::Urgency::later);

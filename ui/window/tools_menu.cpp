@@ -49,7 +49,6 @@ ToolsMenu::ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *
                                    editScene(m_document, tr("Whole volume"), noDrag,
                                              [](scene::Scene &scene) { scene.crop = {}; });
                                });
-    connect(&document, &Document::sceneChanged, this, &ToolsMenu::showCut);
     m_straighten = addCommand(menu, tr("S&traighten the planes"), "straightenAction",
                               QKeySequence("Shift+C"), this, [this] {
                                   m_document.undoStack()->push(new EditPlaneAxes(
@@ -65,9 +64,9 @@ ToolsMenu::ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *
     menu.addSeparator();
     addCine(menu);
     addPhases(menu, phases);
-    connect(&document, &Document::cutChanged, this, &ToolsMenu::showCut);
-    connect(&document, &Document::volumeChanged, this, [this] {
-        m_cine->stop();
+    document.whenever(Change::scene | Change::cut, this, [this](Changes changes) {
+        if (changes & Change::volume)
+            m_cine->stop();
         showCut();
     });
     showCut();
@@ -170,8 +169,7 @@ void ToolsMenu::addRegion(QMenu &menu) {
                 chooseTool(Tool(n));
             }
     });
-    connect(&m_document, &Document::sceneChanged, this, &ToolsMenu::showRegion);
-    connect(&m_document, &Document::volumeChanged, this, &ToolsMenu::showRegion);
+    m_document.whenever(Change::scene, this, &ToolsMenu::showRegion);
     showRegion();
 }
 

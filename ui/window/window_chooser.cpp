@@ -44,8 +44,12 @@ WindowChooser::WindowChooser(Document &document, QMenu &menu, QComboBox &box)
             m_rows[index]->trigger();
         showCurrent(); // the row that opens the dialog is not a window
     });
-    connect(&document, &Document::volumeChanged, this, &WindowChooser::showWindows);
-    connect(&document, &Document::displayWindowChanged, this, &WindowChooser::showCurrent);
+    document.whenever(Change::displayWindow, this, [this](Changes changes) {
+        if (changes & Change::volume)
+            showWindows();
+        else
+            showCurrent();
+    });
     showWindows();
 }
 

@@ -28,11 +28,10 @@ Workstation::Workstation(std::optional<EngineChoice> engine)
     m_keeping.setSingleShot(true);
     m_keeping.setInterval(keepingMs);
     connect(&m_keeping, &QTimer::timeout, this, [this] { keepWhatIsOpen(false); });
-    for (const auto changed :
-         {&Document::volumeChanged, &Document::sceneChanged, &Document::poseChanged,
-          &Document::projectionResized, &Document::displayWindowChanged, &Document::exposureChanged,
-          &Document::crosshairChanged, &Document::cutChanged, &Document::segmentsChanged})
-        connect(&m_bench.study.document, changed, this, [this] {
+    m_bench.study.document.whenever(
+        Change::volume | Change::scene | Change::pose | Change::paneSize | Change::displayWindow |
+            Change::exposure | Change::crosshair | Change::cut | Change::segments,
+        this, [this] {
             if (!m_keeping.isActive()) // a long drag does not postpone it
                 m_keeping.start();
         });
