@@ -7,7 +7,6 @@
 #include "core/network/association.h"
 #include "core/network/dimse.h"
 #include "core/network/login_client.h"
-#include "core/network/reasons.h"
 #include "core/network/redirect.h"
 #include "core/network/web_client.h"
 #include "core/parse/serve.h"

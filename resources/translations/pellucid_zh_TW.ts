@@ -46,22 +46,134 @@
     </message>
 </context>
 <context>
-    <name>EngineMenuTexts</name>
+    <name>FileCommands</name>
     <message>
-        <source>&amp;Automatic</source>
-        <translation>自動(&amp;A)</translation>
+        <source>&amp;Open files...</source>
+        <translation>開啟檔案(&amp;O)…</translation>
     </message>
     <message>
-        <source>&amp;Processor</source>
-        <translation>處理器(&amp;P)</translation>
+        <source>Open</source>
+        <translation>開啟</translation>
     </message>
     <message>
-        <source>&amp;Graphics card</source>
-        <translation>顯示卡(&amp;G)</translation>
+        <source>Open &amp;folder...</source>
+        <translation>開啟資料夾(&amp;F)…</translation>
+    </message>
+    <message>
+        <source>&amp;Import into the library...</source>
+        <translation>匯入資料庫(&amp;I)…</translation>
+    </message>
+    <message>
+        <source>Import</source>
+        <translation>匯入</translation>
+    </message>
+    <message>
+        <source>Ser&amp;vers...</source>
+        <translation>伺服器(&amp;V)…</translation>
+    </message>
+    <message>
+        <source>Open se&amp;gmentation...</source>
+        <translation>開啟分割檔(&amp;G)...</translation>
+    </message>
+    <message>
+        <source>Su&amp;btract a volume...</source>
+        <translation>減去體積(&amp;B)...</translation>
+    </message>
+    <message>
+        <source>&amp;Head</source>
+        <translation>頭部(&amp;H)</translation>
+    </message>
+    <message>
+        <source>&amp;Chest</source>
+        <translation>胸部(&amp;C)</translation>
+    </message>
+    <message>
+        <source>Open &amp;scene...</source>
+        <translation>開啟場景(&amp;S)…</translation>
+    </message>
+    <message>
+        <source>Save s&amp;cene as...</source>
+        <translation>另存場景(&amp;C)…</translation>
+    </message>
+    <message>
+        <source>Save classes as segmenta&amp;tion...</source>
+        <translation>將類別存為分割檔(&amp;T)...</translation>
+    </message>
+    <message>
+        <source>Save p&amp;icture as...</source>
+        <translation>另存影像(&amp;I)…</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>影像</translation>
+    </message>
+    <message>
+        <source>&amp;Export picture...</source>
+        <translation>匯出影像(&amp;E)…</translation>
+    </message>
+    <message>
+        <source>Export</source>
+        <translation>匯出</translation>
+    </message>
+    <message>
+        <source>Cop&amp;y picture</source>
+        <translation>複製影像(&amp;Y)</translation>
+    </message>
+    <message>
+        <source>Pri&amp;nt...</source>
+        <translation>列印(&amp;N)…</translation>
+    </message>
+    <message>
+        <source>Export &amp;measurements...</source>
+        <translation>匯出測量(&amp;M)…</translation>
+    </message>
+    <message>
+        <source>&amp;DICOM header...</source>
+        <translation>DICOM 標頭(&amp;D)…</translation>
+    </message>
+    <message>
+        <source>P&amp;references...</source>
+        <translation>偏好設定(&amp;R)…</translation>
+    </message>
+    <message>
+        <source>Clear recent st&amp;udies</source>
+        <translation>清除最近的檢查(&amp;U)</translation>
+    </message>
+    <message>
+        <source>&amp;Quit</source>
+        <translation>結束(&amp;Q)</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>復原</translation>
+    </message>
+    <message>
+        <source>Redo</source>
+        <translation>重做</translation>
+    </message>
+    <message>
+        <source>&amp;Find a study</source>
+        <translation>尋找檢查(&amp;F)</translation>
+    </message>
+    <message>
+        <source>&amp;Delete measurement</source>
+        <translation>刪除測量(&amp;D)</translation>
+    </message>
+    <message>
+        <source>&amp;Reset layout</source>
+        <translation>重設版面(&amp;R)</translation>
+    </message>
+    <message>
+        <source>&amp;Manual</source>
+        <translation>使用手冊(&amp;M)</translation>
+    </message>
+    <message>
+        <source>&amp;About Pellucid</source>
+        <translation>關於 Pellucid(&amp;A)</translation>
     </message>
 </context>
 <context>
-    <name>HelpMenuTexts</name>
+    <name>HelpTexts</name>
     <message>
         <source>manual.html</source>
         <comment>file name of the translated manual</comment>
@@ -99,14 +211,6 @@
         <source>Free software under the GNU General Public License, version 3 or later; without any warranty.</source>
         <translation>自由軟體，依 GNU 通用公共授權條款第 3 版或更新版本散布；不提供任何擔保。</translation>
     </message>
-    <message>
-        <source>&amp;Manual</source>
-        <translation>使用手冊(&amp;M)</translation>
-    </message>
-    <message>
-        <source>&amp;About Pellucid</source>
-        <translation>關於 Pellucid(&amp;A)</translation>
-    </message>
 </context>
 <context>
     <name>HugeQuestionTexts</name>
@@ -132,6 +236,85 @@
     <message>
         <source>Open</source>
         <translation>開啟</translation>
+    </message>
+</context>
+<context>
+    <name>LookCommands</name>
+    <message>
+        <source>Projection interpolation</source>
+        <translation>投影內插</translation>
+    </message>
+    <message>
+        <source>&amp;Save look...</source>
+        <translation>儲存外觀(&amp;S)…</translation>
+    </message>
+    <message>
+        <source>&amp;Import preset...</source>
+        <translation>匯入預設集(&amp;I)…</translation>
+    </message>
+    <message>
+        <source>&amp;Export preset...</source>
+        <translation>匯出預設集(&amp;E)…</translation>
+    </message>
+    <message>
+        <source>&amp;Depth cue</source>
+        <translation>深度提示(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Add l&amp;ight</source>
+        <translation>新增光源(&amp;I)</translation>
+    </message>
+    <message>
+        <source>Reset s&amp;hading</source>
+        <translation>重設明暗(&amp;H)</translation>
+    </message>
+    <message>
+        <source>&amp;Cubic</source>
+        <translation>三次(&amp;C)</translation>
+    </message>
+    <message>
+        <source>&amp;Linear</source>
+        <translation>線性(&amp;L)</translation>
+    </message>
+    <message>
+        <source>S&amp;pline</source>
+        <translation>樣條(&amp;P)</translation>
+    </message>
+    <message>
+        <source>&amp;Sharp (band-limited)</source>
+        <translation>銳利（頻帶限制）(&amp;S)</translation>
+    </message>
+    <message>
+        <source>&amp;Film (inverted)</source>
+        <translation>底片（反相）(&amp;F)</translation>
+    </message>
+    <message>
+        <source>Film</source>
+        <translation>底片</translation>
+    </message>
+    <message>
+        <source>&amp;Automatic brightness</source>
+        <translation>自動亮度(&amp;A)</translation>
+    </message>
+    <message>
+        <source>Automatic brightness</source>
+        <translation>自動亮度</translation>
+    </message>
+    <message>
+        <source>Remove the c&amp;ouch</source>
+        <translation>移除檢查床(&amp;O)</translation>
+    </message>
+    <message>
+        <source>Automatic window</source>
+        <translation>自動視窗</translation>
+    </message>
+    <message>
+        <source>&amp;Inverted grey</source>
+        <translation>反轉灰階(&amp;I)</translation>
+    </message>
+    <message>
+        <source>&amp;Width and center...</source>
+        <translation>窗寬與窗位(&amp;W)…</translation>
     </message>
 </context>
 <context>
@@ -258,6 +441,49 @@
     <message>
         <source>calibrated</source>
         <translation>已校準</translation>
+    </message>
+</context>
+<context>
+    <name>MenuTexts</name>
+    <message>
+        <source>&amp;File</source>
+        <translation>檔案(&amp;F)</translation>
+    </message>
+    <message>
+        <source>Open &amp;phantom</source>
+        <translation>開啟假體(&amp;P)</translation>
+    </message>
+    <message>
+        <source>&amp;Edit</source>
+        <translation>編輯(&amp;E)</translation>
+    </message>
+    <message>
+        <source>Projection &amp;engine</source>
+        <translation>投影引擎(&amp;E)</translation>
+    </message>
+    <message>
+        <source>&amp;View</source>
+        <translation>檢視(&amp;V)</translation>
+    </message>
+    <message>
+        <source>&amp;Look</source>
+        <translation>外觀(&amp;L)</translation>
+    </message>
+    <message>
+        <source>P&amp;rojection interpolation</source>
+        <translation>投影內插(&amp;R)</translation>
+    </message>
+    <message>
+        <source>&amp;Window presets</source>
+        <translation>窗預設值(&amp;W)</translation>
+    </message>
+    <message>
+        <source>W&amp;indow</source>
+        <translation>視窗(&amp;I)</translation>
+    </message>
+    <message>
+        <source>&amp;Help</source>
+        <translation>說明(&amp;H)</translation>
     </message>
 </context>
 <context>
@@ -4183,8 +4409,442 @@
         <translation>檢視</translation>
     </message>
     <message>
-        <source>See the patient from a side, or at an angle</source>
-        <translation>由某一側或某一角度觀看病患</translation>
+        <source>Standard views and C-arm angles</source>
+        <translation>標準檢視與 C 臂角度</translation>
+    </message>
+</context>
+<context>
+    <name>ToolCommands</name>
+    <message>
+        <source>Window</source>
+        <translation>窗</translation>
+    </message>
+    <message>
+        <source>drag for width and center</source>
+        <translation>拖曳調整窗寬與窗位</translation>
+    </message>
+    <message>
+        <source>Pan</source>
+        <translation>平移</translation>
+    </message>
+    <message>
+        <source>drag the picture</source>
+        <translation>拖曳影像</translation>
+    </message>
+    <message>
+        <source>Zoom</source>
+        <translation>縮放</translation>
+    </message>
+    <message>
+        <source>drag up and down</source>
+        <translation>上下拖曳</translation>
+    </message>
+    <message>
+        <source>Crosshair</source>
+        <translation>十字線</translation>
+    </message>
+    <message>
+        <source>drag the crosshair; its dots turn the planes</source>
+        <translation>拖曳十字線；其圓點可旋轉切面</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>距離</translation>
+    </message>
+    <message>
+        <source>drag a line, also in the projection</source>
+        <translation>拖曳一條線；投影中亦可</translation>
+    </message>
+    <message>
+        <source>Polyline</source>
+        <translation>折線</translation>
+    </message>
+    <message>
+        <source>click its corners; a double-click ends it</source>
+        <translation>點按各轉折點；按兩下結束</translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation>角度</translation>
+    </message>
+    <message>
+        <source>drag one leg, click the end of the other</source>
+        <translation>拖曳一邊，再點按另一邊的端點</translation>
+    </message>
+    <message>
+        <source>Cobb angle</source>
+        <translation>Cobb 角</translation>
+    </message>
+    <message>
+        <source>drag a line along each of two end plates</source>
+        <translation>沿兩個終板各拖曳一條線</translation>
+    </message>
+    <message>
+        <source>Ellipse</source>
+        <translation>橢圓</translation>
+    </message>
+    <message>
+        <source>drag its bounding box</source>
+        <translation>拖曳外框</translation>
+    </message>
+    <message>
+        <source>Rectangle</source>
+        <translation>矩形</translation>
+    </message>
+    <message>
+        <source>drag from corner to corner</source>
+        <translation>由一角拖曳至另一角</translation>
+    </message>
+    <message>
+        <source>Arrow</source>
+        <translation>箭頭</translation>
+    </message>
+    <message>
+        <source>drag from what it shows to where its text is</source>
+        <translation>由所指之處拖曳至文字處</translation>
+    </message>
+    <message>
+        <source>Text</source>
+        <translation>文字</translation>
+    </message>
+    <message>
+        <source>click where it begins; a double-click changes it</source>
+        <translation>點按起始處；按兩下可變更</translation>
+    </message>
+    <message>
+        <source>Crop</source>
+        <translation>裁切</translation>
+    </message>
+    <message>
+        <source>drag the sides of the box in the planes</source>
+        <translation>在切面中拖曳方框的各邊</translation>
+    </message>
+    <message>
+        <source>Connected</source>
+        <translation>相連</translation>
+    </message>
+    <message>
+        <source>click connected tissue of similar values, also in the projection</source>
+        <translation>點按數值相近且相連的組織，投影中亦可</translation>
+    </message>
+    <message>
+        <source>Paint</source>
+        <translation>塗畫</translation>
+    </message>
+    <message>
+        <source>paint a region with a brush; Shift erases</source>
+        <translation>以畫筆塗畫區域；Shift 擦除</translation>
+    </message>
+    <message>
+        <source>Scissors</source>
+        <translation>剪刀</translation>
+    </message>
+    <message>
+        <source>draw around the part to cut along the line of sight</source>
+        <translation>圍出沿視線剪裁的部分</translation>
+    </message>
+    <message>
+        <source>Slab</source>
+        <translation>厚切</translation>
+    </message>
+    <message>
+        <source>Slab thickness, mm</source>
+        <translation>厚切的厚度，mm</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>&amp;Slab</source>
+        <translation>厚切(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Slab: give the planes a thickness; [ and ] change it</source>
+        <translation>厚切：使切面具有厚度；以 [ 與 ] 變更</translation>
+    </message>
+    <message>
+        <source>&amp;Mean</source>
+        <translation>平均(&amp;M)</translation>
+    </message>
+    <message>
+        <source>M&amp;aximum (MIP)</source>
+        <translation>最大值 (MIP)(&amp;A)</translation>
+    </message>
+    <message>
+        <source>M&amp;inimum (MinIP)</source>
+        <translation>最小值 (MinIP)(&amp;I)</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>&amp;Other thickness...</source>
+        <translation>其他厚度(&amp;O)…</translation>
+    </message>
+    <message>
+        <source>T&amp;hicker</source>
+        <translation>加厚(&amp;H)</translation>
+    </message>
+    <message>
+        <source>Thi&amp;nner</source>
+        <translation>減薄(&amp;N)</translation>
+    </message>
+    <message>
+        <source>&amp;Linear</source>
+        <translation>線性(&amp;L)</translation>
+    </message>
+    <message>
+        <source>&amp;Nearest sample</source>
+        <translation>最近取樣(&amp;N)</translation>
+    </message>
+    <message>
+        <source>S&amp;how the whole volume</source>
+        <translation>顯示整個體積(&amp;H)</translation>
+    </message>
+    <message>
+        <source>Whole volume</source>
+        <translation>整個體積</translation>
+    </message>
+    <message>
+        <source>S&amp;traighten the planes</source>
+        <translation>回正切面(&amp;T)</translation>
+    </message>
+    <message>
+        <source>Straighten the planes</source>
+        <translation>扶正切面</translation>
+    </message>
+    <message>
+        <source>A&amp;lign the planes with the scan</source>
+        <translation>使切面與掃描對齊(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Align the planes with the scan</source>
+        <translation>使切面與掃描對齊</translation>
+    </message>
+    <message>
+        <source>&amp;Grow...</source>
+        <translation>擴張(&amp;G)…</translation>
+    </message>
+    <message>
+        <source>Grow</source>
+        <translation>擴張</translation>
+    </message>
+    <message>
+        <source>Grow the class by, mm</source>
+        <translation>類別擴張，mm</translation>
+    </message>
+    <message>
+        <source>&amp;Shrink...</source>
+        <translation>收縮(&amp;S)…</translation>
+    </message>
+    <message>
+        <source>Shrink</source>
+        <translation>收縮</translation>
+    </message>
+    <message>
+        <source>Shrink the class by, mm</source>
+        <translation>類別收縮，mm</translation>
+    </message>
+    <message>
+        <source>&amp;Fill holes</source>
+        <translation>填滿孔洞(&amp;F)</translation>
+    </message>
+    <message>
+        <source>Fill holes</source>
+        <translation>填滿孔洞</translation>
+    </message>
+    <message>
+        <source>&amp;Largest part</source>
+        <translation>最大部分(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Largest part</source>
+        <translation>最大部分</translation>
+    </message>
+    <message>
+        <source>Class &amp;volumes...</source>
+        <translation>類別體積(&amp;V)…</translation>
+    </message>
+    <message>
+        <source>Remove connected &amp;bone</source>
+        <translation>移除相連的骨骼(&amp;B)</translation>
+    </message>
+    <message>
+        <source>Pla&amp;y</source>
+        <translation>播放(&amp;Y)</translation>
+    </message>
+    <message>
+        <source>Play the slices of the plane, or turn the projection around the patient</source>
+        <translation>播放切面的切片，或繞病患旋轉投影</translation>
+    </message>
+    <message>
+        <source>%1 frames per second</source>
+        <translation>每秒 %1 張</translation>
+    </message>
+    <message>
+        <source>&amp;Next phase</source>
+        <translation>下一時相(&amp;N)</translation>
+    </message>
+    <message>
+        <source>P&amp;revious phase</source>
+        <translation>上一時相(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Play p&amp;hases</source>
+        <translation>播放時相(&amp;H)</translation>
+    </message>
+    <message>
+        <source>&amp;Region</source>
+        <translation>區域(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Plane &amp;interpolation</source>
+        <translation>切面內插(&amp;I)</translation>
+    </message>
+    <message>
+        <source>S&amp;peed</source>
+        <translation>速度(&amp;P)</translation>
+    </message>
+    <message>
+        <source>&amp;Tools</source>
+        <translation>工具(&amp;T)</translation>
+    </message>
+</context>
+<context>
+    <name>ViewCommands</name>
+    <message>
+        <source>Reset views</source>
+        <translation>重設檢視</translation>
+    </message>
+    <message>
+        <source>&amp;Anterior</source>
+        <translation>前方(&amp;A)</translation>
+    </message>
+    <message>
+        <source>Keypad 1</source>
+        <translation>數字鍵 1</translation>
+    </message>
+    <message>
+        <source>&amp;Posterior</source>
+        <translation>後方(&amp;P)</translation>
+    </message>
+    <message>
+        <source>Shift+Keypad 1</source>
+        <translation>Shift+數字鍵 1</translation>
+    </message>
+    <message>
+        <source>&amp;Left</source>
+        <translation>左側(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Keypad 3</source>
+        <translation>數字鍵 3</translation>
+    </message>
+    <message>
+        <source>&amp;Right</source>
+        <translation>右側(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Shift+Keypad 3</source>
+        <translation>Shift+數字鍵 3</translation>
+    </message>
+    <message>
+        <source>&amp;Superior</source>
+        <translation>上方(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Keypad 7</source>
+        <translation>數字鍵 7</translation>
+    </message>
+    <message>
+        <source>&amp;Inferior</source>
+        <translation>下方(&amp;I)</translation>
+    </message>
+    <message>
+        <source>Shift+Keypad 7</source>
+        <translation>Shift+數字鍵 7</translation>
+    </message>
+    <message>
+        <source>C-arm an&amp;gles...</source>
+        <translation>C 臂角度(&amp;G)…</translation>
+    </message>
+    <message>
+        <source>R&amp;eset views</source>
+        <translation>重設檢視(&amp;E)</translation>
+    </message>
+    <message>
+        <source>Keypad 0</source>
+        <translation>數字鍵 0</translation>
+    </message>
+    <message>
+        <source>&amp;Orbit about the crosshair</source>
+        <translation>繞十字線旋轉(&amp;O)</translation>
+    </message>
+    <message>
+        <source>&amp;Free rotation (trackball)</source>
+        <translation>自由旋轉（軌跡球）(&amp;F)</translation>
+    </message>
+    <message>
+        <source>&amp;Tint segments in the planes</source>
+        <translation>切面對分割區著色(&amp;T)</translation>
+    </message>
+    <message>
+        <source>&amp;Compare with previous look</source>
+        <translation>與前一個外觀比較(&amp;C)</translation>
+    </message>
+    <message>
+        <source>hold Q</source>
+        <translation>按住 Q</translation>
+    </message>
+    <message>
+        <source>A&amp;nnotations</source>
+        <translation>註記(&amp;N)</translation>
+    </message>
+    <message>
+        <source>Cross&amp;hair</source>
+        <translation>十字線(&amp;H)</translation>
+    </message>
+    <message>
+        <source>Patient &amp;banner</source>
+        <translation>病患橫幅(&amp;B)</translation>
+    </message>
+    <message>
+        <source>Lin&amp;k views</source>
+        <translation>連結檢視(&amp;K)</translation>
+    </message>
+    <message>
+        <source>Close secon&amp;d study</source>
+        <translation>關閉第二個檢查(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Recompute pro&amp;jection</source>
+        <translation>重新計算投影(&amp;J)</translation>
+    </message>
+    <message>
+        <source>1 + 3</source>
+        <translation>1 + 3</translation>
+    </message>
+    <message>
+        <source>2 x 2</source>
+        <translation>2 x 2</translation>
+    </message>
+    <message>
+        <source>&amp;Automatic</source>
+        <translation>自動(&amp;A)</translation>
+    </message>
+    <message>
+        <source>&amp;Processor</source>
+        <translation>處理器(&amp;P)</translation>
+    </message>
+    <message>
+        <source>&amp;Graphics card</source>
+        <translation>顯示卡(&amp;G)</translation>
+    </message>
+    <message>
+        <source>&amp;Full screen</source>
+        <translation>全螢幕(&amp;F)</translation>
     </message>
 </context>
 <context>
@@ -4885,86 +5545,22 @@ Open it beside?</source>
     </message>
 </context>
 <context>
-    <name>pellucid::ui::FileMenu</name>
-    <message>
-        <source>&amp;Open files...</source>
-        <translation>開啟檔案(&amp;O)…</translation>
-    </message>
-    <message>
-        <source>Open</source>
-        <translation>開啟</translation>
-    </message>
-    <message>
-        <source>Open &amp;folder...</source>
-        <translation>開啟資料夾(&amp;F)…</translation>
-    </message>
-    <message>
-        <source>&amp;Import into the library...</source>
-        <translation>匯入資料庫(&amp;I)…</translation>
-    </message>
-    <message>
-        <source>Import</source>
-        <translation>匯入</translation>
-    </message>
-    <message>
-        <source>Open &amp;phantom</source>
-        <translation>開啟假體(&amp;P)</translation>
-    </message>
-    <message>
-        <source>&amp;Head</source>
-        <translation>頭部(&amp;H)</translation>
-    </message>
-    <message>
-        <source>&amp;Chest</source>
-        <translation>胸部(&amp;C)</translation>
-    </message>
-    <message>
-        <source>Open &amp;scene...</source>
-        <translation>開啟場景(&amp;S)…</translation>
-    </message>
-    <message>
-        <source>Save s&amp;cene as...</source>
-        <translation>另存場景(&amp;C)…</translation>
-    </message>
-    <message>
-        <source>Save p&amp;icture as...</source>
-        <translation>另存影像(&amp;I)…</translation>
-    </message>
-    <message>
-        <source>Picture</source>
-        <translation>影像</translation>
-    </message>
-    <message>
-        <source>&amp;Export picture...</source>
-        <translation>匯出影像(&amp;E)…</translation>
-    </message>
-    <message>
-        <source>Export</source>
-        <translation>匯出</translation>
-    </message>
-    <message>
-        <source>Export &amp;measurements...</source>
-        <translation>匯出測量(&amp;M)…</translation>
-    </message>
-    <message>
-        <source>P&amp;references...</source>
-        <translation>偏好設定(&amp;R)…</translation>
-    </message>
-    <message>
-        <source>Clear recent st&amp;udies</source>
-        <translation>清除最近的檢查(&amp;U)</translation>
-    </message>
-    <message>
-        <source>&amp;Quit</source>
-        <translation>結束(&amp;Q)</translation>
-    </message>
+    <name>pellucid::ui::FileActions</name>
     <message>
         <source>Open files</source>
         <translation>開啟檔案</translation>
     </message>
     <message>
+        <source>Open segmentation</source>
+        <translation>開啟分割檔</translation>
+    </message>
+    <message>
         <source>Open folder</source>
         <translation>開啟資料夾</translation>
+    </message>
+    <message>
+        <source>Saved: %1</source>
+        <translation>已儲存：%1</translation>
     </message>
     <message>
         <source>There is no projection to save yet</source>
@@ -4979,84 +5575,8 @@ Open it beside?</source>
         <translation>PNG 影像 (*.png)</translation>
     </message>
     <message>
-        <source>There are no measurements to export yet</source>
-        <translation>尚無測量可匯出</translation>
-    </message>
-    <message>
-        <source>Export measurements</source>
-        <translation>匯出測量</translation>
-    </message>
-    <message>
-        <source>Table (*.csv)</source>
-        <translation>表格 (*.csv)</translation>
-    </message>
-    <message>
-        <source>There is no projection of this scene yet</source>
-        <translation>此場景尚無投影</translation>
-    </message>
-    <message>
-        <source>Save scene</source>
-        <translation>儲存場景</translation>
-    </message>
-    <message>
-        <source>Scene (*.json)</source>
-        <translation>場景 (*.json)</translation>
-    </message>
-    <message>
-        <source>Open scene</source>
-        <translation>開啟場景</translation>
-    </message>
-    <message>
-        <source>Saved: %1</source>
-        <translation>已儲存：%1</translation>
-    </message>
-    <message>
-        <source>Open se&amp;gmentation...</source>
-        <translation>開啟分割檔(&amp;G)...</translation>
-    </message>
-    <message>
-        <source>Open segmentation</source>
-        <translation>開啟分割檔</translation>
-    </message>
-    <message>
-        <source>Su&amp;btract a volume...</source>
-        <translation>減去體積(&amp;B)...</translation>
-    </message>
-    <message>
-        <source>Save classes as segmenta&amp;tion...</source>
-        <translation>將類別存為分割檔(&amp;T)...</translation>
-    </message>
-    <message>
-        <source>There are no classes to save yet</source>
-        <translation>尚無類別可儲存</translation>
-    </message>
-    <message>
-        <source>Save classes as segmentation</source>
-        <translation>將類別存為分割檔</translation>
-    </message>
-    <message>
-        <source>DICOM segmentation (*.dcm);;Labels (*.nrrd)</source>
-        <translation>DICOM 分割檔 (*.dcm);;標籤 (*.nrrd)</translation>
-    </message>
-    <message>
-        <source>Writing %1</source>
-        <translation>正在寫入 %1</translation>
-    </message>
-    <message>
-        <source>Saved: %1; no sample belongs to %2</source>
-        <translation>已儲存：%1；沒有取樣屬於 %2</translation>
-    </message>
-    <message>
-        <source>Cop&amp;y picture</source>
-        <translation>複製影像(&amp;Y)</translation>
-    </message>
-    <message>
-        <source>Pri&amp;nt...</source>
-        <translation>列印(&amp;N)…</translation>
-    </message>
-    <message>
-        <source>&amp;DICOM header...</source>
-        <translation>DICOM 標頭(&amp;D)…</translation>
+        <source>Sent to %1</source>
+        <translation>已傳送至 %1</translation>
     </message>
     <message>
         <source>Copying the picture</source>
@@ -5091,12 +5611,52 @@ Open it beside?</source>
         <translation>正在匯出：請於結束後再複製或列印</translation>
     </message>
     <message>
-        <source>Ser&amp;vers...</source>
-        <translation>伺服器(&amp;V)…</translation>
+        <source>There are no measurements to export yet</source>
+        <translation>尚無測量可匯出</translation>
     </message>
     <message>
-        <source>Sent to %1</source>
-        <translation>已傳送至 %1</translation>
+        <source>Export measurements</source>
+        <translation>匯出測量</translation>
+    </message>
+    <message>
+        <source>Table (*.csv)</source>
+        <translation>表格 (*.csv)</translation>
+    </message>
+    <message>
+        <source>There is no projection of this scene yet</source>
+        <translation>此場景尚無投影</translation>
+    </message>
+    <message>
+        <source>Save scene</source>
+        <translation>儲存場景</translation>
+    </message>
+    <message>
+        <source>Scene (*.json)</source>
+        <translation>場景 (*.json)</translation>
+    </message>
+    <message>
+        <source>There are no classes to save yet</source>
+        <translation>尚無類別可儲存</translation>
+    </message>
+    <message>
+        <source>Save classes as segmentation</source>
+        <translation>將類別存為分割檔</translation>
+    </message>
+    <message>
+        <source>DICOM segmentation (*.dcm);;Labels (*.nrrd)</source>
+        <translation>DICOM 分割檔 (*.dcm);;標籤 (*.nrrd)</translation>
+    </message>
+    <message>
+        <source>Writing %1</source>
+        <translation>正在寫入 %1</translation>
+    </message>
+    <message>
+        <source>Saved: %1; no sample belongs to %2</source>
+        <translation>已儲存：%1；沒有取樣屬於 %2</translation>
+    </message>
+    <message>
+        <source>Open scene</source>
+        <translation>開啟場景</translation>
     </message>
 </context>
 <context>
@@ -5344,81 +5904,6 @@ Open it beside?</source>
     </message>
 </context>
 <context>
-    <name>pellucid::ui::LookMenu</name>
-    <message>
-        <source>&amp;Save look...</source>
-        <translation>儲存外觀(&amp;S)…</translation>
-    </message>
-    <message>
-        <source>&amp;Import preset...</source>
-        <translation>匯入預設集(&amp;I)…</translation>
-    </message>
-    <message>
-        <source>&amp;Export preset...</source>
-        <translation>匯出預設集(&amp;E)…</translation>
-    </message>
-    <message>
-        <source>&amp;Film (inverted)</source>
-        <translation>底片（反相）(&amp;F)</translation>
-    </message>
-    <message>
-        <source>Film</source>
-        <translation>底片</translation>
-    </message>
-    <message>
-        <source>&amp;Automatic brightness</source>
-        <translation>自動亮度(&amp;A)</translation>
-    </message>
-    <message>
-        <source>Automatic brightness</source>
-        <translation>自動亮度</translation>
-    </message>
-    <message>
-        <source>&amp;Window presets</source>
-        <translation>窗預設值(&amp;W)</translation>
-    </message>
-    <message>
-        <source>&amp;Depth cue</source>
-        <translation>深度提示(&amp;D)</translation>
-    </message>
-    <message>
-        <source>Add l&amp;ight</source>
-        <translation>新增光源(&amp;I)</translation>
-    </message>
-    <message>
-        <source>Reset s&amp;hading</source>
-        <translation>重設明暗(&amp;H)</translation>
-    </message>
-    <message>
-        <source>&amp;Reconstruction</source>
-        <translation>重建(&amp;R)</translation>
-    </message>
-    <message>
-        <source>Reconstruction</source>
-        <translation>重建</translation>
-    </message>
-    <message>
-        <source>&amp;Cubic</source>
-        <translation>三次(&amp;C)</translation>
-    </message>
-    <message>
-        <source>&amp;Linear</source>
-        <translation>線性(&amp;L)</translation>
-    </message>
-    <message>
-        <source>&amp;Sharp (band-limited)</source>
-        <translation>銳利（頻帶限制）(&amp;S)</translation>
-    </message>
-    <message>
-        <source>S&amp;pline</source>
-        <translation>樣條(&amp;P)</translation>
-    </message>
-    <message>
-        <source>Remove the c&amp;ouch</source>
-        <translation>移除檢查床(&amp;O)</translation>
-    </message>
-</context>
-<context>
     <name>pellucid::ui::LookPreparer</name>
     <message>
         <source>Preparing the parts of the look</source>
@@ -5436,52 +5921,8 @@ Open it beside?</source>
 <context>
     <name>pellucid::ui::MainWindow</name>
     <message>
-        <source>&amp;Look</source>
-        <translation>外觀(&amp;L)</translation>
-    </message>
-    <message>
-        <source>&amp;Tools</source>
-        <translation>工具(&amp;T)</translation>
-    </message>
-    <message>
         <source>Imported: %1 series, %2 files; %3 not used</source>
         <translation>已匯入：%1 個序列、%2 個檔案；%3 個未使用</translation>
-    </message>
-    <message>
-        <source>&amp;File</source>
-        <translation>檔案(&amp;F)</translation>
-    </message>
-    <message>
-        <source>&amp;Edit</source>
-        <translation>編輯(&amp;E)</translation>
-    </message>
-    <message>
-        <source>Undo</source>
-        <translation>復原</translation>
-    </message>
-    <message>
-        <source>Redo</source>
-        <translation>重做</translation>
-    </message>
-    <message>
-        <source>&amp;Find a study</source>
-        <translation>尋找檢查(&amp;F)</translation>
-    </message>
-    <message>
-        <source>&amp;Delete measurement</source>
-        <translation>刪除測量(&amp;D)</translation>
-    </message>
-    <message>
-        <source>&amp;View</source>
-        <translation>檢視(&amp;V)</translation>
-    </message>
-    <message>
-        <source>W&amp;indow</source>
-        <translation>視窗(&amp;I)</translation>
-    </message>
-    <message>
-        <source>&amp;Help</source>
-        <translation>說明(&amp;H)</translation>
     </message>
     <message>
         <source>There is no earlier look to compare with</source>
@@ -5490,10 +5931,6 @@ Open it beside?</source>
     <message>
         <source>Saved: %1</source>
         <translation>已儲存：%1</translation>
-    </message>
-    <message>
-        <source>&amp;Reset layout</source>
-        <translation>重設版面(&amp;R)</translation>
     </message>
     <message>
         <source>Not protected</source>
@@ -5574,10 +6011,6 @@ Open it beside?</source>
     <message>
         <source>&amp;Reset the plane&apos;s view</source>
         <translation>重設切面的檢視(&amp;R)</translation>
-    </message>
-    <message>
-        <source>&amp;View</source>
-        <translation>檢視(&amp;V)</translation>
     </message>
     <message>
         <source>&amp;Fit to the patient</source>
@@ -7247,301 +7680,6 @@ Retrieve these images again, and replace those that are here?</source>
     </message>
 </context>
 <context>
-    <name>pellucid::ui::ToolsMenu</name>
-    <message>
-        <source>S&amp;how the whole volume</source>
-        <translation>顯示整個體積(&amp;H)</translation>
-    </message>
-    <message>
-        <source>Whole volume</source>
-        <translation>整個體積</translation>
-    </message>
-    <message>
-        <source>S&amp;traighten the planes</source>
-        <translation>回正切面(&amp;T)</translation>
-    </message>
-    <message>
-        <source>Window</source>
-        <translation>窗</translation>
-    </message>
-    <message>
-        <source>drag for width and center</source>
-        <translation>拖曳調整窗寬與窗位</translation>
-    </message>
-    <message>
-        <source>Pan</source>
-        <translation>平移</translation>
-    </message>
-    <message>
-        <source>drag the picture</source>
-        <translation>拖曳影像</translation>
-    </message>
-    <message>
-        <source>Zoom</source>
-        <translation>縮放</translation>
-    </message>
-    <message>
-        <source>drag up and down</source>
-        <translation>上下拖曳</translation>
-    </message>
-    <message>
-        <source>Crosshair</source>
-        <translation>十字線</translation>
-    </message>
-    <message>
-        <source>drag the crosshair; its dots turn the planes</source>
-        <translation>拖曳十字線；其圓點可旋轉切面</translation>
-    </message>
-    <message>
-        <source>Distance</source>
-        <translation>距離</translation>
-    </message>
-    <message>
-        <source>drag a line, also in the projection</source>
-        <translation>拖曳一條線；投影中亦可</translation>
-    </message>
-    <message>
-        <source>Angle</source>
-        <translation>角度</translation>
-    </message>
-    <message>
-        <source>drag one leg, click the end of the other</source>
-        <translation>拖曳一邊，再點按另一邊的端點</translation>
-    </message>
-    <message>
-        <source>Ellipse</source>
-        <translation>橢圓</translation>
-    </message>
-    <message>
-        <source>drag its bounding box</source>
-        <translation>拖曳外框</translation>
-    </message>
-    <message>
-        <source>Rectangle</source>
-        <translation>矩形</translation>
-    </message>
-    <message>
-        <source>drag from corner to corner</source>
-        <translation>由一角拖曳至另一角</translation>
-    </message>
-    <message>
-        <source>Crop</source>
-        <translation>裁切</translation>
-    </message>
-    <message>
-        <source>drag the sides of the box in the planes</source>
-        <translation>在切面中拖曳方框的各邊</translation>
-    </message>
-    <message>
-        <source>&amp;Slab</source>
-        <translation>厚切(&amp;S)</translation>
-    </message>
-    <message>
-        <source>&amp;Mean</source>
-        <translation>平均(&amp;M)</translation>
-    </message>
-    <message>
-        <source>M&amp;aximum (MIP)</source>
-        <translation>最大值 (MIP)(&amp;A)</translation>
-    </message>
-    <message>
-        <source>M&amp;inimum (MinIP)</source>
-        <translation>最小值 (MinIP)(&amp;I)</translation>
-    </message>
-    <message>
-        <source>%1 mm</source>
-        <translation>%1 mm</translation>
-    </message>
-    <message>
-        <source>&amp;Other thickness...</source>
-        <translation>其他厚度(&amp;O)…</translation>
-    </message>
-    <message>
-        <source>T&amp;hicker</source>
-        <translation>加厚(&amp;H)</translation>
-    </message>
-    <message>
-        <source>Thi&amp;nner</source>
-        <translation>減薄(&amp;N)</translation>
-    </message>
-    <message>
-        <source>Slab</source>
-        <translation>厚切</translation>
-    </message>
-    <message>
-        <source>Slab thickness, mm</source>
-        <translation>厚切的厚度，mm</translation>
-    </message>
-    <message>
-        <source>&amp;Interpolation</source>
-        <translation>內插(&amp;I)</translation>
-    </message>
-    <message>
-        <source>&amp;Linear</source>
-        <translation>線性(&amp;L)</translation>
-    </message>
-    <message>
-        <source>&amp;Nearest sample</source>
-        <translation>最近取樣(&amp;N)</translation>
-    </message>
-    <message>
-        <source>Pla&amp;y</source>
-        <translation>播放(&amp;Y)</translation>
-    </message>
-    <message>
-        <source>S&amp;peed</source>
-        <translation>速度(&amp;P)</translation>
-    </message>
-    <message>
-        <source>%1 frames per second</source>
-        <translation>每秒 %1 張</translation>
-    </message>
-    <message>
-        <source>&amp;Next phase</source>
-        <translation>下一時相(&amp;N)</translation>
-    </message>
-    <message>
-        <source>P&amp;revious phase</source>
-        <translation>上一時相(&amp;R)</translation>
-    </message>
-    <message>
-        <source>Play p&amp;hases</source>
-        <translation>播放時相(&amp;H)</translation>
-    </message>
-    <message>
-        <source>A&amp;lign the planes with the scan</source>
-        <translation>使切面與掃描對齊(&amp;L)</translation>
-    </message>
-    <message>
-        <source>Connected</source>
-        <translation>相連</translation>
-    </message>
-    <message>
-        <source>Paint</source>
-        <translation>塗畫</translation>
-    </message>
-    <message>
-        <source>Scissors</source>
-        <translation>剪刀</translation>
-    </message>
-    <message>
-        <source>&amp;Region</source>
-        <translation>區域(&amp;R)</translation>
-    </message>
-    <message>
-        <source>&amp;Grow...</source>
-        <translation>擴張(&amp;G)…</translation>
-    </message>
-    <message>
-        <source>Grow</source>
-        <translation>擴張</translation>
-    </message>
-    <message>
-        <source>Grow the class by, mm</source>
-        <translation>類別擴張，mm</translation>
-    </message>
-    <message>
-        <source>&amp;Shrink...</source>
-        <translation>收縮(&amp;S)…</translation>
-    </message>
-    <message>
-        <source>Shrink</source>
-        <translation>收縮</translation>
-    </message>
-    <message>
-        <source>Shrink the class by, mm</source>
-        <translation>類別收縮，mm</translation>
-    </message>
-    <message>
-        <source>&amp;Fill holes</source>
-        <translation>填滿孔洞(&amp;F)</translation>
-    </message>
-    <message>
-        <source>Fill holes</source>
-        <translation>填滿孔洞</translation>
-    </message>
-    <message>
-        <source>&amp;Largest part</source>
-        <translation>最大部分(&amp;L)</translation>
-    </message>
-    <message>
-        <source>Largest part</source>
-        <translation>最大部分</translation>
-    </message>
-    <message>
-        <source>Remove connected &amp;bone</source>
-        <translation>移除相連的骨骼(&amp;B)</translation>
-    </message>
-    <message>
-        <source>click connected tissue of similar values, also in the projection</source>
-        <translation>點按數值相近且相連的組織，投影中亦可</translation>
-    </message>
-    <message>
-        <source>paint a region with a brush; Shift erases</source>
-        <translation>以畫筆塗畫區域；Shift 擦除</translation>
-    </message>
-    <message>
-        <source>draw around the part to cut along the line of sight</source>
-        <translation>圍出沿視線剪裁的部分</translation>
-    </message>
-    <message>
-        <source>Straighten the planes</source>
-        <translation>扶正切面</translation>
-    </message>
-    <message>
-        <source>Align the planes with the scan</source>
-        <translation>使切面與掃描對齊</translation>
-    </message>
-    <message>
-        <source>Polyline</source>
-        <translation>折線</translation>
-    </message>
-    <message>
-        <source>click its corners; a double-click ends it</source>
-        <translation>點按各轉折點；按兩下結束</translation>
-    </message>
-    <message>
-        <source>Cobb angle</source>
-        <translation>Cobb 角</translation>
-    </message>
-    <message>
-        <source>drag a line along each of two end plates</source>
-        <translation>沿兩個終板各拖曳一條線</translation>
-    </message>
-    <message>
-        <source>Arrow</source>
-        <translation>箭頭</translation>
-    </message>
-    <message>
-        <source>drag from what it shows to where its text is</source>
-        <translation>由所指之處拖曳至文字處</translation>
-    </message>
-    <message>
-        <source>Text</source>
-        <translation>文字</translation>
-    </message>
-    <message>
-        <source>click where it begins; a double-click changes it</source>
-        <translation>點按起始處；按兩下可變更</translation>
-    </message>
-    <message>
-        <source>Class &amp;volumes...</source>
-        <translation>類別體積(&amp;V)…</translation>
-    </message>
-    <message>
-        <source>%1: %2</source>
-        <translation>%1：%2</translation>
-    </message>
-    <message>
-        <source>Slab: give the planes a thickness; [ and ] change it</source>
-        <translation>厚切：使切面具有厚度；以 [ 與 ] 變更</translation>
-    </message>
-    <message>
-        <source>Play the slices of the plane, or turn the projection around the patient</source>
-        <translation>播放切面的切片，或繞病患旋轉投影</translation>
-    </message>
-</context>
-<context>
     <name>pellucid::ui::TransferFunctionPanel</name>
     <message>
         <source>Number of control points</source>
@@ -7703,142 +7841,7 @@ Retrieve these images again, and replace those that are here?</source>
     </message>
 </context>
 <context>
-    <name>pellucid::ui::ViewMenu</name>
-    <message>
-        <source>&amp;Orbit about the crosshair</source>
-        <translation>繞十字線旋轉(&amp;O)</translation>
-    </message>
-    <message>
-        <source>&amp;Compare with the look before</source>
-        <translation>與先前外觀比較(&amp;C)</translation>
-    </message>
-    <message>
-        <source>hold Q</source>
-        <translation>按住 Q</translation>
-    </message>
-    <message>
-        <source>Prepare the projection a&amp;gain</source>
-        <translation>重新準備投影(&amp;G)</translation>
-    </message>
-    <message>
-        <source>Projection &amp;engine</source>
-        <translation>投影引擎(&amp;E)</translation>
-    </message>
-    <message>
-        <source>&amp;Full screen</source>
-        <translation>全螢幕(&amp;F)</translation>
-    </message>
-    <message>
-        <source>&amp;Anterior</source>
-        <translation>前方(&amp;A)</translation>
-    </message>
-    <message>
-        <source>Keypad 1</source>
-        <translation>數字鍵 1</translation>
-    </message>
-    <message>
-        <source>&amp;Posterior</source>
-        <translation>後方(&amp;P)</translation>
-    </message>
-    <message>
-        <source>Shift+Keypad 1</source>
-        <translation>Shift+數字鍵 1</translation>
-    </message>
-    <message>
-        <source>&amp;Left</source>
-        <translation>左側(&amp;L)</translation>
-    </message>
-    <message>
-        <source>Keypad 3</source>
-        <translation>數字鍵 3</translation>
-    </message>
-    <message>
-        <source>&amp;Right</source>
-        <translation>右側(&amp;R)</translation>
-    </message>
-    <message>
-        <source>Shift+Keypad 3</source>
-        <translation>Shift+數字鍵 3</translation>
-    </message>
-    <message>
-        <source>&amp;Superior</source>
-        <translation>上方(&amp;S)</translation>
-    </message>
-    <message>
-        <source>Keypad 7</source>
-        <translation>數字鍵 7</translation>
-    </message>
-    <message>
-        <source>&amp;Inferior</source>
-        <translation>下方(&amp;I)</translation>
-    </message>
-    <message>
-        <source>Shift+Keypad 7</source>
-        <translation>Shift+數字鍵 7</translation>
-    </message>
-    <message>
-        <source>R&amp;eset views</source>
-        <translation>重設檢視(&amp;E)</translation>
-    </message>
-    <message>
-        <source>Keypad 0</source>
-        <translation>數字鍵 0</translation>
-    </message>
-    <message>
-        <source>Lin&amp;k the studies</source>
-        <translation>連結兩個檢查(&amp;K)</translation>
-    </message>
-    <message>
-        <source>Close the study besi&amp;de</source>
-        <translation>關閉並排的檢查(&amp;D)</translation>
-    </message>
-    <message>
-        <source>1 + 3</source>
-        <translation>1 + 3</translation>
-    </message>
-    <message>
-        <source>2 x 2</source>
-        <translation>2 x 2</translation>
-    </message>
-    <message>
-        <source>&amp;Tint segments in the planes</source>
-        <translation>切面對分割區著色(&amp;T)</translation>
-    </message>
-    <message>
-        <source>C-arm an&amp;gles...</source>
-        <translation>C 臂角度(&amp;G)…</translation>
-    </message>
-    <message>
-        <source>&amp;Free rotation (trackball)</source>
-        <translation>自由旋轉（軌跡球）(&amp;F)</translation>
-    </message>
-    <message>
-        <source>Reset views</source>
-        <translation>重設檢視</translation>
-    </message>
-    <message>
-        <source>A&amp;nnotations</source>
-        <translation>註記(&amp;N)</translation>
-    </message>
-    <message>
-        <source>Cross&amp;hair</source>
-        <translation>十字線(&amp;H)</translation>
-    </message>
-    <message>
-        <source>Patient &amp;banner</source>
-        <translation>病患橫幅(&amp;B)</translation>
-    </message>
-</context>
-<context>
     <name>pellucid::ui::WindowChooser</name>
-    <message>
-        <source>&amp;Inverted grey</source>
-        <translation>反轉灰階(&amp;I)</translation>
-    </message>
-    <message>
-        <source>&amp;Width and center...</source>
-        <translation>窗寬與窗位(&amp;W)…</translation>
-    </message>
     <message>
         <source>Width and center...</source>
         <translation>窗寬與窗位…</translation>

@@ -15,7 +15,7 @@
 #include <QTreeView>
 
 #include "ui/views/mpr_view.h"
-#include "ui/window/file_menu.h"
+#include "ui/window/file_actions.h"
 
 namespace pellucid {
 
@@ -82,7 +82,7 @@ private slots:
         find<QAction>("exportPictureAction")->trigger();
         find<QLineEdit>("exportPathEdit")->setText("/home/jane/projection.png");
         dialog("exportDialog", "panel_export");
-        mainWindow().fileMenu().importPaths({"/media/cdrom"});
+        mainWindow().files().importPaths({"/media/cdrom"});
         dialog("importDialog", "panel_import");
         find<QAction>("preferencesAction")->trigger();
         dialog("preferencesDialog", "panel_preferences");

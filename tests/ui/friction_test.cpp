@@ -218,7 +218,7 @@ private slots:
         QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
         const QString a = QString::fromStdString((m_folder / "three" / "Miller^Ann").string());
         const QString b = QString::fromStdString((m_folder / "three" / "Zhang^Wei").string());
-        mainWindow().fileMenu().importPaths({a, b});
+        mainWindow().files().importPaths({a, b});
         dialog = find<QDialog>("importDialog");
         auto *list = dialog->findChild<QListWidget *>("importPaths");
         QCOMPARE(list->count(), 2);

@@ -16,7 +16,7 @@
 #include <QTreeWidget>
 #include <QUndoView>
 
-#include "ui/settings/shortcuts.h"
+#include "ui/window/actions/action_table.h"
 
 namespace pellucid {
 
@@ -104,21 +104,21 @@ private slots:
 
     void everyActionIsInTheShortcutListOnce() {
         QSet<QString> names;
-        for (const ui::ShortcutEntry &entry : ui::shortcutEntries(mainWindow())) {
-            QVERIFY2(!names.contains(entry.name), qPrintable(entry.name));
-            names << entry.name;
+        for (const auto *row : mainWindow().actions().listed()) {
+            QVERIFY2(!names.contains(row->command.id), qPrintable(row->command.id));
+            names << row->command.id;
         }
         for (const char *name : {"openFilesAction", "undoAction", "saveLookAction", "slabAction",
                                  "nextPhaseAction", "manualAction", "fullScreenAction"})
             QVERIFY2(names.contains(name), name);
         // No key is given twice.
         QHash<QString, QString> keys;
-        for (const ui::ShortcutEntry &entry : ui::shortcutEntries(mainWindow())) {
-            const QString key = entry.action->shortcut().toString();
+        for (const auto *row : mainWindow().actions().listed()) {
+            const QString key = row->action->shortcut().toString(), name = row->command.id;
             if (key.isEmpty())
                 continue;
-            QVERIFY2(!keys.contains(key), qPrintable(key + ": " + entry.name + ", " + keys[key]));
-            keys[key] = entry.name;
+            QVERIFY2(!keys.contains(key), qPrintable(key + ": " + name + ", " + keys[key]));
+            keys[key] = name;
         }
     }
 

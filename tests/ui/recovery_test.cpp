@@ -23,7 +23,7 @@
 #include "ui/opening/reasons.h"
 #include "ui/opening/session.h"
 #include "ui/studies/reasons.h"
-#include "ui/window/file_menu.h"
+#include "ui/window/file_actions.h"
 #include "ui/window/reopening.h"
 
 namespace pellucid {
@@ -77,7 +77,7 @@ private slots:
         offer->click();
         waitForVolume();
         QCOMPARE(document().volume()->lattice().size().k, 80);
-        emit mainWindow().fileMenu().recentForgotten();
+        mainWindow().reopening().forgetAll();
         QVERIFY(!fs::exists(m_sessionFile) && !fs::exists(second));
     }
 

@@ -427,7 +427,7 @@ private:
             &mainWindow(),
             {{m_name.toStdString(), task::because::thereIsNoServer(m_name.toStdString())}}, [] {});
         lookAndClose("hugeQuestion");
-        mainWindow().fileMenu().importPaths({m_name});
+        mainWindow().files().importPaths({m_name});
         lookAndClose("importDialog");
         ui::LoginDialog login(m_name, nullptr, &mainWindow());
         login.show();

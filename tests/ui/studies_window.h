@@ -13,7 +13,7 @@
 
 #include "ui/panels/study_list.h"
 #include "ui/views/mpr_view.h"
-#include "ui/window/file_menu.h"
+#include "ui/window/file_actions.h"
 
 namespace pellucid::test {
 
@@ -92,7 +92,7 @@ protected:
     }
 
     void import(const std::filesystem::path &path, bool copies) {
-        mainWindow().fileMenu().importPaths({QString::fromStdString(path.string())});
+        mainWindow().files().importPaths({QString::fromStdString(path.string())});
         QTRY_VERIFY(dialog("importDialog") != nullptr);
         acceptImport(copies);
     }

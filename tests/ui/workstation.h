@@ -20,6 +20,7 @@
 #include "tests/ui/hand.h"
 #include "tests/ui/patience.h"
 #include "tests/ui/pictures.h"
+#include "ui/theme/theme.h"
 #include "ui/views/projection_view.h"
 #include "ui/window/application.h"
 #include "ui/window/main_window.h"

@@ -94,6 +94,10 @@ StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *pare
     });
 }
 
+void StudyBeside::toggleLink() {
+    m_linked->toggle();
+}
+
 void StudyBeside::setNameShown(bool isShown) {
     m_showsName = isShown;
     showName();

@@ -25,7 +25,8 @@ public:
     void open(const StudySource &source);
     Document &document() { return m_study.document; }
     JobRunner &jobs() { return m_study.jobs; }
-    StudyLink &link() { return *m_link; }
+    bool isLinked() const { return m_link->isLinked(); }
+    void toggleLink();
     const Viewer &viewer() const { return m_viewer; }
     /// Crop boxes and regions belong to the open study: here their tools set the window.
     void setTool(Tool tool);

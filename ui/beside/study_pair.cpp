@@ -2,7 +2,7 @@
 #include "ui/beside/study_pair.h"
 
 #include <QApplication>
-#include <QToolButton>
+#include <QSettings>
 #include <QVBoxLayout>
 
 #include "ui/beside/study_beside.h"
@@ -17,6 +17,8 @@ namespace pellucid::ui {
 
 namespace {
 
+constexpr auto bannerKey = "view/patientBanner";
+
 void showOverlaysOn(const Viewer &viewer, const Overlays &overlays) {
     for (MprView *const plane : viewer.planes)
         plane->setOverlays(overlays);
@@ -26,7 +28,8 @@ void showOverlaysOn(const Viewer &viewer, const Overlays &overlays) {
 } // namespace
 
 StudyPair::StudyPair(const Viewer &open, GraphicsCard &card, QWidget *parent)
-    : QSplitter(parent), m_open(open), m_card(card), m_heading(new PlainLabel) {
+    : QSplitter(parent), m_open(open), m_card(card),
+      m_showsBanner(QSettings().value(bannerKey, true).toBool()), m_heading(new PlainLabel) {
     setObjectName("viewers");
     setChildrenCollapsible(false);
     m_heading->setObjectName("studyHeading");
@@ -42,6 +45,11 @@ StudyPair::StudyPair(const Viewer &open, GraphicsCard &card, QWidget *parent)
     column->addWidget(open.area, 1);
     addWidget(panes);
     open.document.whenever(Change::volume | Change::currentSource, this, &StudyPair::showHeading);
+    connect(&open.document.marking(), &RegionMarking::toolRequested, this,
+            [this](RegionTool wanted) {
+                setTool(toolFor(wanted));
+                emit changed();
+            });
 }
 
 void StudyPair::openBeside(const StudySource &source) {
@@ -60,10 +68,11 @@ void StudyPair::makeBeside() {
     showOverlaysOn(m_beside->viewer(), m_overlays);
     connect(m_beside, &StudyBeside::closeRequested, this, &StudyPair::closeBeside,
             Qt::QueuedConnection); // the button is deleted with its heading
-    connect(m_beside, &StudyBeside::linkChanged, this, &StudyPair::linkChanged);
+    connect(m_beside, &StudyBeside::linkChanged, this, &StudyPair::changed);
     connect(m_beside, &StudyBeside::readoutChanged, this, &StudyPair::readoutChanged);
     connect(m_beside, &StudyBeside::failed, this, &StudyPair::failed);
-    emit besideChanged(true);
+    emit besideOpened();
+    emit changed();
 }
 
 void StudyPair::closeBeside() {
@@ -71,12 +80,16 @@ void StudyPair::closeBeside() {
         return;
     delete m_beside;
     m_beside = nullptr;
-    emit besideChanged(false);
+    emit changed();
     showHeading();
 }
 
 void StudyPair::toggleLink() {
-    m_beside->findChild<QToolButton *>("linkButton")->toggle();
+    m_beside->toggleLink();
+}
+
+bool StudyPair::isLinked() const {
+    return m_beside != nullptr && m_beside->isLinked();
 }
 
 Viewer StudyPair::focused() const {
@@ -91,6 +104,13 @@ const Viewer *StudyPair::beside() const {
 
 void StudyPair::setTool(Tool tool) {
     m_tool = tool;
+    for (MprView *const plane : m_open.planes)
+        plane->setTool(tool);
+    m_open.projection->setTool(tool);
+    m_open.document.marking().setTool(regionToolOf(tool));
+    // What is drawn is seen.
+    if (measuredBy(tool) && !m_overlays.texts)
+        setOverlays({true, m_overlays.crosshair});
     if (m_beside != nullptr)
         m_beside->setTool(tool);
 }
@@ -104,6 +124,7 @@ void StudyPair::setOverlays(const Overlays &overlays) {
 
 void StudyPair::setBannerShown(bool isShown) {
     m_showsBanner = isShown;
+    QSettings().setValue(bannerKey, isShown);
     if (m_beside != nullptr)
         m_beside->setNameShown(isShown);
     showHeading();

@@ -28,17 +28,24 @@ public:
     void toggleLink();
     /// The study whose panes have the keyboard's focus: the one beside, or else the open one.
     Viewer focused() const;
+    const Viewer &open() const { return m_open; }
     /// That of the study beside; null if there is none.
     const Viewer *beside() const;
+    bool isLinked() const;
+    Tool tool() const { return m_tool; }
+    /// The tool of the left button in all panes.
     void setTool(Tool tool);
+    const Overlays &overlays() const { return m_overlays; }
     /// Applies to all panes, including later ones.
     void setOverlays(const Overlays &overlays);
-    /// Names the patient above the panes, also of a single study.
+    bool showsBanner() const { return m_showsBanner; }
+    /// Names the patient above the panes, also of a single study; remembered.
     void setBannerShown(bool isShown);
 
 signals:
-    void besideChanged(bool isThere);
-    void linkChanged(bool isLinked);
+    void besideOpened();
+    /// A second study was opened, closed, linked or unlinked.
+    void changed();
     void readoutChanged(const QString &text);
     void failed(const pellucid::task::Reason &what, const QString &path);
 
@@ -50,7 +57,7 @@ private:
     GraphicsCard &m_card;
     Tool m_tool = Tool::window;
     Overlays m_overlays;
-    bool m_showsBanner = true;
+    bool m_showsBanner;
     PlainLabel *m_heading;
     StudyBeside *m_beside = nullptr;
 };

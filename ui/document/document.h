@@ -148,7 +148,7 @@ public:
     /// Calls `react`, a method of the listener or a function, with or without the changes, after
     /// each change of one of these kinds.
     template <class Listener, class React>
-    void whenever(Changes what, Listener *listener, React react) {
+    void whenever(Changes what, Listener *listener, React react) const {
         connect(this, &Document::changed, listener, [what, listener, react](Changes changes) {
             if (!(changes & what))
                 return;

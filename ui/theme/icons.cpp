@@ -3,7 +3,6 @@
 
 #include <stdexcept>
 
-#include <QAction>
 #include <QFile>
 #include <QIconEngine>
 #include <QPainter>
@@ -49,50 +48,6 @@ QIcon themedIcon(const QString &name) {
     if (!file.open(QIODevice::ReadOnly))
         throw std::logic_error("no icon " + name.toStdString());
     return QIcon(new ThemedIcon(file.readAll()));
-}
-
-void setActionIcons(QObject &window) {
-    const struct {
-        const char *action, *icon;
-    } icons[] = {{"openFilesAction", "open"},
-                 {"importAction", "import"},
-                 {"savePictureAction", "picture"},
-                 {"exportPictureAction", "export"},
-                 {"preferencesAction", "preferences"},
-                 {"undoAction", "undo"},
-                 {"redoAction", "redo"},
-                 {"findStudyAction", "search"},
-                 {"windowToolAction", "window"},
-                 {"panToolAction", "pan"},
-                 {"zoomToolAction", "zoom"},
-                 {"crosshairToolAction", "crosshair"},
-                 {"slabAction", "slab"},
-                 {"distanceToolAction", "distance"},
-                 {"angleToolAction", "angle"},
-                 {"cobbToolAction", "cobb"},
-                 {"polylineToolAction", "polyline"},
-                 {"arrowToolAction", "arrow"},
-                 {"textToolAction", "text"},
-                 {"copyPictureAction", "copy"},
-                 {"printAction", "print"},
-                 {"headerAction", "tags"},
-                 {"ellipseToolAction", "ellipse"},
-                 {"rectangleToolAction", "rectangle"},
-                 {"cropToolAction", "crop"},
-                 {"connectedToolAction", "connected"},
-                 {"paintToolAction", "paint"},
-                 {"scissorsToolAction", "scissors"},
-                 {"playAction", "play"},
-                 {"onePlusThreeAction", "one-plus-three"},
-                 {"twoByTwoAction", "two-by-two"},
-                 {"linkStudiesAction", "link"},
-                 {"manualAction", "manual"}};
-    for (const auto &[action, icon] : icons) {
-        QAction *const found = window.findChild<QAction *>(action);
-        found->setIcon(themedIcon(icon));
-        // Menus show text only; icons beside it would add nothing.
-        found->setIconVisibleInMenu(false);
-    }
 }
 
 } // namespace pellucid::ui

@@ -9,7 +9,4 @@ namespace pellucid::ui {
 /// checked, muted when disabled. Sharp at any pixel density.
 QIcon themedIcon(const QString &name);
 
-/// Sets the icons of a window's actions, which only the tool bar shows.
-void setActionIcons(QObject &window);
-
 } // namespace pellucid::ui

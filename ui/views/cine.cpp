@@ -8,7 +8,6 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr int defaultRate = 15;
 constexpr double turnDeg = 2.0;
 
 } // namespace
@@ -16,7 +15,7 @@ constexpr double turnDeg = 2.0;
 Cine::Cine(const std::array<MprView *, 3> &planes, ProjectionView &projection, QObject *parent)
     : QObject(parent), m_planes(planes), m_projection(projection) {
     m_timer.setTimerType(Qt::PreciseTimer);
-    setFramesPerSecond(defaultRate);
+    setFramesPerSecond(m_rate);
     connect(&m_timer, &QTimer::timeout, this, &Cine::step);
 }
 
@@ -41,6 +40,7 @@ void Cine::stop() {
 }
 
 void Cine::setFramesPerSecond(int rate) {
+    m_rate = rate;
     m_timer.setInterval(1000 / rate);
 }
 

@@ -22,6 +22,7 @@ public:
     void toggle();
     void stop();
     bool isPlaying() const { return m_timer.isActive(); }
+    int framesPerSecond() const { return m_rate; }
     void setFramesPerSecond(int rate);
 
 signals:
@@ -33,6 +34,7 @@ private:
     std::array<MprView *, 3> m_planes;
     ProjectionView &m_projection;
     MprView *m_plane = nullptr; ///< none: the projection
+    int m_rate = 15;
     QTimer m_timer;
 };
 

@@ -25,6 +25,7 @@ public:
     /// The area takes ownership of the panes. *Shape*: axial, coronal, sagittal, projection.
     PaneArea(const std::array<QWidget *, 4> &panes, QWidget *parent = nullptr);
 
+    PaneLayout paneLayout() const { return m_arrangement.layout; }
     void setPaneLayout(PaneLayout layout);
     /// Fills the area with a pane, or shows all panes again if that pane already fills it.
     void toggleMaximized(QWidget *pane);

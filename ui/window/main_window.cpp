@@ -9,6 +9,7 @@
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QFileInfo>
+#include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QScreen>
@@ -23,7 +24,6 @@
 #include "core/system/log.h"
 #include "ui/beside/study_pair.h"
 #include "ui/beside/study_projection.h"
-#include "ui/document/add_command.h"
 #include "ui/jobs/job_strip.h"
 #include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
@@ -36,21 +36,19 @@
 #include "ui/panels/start_page.h"
 #include "ui/panels/study_panel.h"
 #include "ui/settings/file_dialogs.h"
-#include "ui/settings/shortcuts.h"
 #include "ui/theme/dialog_place.h"
-#include "ui/theme/icons.h"
 #include "ui/theme/wheel_guard.h"
+#include "ui/views/cine.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
+#include "ui/window/actions/commands.h"
 #include "ui/window/angle_dialog.h"
 #include "ui/window/application.h"
 #include "ui/window/class_volumes_dialog.h"
-#include "ui/window/file_menu.h"
-#include "ui/window/help_menu.h"
+#include "ui/window/file_actions.h"
 #include "ui/window/huge_question.h"
 #include "ui/window/look_docks.h"
-#include "ui/window/look_menu.h"
 #include "ui/window/pane_menus.h"
 #include "ui/window/preferences_dialog.h"
 #include "ui/window/projection_keys.h"
@@ -58,8 +56,6 @@
 #include "ui/window/server_commands.h"
 #include "ui/window/study_docks.h"
 #include "ui/window/tool_bar.h"
-#include "ui/window/tools_menu.h"
-#include "ui/window/view_menu.h"
 #include "ui/window/window_chooser.h"
 
 namespace pellucid::ui {
@@ -74,42 +70,16 @@ MainWindow::MainWindow(Workbench &bench, const Preferences &preferences, QWidget
     qApp->installEventFilter(new WheelGuard(this));
     createPanes();
     m_docks = new StudyDocks(*this, m_bench);
-    connectStudyDocks();
     m_look = new LookDocks(*this, m_bench.study.document, m_bench.study.preparer,
                            m_bench.study.copier, *m_projection);
-    connect(&m_look->presets(), &PresetsPanel::failed, this, &MainWindow::report);
-    createFileMenu();
-    createEditMenu();
-    createViewMenu();
-    auto *lookMenu = new LookMenu(*menuBar()->addMenu(tr("&Look")), m_bench.study.document, *m_look,
-                                  *m_projection);
-    m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_bench.study.document, m_mpr,
-                            *m_projection, m_bench.study.phases);
-    m_pair->setTool(m_tools->tool());
-    connect(m_tools, &ToolsMenu::toolChosen, m_pair, &StudyPair::setTool);
-    connect(m_tools, &ToolsMenu::toolChosen, this, [this](Tool tool) {
-        if (measuredBy(tool))
-            m_view->showAnnotations();
-    });
-    connect(m_tools, &ToolsMenu::classVolumesRequested, this, &MainWindow::showClassVolumes);
-    connect(&m_look->classes(), &ClassesPanel::volumesRequested, this,
-            &MainWindow::showClassVolumes);
-    auto *menus =
-        new PaneMenus(*this, {m_bench.study.document, m_mpr, m_projection, m_panes}, *m_tools);
-    connect(m_pair, &StudyPair::besideChanged, menus, [this, menus](bool isThere) {
-        if (isThere)
-            menus->addBeside(*m_pair->beside());
-    });
-    createHelpMenu();
-    setActionIcons(*this);
-    const auto focusedDocument = [this]() -> Document & { return m_pair->focused().document; };
-    WindowChooser *chooser =
-        makeToolBar(*this, m_bench.study.document, m_preferences.toolBar,
-                    {*m_tools, m_view->layouts(), m_view->standardViews(), lookMenu->windowMenu()});
-    chooser->setTarget(focusedDocument);
-    m_file->setFocused([this] { return m_pair->focused(); });
+    m_files = new FileActions(*this, m_bench, *m_pair);
+    m_servers = new ServerCommands(*this, m_bench, *m_docks, *m_pair);
+    createActions();
+    connectStudyDocks();
+    connectLookDocks();
+    connect(m_start, &StartPage::openFilesRequested, m_files, &FileActions::chooseFiles);
+    connect(m_start, &StartPage::openFolderRequested, m_files, &FileActions::chooseFolder);
     createStatusBar();
-    applyShortcuts(*this);
     connectBench();
     const QSettings settings;
     restoreGeometry(settings.value("geometry").toByteArray());
@@ -120,6 +90,7 @@ MainWindow::MainWindow(Workbench &bench, const Preferences &preferences, QWidget
     connect(new ProjectionKeys(*this, *m_projection), &ProjectionKeys::comparisonRequested, this,
             &MainWindow::compareLooks);
     showVolumeState();
+    m_actions->refresh();
 }
 
 MainWindow::~MainWindow() {
@@ -154,7 +125,7 @@ void MainWindow::createPanes() {
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     m_pair = new StudyPair({m_bench.study.document, m_mpr, m_projection, m_panes}, m_bench.card);
-    connect(m_pair, &StudyPair::failed, this, &MainWindow::report);
+    connect(m_pair, &StudyPair::failed, &m_bench.notices, &Notices::report);
     column->addWidget(new RegionBar(m_bench.study.document));
     column->addWidget(m_pair, 1);
     column->addWidget(new PhaseBar(m_bench.study.phases));
@@ -178,6 +149,52 @@ void MainWindow::connectBench() {
             });
 }
 
+void MainWindow::createActions() {
+    Document &document = m_bench.study.document;
+    const auto focused = [this]() -> Document & { return m_pair->focused().document; };
+    auto *windows = new WindowChooser(document, focused, this);
+    auto *cine = new Cine(m_mpr, *m_projection, this);
+    m_actions = new ActionTable(this);
+    const Scope scope{*this,   m_bench,  m_pair->open(), *m_pair,  *m_docks,
+                      *m_look, *m_files, *m_servers,     *windows, *cine};
+    for (const auto rows : {fileCommands, viewCommands, lookCommands, toolCommands})
+        m_actions->add(rows(scope));
+    for (const MenuEntry &menu : menus().bar)
+        m_actions->fill(*menuBar(), menu);
+    QMenu &list = *m_actions->menu("dockMenu");
+    QAction *const reset = list.actions().front();
+    std::vector<QDockWidget *> docks = m_docks->listed();
+    docks.insert(docks.end(), m_look->docks().begin(), m_look->docks().end());
+    for (QDockWidget *dock : docks)
+        list.insertAction(reset, dock->toggleViewAction());
+    list.insertSeparator(reset);
+    // Elsewhere, Space activates the focused control.
+    QAction *const play = (*m_actions)["playAction"];
+    play->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    m_projection->addAction(play);
+    for (MprView *plane : m_mpr)
+        plane->addAction(play);
+    const ToolBar bar = makeToolBar(*this, *m_actions);
+    m_toolBar = bar.bar;
+    setToolBarStyle(*m_toolBar, m_preferences.toolBar);
+    windows->show(*m_actions->menu("windowMenu"), *bar.windows, *m_actions);
+    auto *menus = new PaneMenus(m_pair->open(), *m_actions, this);
+    connect(m_pair, &StudyPair::besideOpened, menus,
+            [this, menus] { menus->addBeside(*m_pair->beside()); });
+
+    document.whenever(Change::volume | Change::scene | Change::displayWindow | Change::cut |
+                          Change::segments | Change::selection | Change::currentSource,
+                      m_actions, [this, cine](Changes changes) {
+                          if (changes & Change::volume)
+                              cine->stop();
+                          m_actions->refresh();
+                      });
+    connect(cine, &Cine::playingChanged, m_actions, &ActionTable::refresh);
+    connect(&m_bench.study.phases, &Phases::changed, m_actions, &ActionTable::refresh);
+    connect(&m_bench.card, &GraphicsCard::changed, m_actions, &ActionTable::refresh);
+    connect(m_pair, &StudyPair::changed, m_actions, &ActionTable::refresh);
+}
+
 void MainWindow::connectStudyDocks() {
     StudyPanel *studies = &m_docks->studies();
     connect(studies, &StudyPanel::sourceActivated, &m_bench.study.opener,
@@ -185,122 +202,38 @@ void MainWindow::connectStudyDocks() {
     connect(studies, &StudyPanel::closeRequested, &m_bench.study.opener, &StudyOpener::closeSource);
     connect(studies, &StudyPanel::besideRequested, m_pair, &StudyPair::openBeside);
     connect(studies, &StudyPanel::libraryVolumeActivated, m_reopening, &Reopening::openFromLibrary);
-    connect(&m_bench.library, &StudyLibrary::failed, this, &MainWindow::report);
+    connect(studies, &StudyPanel::importRequested, m_files, &FileActions::importPaths);
     connect(&m_bench.library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
         m_bench.study.document.addProblems(result.skipped);
-        statusBar()->showMessage(tr("Imported: %1 series, %2 files; %3 not used")
-                                     .arg(QString::number(result.series),
-                                          QString::number(result.files),
-                                          QString::number(result.skipped.size())),
-                                 8000);
+        m_bench.notices.say(tr("Imported: %1 series, %2 files; %3 not used")
+                                .arg(QString::number(result.series), QString::number(result.files),
+                                     QString::number(result.skipped.size())));
     });
     connect(&m_docks->measurements(), &MeasurementsPanel::viewRequested, m_projection,
             &ProjectionView::lookAlong);
-    connect(&m_bench.measurements, &MeasurementStore::failed, this, &MainWindow::report);
+    connect(&m_docks->measurements(), &MeasurementsPanel::exportRequested, m_files,
+            &FileActions::exportMeasurements);
 }
 
-QAction *MainWindow::command(QMenu &menu, const QString &text, const char *name,
-                             const QKeySequence &key, const std::function<void()> &run) {
-    return addCommand(menu, text, name, key, this, run);
-}
-
-void MainWindow::createFileMenu() {
-    m_file = new FileMenu(*menuBar()->addMenu(tr("&File")), *this, m_bench, {m_mpr, m_projection});
-    connect(m_file, &FileMenu::pathsChosen, this, &MainWindow::openPaths);
-    connect(m_file, &FileMenu::besideRequested, m_pair, &StudyPair::openBeside);
-    connect(m_file, &FileMenu::phantomChosen, this, &MainWindow::openPhantom);
-    connect(m_file, &FileMenu::failed, this, &MainWindow::report);
-    if (const auto *const application = qobject_cast<Application *>(qApp))
-        connect(application, &Application::failed, this, &MainWindow::report);
-    connect(m_file, &FileMenu::messageShown, this,
-            [this](const QString &text) { statusBar()->showMessage(shownText(text), 4000); });
-    connect(m_file, &FileMenu::quitRequested, this, &QWidget::close);
-    connect(m_file, &FileMenu::recentForgotten, m_reopening, &Reopening::forgetAll);
-    connect(m_file, &FileMenu::preferencesRequested, this, [this] { openPreferences(); });
-    connect(&m_docks->measurements(), &MeasurementsPanel::exportRequested, m_file,
-            &FileMenu::exportMeasurements);
-    connect(&m_docks->studies(), &StudyPanel::importRequested, m_file, &FileMenu::importPaths);
+void MainWindow::connectLookDocks() {
+    connect(&m_look->presets(), &PresetsPanel::failed, &m_bench.notices, &Notices::report);
+    connect(&m_look->classes(), &ClassesPanel::volumesRequested, this,
+            &MainWindow::showClassVolumes);
     connect(&m_look->classes(), &ClassesPanel::segmentationRequested, this,
             [this](const QStringList &paths) {
                 if (paths.isEmpty())
-                    m_file->chooseSegmentations();
+                    m_files->chooseSegmentations();
                 else
                     m_bench.study.segments.open(paths);
             });
-    m_servers = new ServerCommands(*this, m_bench, *m_docks);
-    connect(m_file, &FileMenu::serversRequested, m_servers, &ServerCommands::showServers);
-    connect(m_servers, &ServerCommands::failed, this, &MainWindow::report);
-    connect(m_servers, &ServerCommands::studyArrived, this,
-            [this](const QString &folder) { openPaths({folder}); });
-    connect(m_servers, &ServerCommands::besideRequested, m_pair, &StudyPair::openBeside);
-    connect(m_servers, &ServerCommands::messageShown, this,
-            [this](const QString &text) { statusBar()->showMessage(shownText(text), 4000); });
-    connect(m_start, &StartPage::openFilesRequested, m_file, &FileMenu::chooseFiles);
-    connect(m_start, &StartPage::openFolderRequested, m_file, &FileMenu::chooseFolder);
 }
 
 PreferencesDialog &MainWindow::openPreferences() {
-    auto *dialog = findChild<PreferencesDialog *>();
-    if (dialog == nullptr) {
-        dialog = new PreferencesDialog(this);
+    return showOnly<PreferencesDialog>(*this, [this] {
+        auto *dialog = new PreferencesDialog(*m_actions, this);
         connect(dialog, &PreferencesDialog::changed, this, &MainWindow::preferencesChanged);
-    }
-    dialog->show();
-    dialog->raise();
-    dialog->activateWindow();
-    return *dialog;
-}
-
-void MainWindow::createEditMenu() {
-    QMenu *menu = menuBar()->addMenu(tr("&Edit"));
-    QAction *undo = m_bench.study.document.undoStack()->createUndoAction(this, tr("Undo"));
-    undo->setObjectName("undoAction");
-    undo->setIconText(tr("Undo")); // of the button; the menu names the edit
-    undo->setToolTip(tr("Undo"));
-    undo->setShortcut(QKeySequence::Undo);
-    QAction *redo = m_bench.study.document.undoStack()->createRedoAction(this, tr("Redo"));
-    redo->setObjectName("redoAction");
-    redo->setIconText(tr("Redo"));
-    redo->setToolTip(tr("Redo"));
-    redo->setShortcut(QKeySequence("Ctrl+Shift+Z"));
-    menu->addActions({undo, redo});
-    menu->addSeparator();
-    command(*menu, tr("&Find a study"), "findStudyAction", QKeySequence::Find, [this] {
-        m_docks->study().show();
-        m_docks->studies().focusSearch();
+        return dialog;
     });
-    menu->addSeparator();
-    command(*menu, tr("&Delete measurement"), "deleteMeasurementAction", QKeySequence::Delete,
-            [this] { m_docks->measurements().removeSelected(); });
-}
-
-void MainWindow::createViewMenu() {
-    m_view = new ViewMenu(*menuBar()->addMenu(tr("&View")), *this,
-                          {m_bench.study.document, m_mpr, m_projection, m_panes}, m_bench.card);
-    connect(m_view, &ViewMenu::comparisonRequested, this, &MainWindow::compareLooks);
-    connect(m_view, &ViewMenu::anglesRequested, this, &MainWindow::showAngles);
-    connect(m_projection, &ProjectionView::anglesRequested, this, &MainWindow::showAngles);
-    connect(m_view, &ViewMenu::overlaysChanged, m_pair, &StudyPair::setOverlays);
-    connect(m_view, &ViewMenu::bannerToggled, m_pair, &StudyPair::setBannerShown);
-    m_pair->setBannerShown(m_view->showsBanner());
-    connect(m_view, &ViewMenu::linkRequested, m_pair, &StudyPair::toggleLink);
-    connect(m_view, &ViewMenu::closeBesideRequested, m_pair, &StudyPair::closeBeside);
-    connect(m_pair, &StudyPair::besideChanged, m_view, &ViewMenu::setBeside);
-    connect(m_pair, &StudyPair::linkChanged, m_view, &ViewMenu::setLinked);
-    connect(m_view, &ViewMenu::preparationRequested, &m_bench.study.preparer,
-            &LookPreparer::prepareAgain);
-}
-
-void MainWindow::createHelpMenu() {
-    QMenu *window = menuBar()->addMenu(tr("W&indow"));
-    for (QDockWidget *dock : m_docks->listed())
-        window->addAction(dock->toggleViewAction());
-    for (QDockWidget *dock : m_look->docks())
-        window->addAction(dock->toggleViewAction());
-    window->addSeparator();
-    command(*window, tr("&Reset layout"), "resetLayoutAction", {}, [this] { resetLayout(); });
-    addHelpMenu(*menuBar()->addMenu(tr("&Help")), *this,
-                [this](const task::Reason &what, const QString &path) { report(what, path); });
 }
 
 void MainWindow::createStatusBar() {
@@ -324,12 +257,11 @@ void MainWindow::createStatusBar() {
         unprotected->setVisible(application->isUnprotected());
         connect(application, &Application::unprotected, unprotected, &QWidget::show);
         connect(application, &Application::unprotected, this,
-                [this] { report(task::because::systemDoesNotProtect, {}); });
+                [this] { m_bench.notices.report(task::because::systemDoesNotProtect, {}); });
+        connect(application, &Application::failed, &m_bench.notices, &Notices::report);
     }
+    connect(&m_bench.notices, &Notices::shown, statusBar(), &QStatusBar::showMessage);
     connect(&m_bench.study.jobs, &JobRunner::failed, this, &MainWindow::reportLoad);
-    connect(&m_bench.study.regions.jobs(), &JobRunner::failed, this, &MainWindow::report);
-    connect(&m_bench.study.document, &Document::editRefused, this,
-            [this](const task::Reason &reason) { report(reason, {}); });
     connect(m_projection, &ProjectionView::engineDescribed, this, [this](const QString &text) {
         if (text != m_engine->text())
             system::log(text.toStdString());
@@ -387,13 +319,13 @@ void MainWindow::openLink(const QString &link) {
     try {
         m_servers->open(openRequestOf(link));
     } catch (const task::Error &error) {
-        report(error.reason(), link.left(80));
+        m_bench.notices.report(error.reason(), link.left(80));
     }
 }
 
 void MainWindow::setPreferences(const Preferences &preferences) {
     m_preferences = preferences;
-    setToolBarStyle(*this, preferences.toolBar);
+    setToolBarStyle(*m_toolBar, preferences.toolBar);
     m_reopening->setPreferences(preferences);
     showTitle();
 }
@@ -412,13 +344,8 @@ void MainWindow::openPhantom(const QString &kind) {
     m_bench.study.opener.openPhantom(kind);
 }
 
-void MainWindow::report(const task::Reason &what, const QString &path) {
-    m_bench.study.document.addProblems({{path.toStdString(), what}});
-    statusBar()->showMessage(translated(what), 8000);
-}
-
 void MainWindow::reportLoad(const task::Reason &what, const QString &path) {
-    report(what, path);
+    m_bench.notices.report(what, path);
     if (m_bench.study.document.volume())
         m_projection->setMessage(translated(what));
 }
@@ -437,37 +364,28 @@ void MainWindow::dropEvent(QDropEvent *event) {
 }
 
 void MainWindow::showAngles() {
-    auto *dialog = findChild<AngleDialog *>();
-    if (dialog == nullptr)
-        dialog = new AngleDialog(m_bench.study.document, *m_projection, this);
-    dialog->show();
-    placeBeside(*dialog);
-    dialog->raise();
-    dialog->activateWindow();
+    placeBeside(showOnly<AngleDialog>(
+        *this, [this] { return new AngleDialog(m_bench.study.document, *m_projection, this); }));
 }
 
 void MainWindow::showClassVolumes() {
     Document &document = m_bench.study.document;
     if (!document.volume() || document.isPreview())
         return;
-    auto *dialog = findChild<ClassVolumesDialog *>();
-    if (dialog == nullptr) {
-        dialog = new ClassVolumesDialog(document, this);
-        connect(dialog, &ClassVolumesDialog::failed, this, &MainWindow::report);
+    showOnly<ClassVolumesDialog>(*this, [&] {
+        auto *dialog = new ClassVolumesDialog(document, this);
+        connect(dialog, &ClassVolumesDialog::failed, &m_bench.notices, &Notices::report);
         connect(dialog, &ClassVolumesDialog::saved, this, [this](const QString &path) {
-            statusBar()->showMessage(tr("Saved: %1").arg(shownText(QFileInfo(path).fileName())),
-                                     4000);
+            m_bench.notices.say(tr("Saved: %1").arg(QFileInfo(path).fileName()));
         });
-    }
-    dialog->show();
-    dialog->raise();
-    dialog->activateWindow();
+        return dialog;
+    });
 }
 
 void MainWindow::compareLooks(bool isComparing) {
     m_projection->setComparing(isComparing);
     if (isComparing && !m_projection->isComparing())
-        statusBar()->showMessage(tr("There is no earlier look to compare with"), 4000);
+        m_bench.notices.say(tr("There is no earlier look to compare with"));
 }
 
 void MainWindow::keyPressEvent(QKeyEvent *event) {
@@ -503,8 +421,6 @@ void MainWindow::resetLayout() {
     m_look->reset(height());
     m_panes->setPaneLayout(PaneLayout::onePlusThree);
     m_panes->restoreDefaultSizes();
-    for (QAction *layout : m_view->layouts())
-        layout->setChecked(layout->objectName() == "onePlusThreeAction");
 }
 
 void MainWindow::closeEvent(QCloseEvent *event) {

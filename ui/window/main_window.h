@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 
 #include <QMainWindow>
 
@@ -11,10 +10,12 @@
 #include "ui/window/workbench.h"
 
 class QStackedWidget;
+class QToolBar;
 
 namespace pellucid::ui {
 
-class FileMenu;
+class ActionTable;
+class FileActions;
 class LookDocks;
 class MprView;
 class PaneArea;
@@ -26,10 +27,8 @@ class ServerCommands;
 class StartPage;
 class StudyDocks;
 class StudyPair;
-class ToolsMenu;
-class ViewMenu;
 
-/// The workstation's window: creates the panes and docks, names the menus, connects intents.
+/// The workstation's window: creates panes, docks and actions, and connects them.
 class MainWindow : public QMainWindow {
     Q_OBJECT
 public:
@@ -42,6 +41,11 @@ public:
     void openPhantom(const QString &kind);
     void setPreferences(const Preferences &preferences);
     PreferencesDialog &openPreferences();
+    void showAngles();
+    void showClassVolumes();
+    void compareLooks(bool isComparing);
+    /// Shows panes and docks where they were at first.
+    void resetLayout();
     /// Saves the sizes and places of window, docks and panes in the settings.
     void keepLayout();
 
@@ -49,7 +53,8 @@ public:
     JobRunner &jobs() { return m_bench.study.jobs; }
     StudyLibrary &library() { return m_bench.library; }
     GraphicsCard &graphicsCard() { return m_bench.card; }
-    FileMenu &fileMenu() { return *m_file; }
+    FileActions &files() { return *m_files; }
+    ActionTable &actions() { return *m_actions; }
     Reopening &reopening() { return *m_reopening; }
 
 signals:
@@ -65,29 +70,21 @@ protected:
 
 private:
     void createPanes();
+    void createActions();
     void connectStudyDocks();
+    void connectLookDocks();
     void connectBench();
-    void createFileMenu();
-    void createEditMenu();
-    void createViewMenu();
-    void createHelpMenu();
     void createStatusBar();
     void showVolumeState();
     void showPictures();
-    void resetLayout();
-    void compareLooks(bool isComparing);
-    void showAngles();
-    void showClassVolumes();
     void showTitle();
-    void report(const task::Reason &what, const QString &path);
     /// Reports the failure of a job in the projection's pane, too.
     void reportLoad(const task::Reason &what, const QString &path);
-    QAction *command(QMenu &menu, const QString &text, const char *name, const QKeySequence &key,
-                     const std::function<void()> &run);
 
     Workbench &m_bench;
     Preferences m_preferences;
-    FileMenu *m_file = nullptr;
+    ActionTable *m_actions = nullptr;
+    FileActions *m_files = nullptr;
     ServerCommands *m_servers = nullptr;
     std::array<MprView *, 3> m_mpr{};
     ProjectionView *m_projection = nullptr;
@@ -98,8 +95,7 @@ private:
     Reopening *m_reopening = nullptr;
     QStackedWidget *m_stack = nullptr;
     StudyDocks *m_docks = nullptr;
-    ToolsMenu *m_tools = nullptr;
-    ViewMenu *m_view = nullptr;
+    QToolBar *m_toolBar = nullptr;
     PlainLabel *m_readout = nullptr, *m_engine = nullptr;
 };
 

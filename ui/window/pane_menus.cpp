@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <QAction>
-#include <QMainWindow>
 #include <QMenu>
 
 #include "ui/document/commands.h"
@@ -13,12 +11,12 @@
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
-#include "ui/window/tools_menu.h"
+#include "ui/window/actions/commands.h"
 
 namespace pellucid::ui {
 
-PaneMenus::PaneMenus(QMainWindow &window, const Viewer &viewer, const ToolsMenu &tools)
-    : QObject(&window), m_window(window), m_viewer(viewer), m_tools(tools) {
+PaneMenus::PaneMenus(const Viewer &viewer, ActionTable &actions, QObject *parent)
+    : QObject(parent), m_viewer(viewer), m_actions(actions) {
     watch(viewer);
 }
 
@@ -44,22 +42,29 @@ void PaneMenus::open(const Viewer &viewer, QWidget *pane, const QPoint &globalAt
     menu.setAttribute(Qt::WA_DeleteOnClose);
     if (measurement >= 0)
         addMeasurement(menu, viewer.document, measurement);
-    QMenu *const tools = menu.addMenu(tr("&Tool"));
-    m_tools.addToolsTo(*tools);
-    if (viewer.area != m_viewer.area)
+    const Menus all = menus();
+    const bool isOpenStudy = viewer.area == m_viewer.area;
+    m_actions.fill(menu, {{"", tr("&Tool"), all.tools}});
+    if (!isOpenStudy) {
         menu.addSeparator();
-    else if (pane == viewer.projection)
-        addProjection(menu);
-    else
-        addPlane(menu, pane);
+    } else if (pane == viewer.projection) {
+        menu.addAction(tr("&Fit to the patient") + "\tR", viewer.projection,
+                       &ProjectionView::fitView);
+        m_actions.fill(menu, all.projection);
+    } else {
+        menu.addAction(tr("&Reset the plane's view"), this,
+                       [pane] { static_cast<MprView *>(pane)->resetView(); });
+        m_actions.fill(menu, all.plane);
+    }
     menu.addSeparator();
     menu.addAction(viewer.area->isMaximized() ? tr("Show &all panes") : tr("&Maximize"), this,
                    [area = viewer.area, pane] { area->toggleMaximized(pane); });
-    addNamed(menu, {"annotationsAction", "crosshairAction"});
-    menu.addSeparator();
-    addNamed(menu, {"copyPictureAction", "printAction"});
-    if (viewer.area == m_viewer.area)
-        addNamed(menu, {"exportPictureAction"});
+    m_actions.fill(
+        menu,
+        {{"annotationsAction"}, {"crosshairAction"}, {}, {"copyPictureAction"}, {"printAction"}});
+    if (isOpenStudy)
+        m_actions.fill(menu, {{"exportPictureAction"}});
+    m_actions.refresh();
     menu.popup(globalAt);
 }
 
@@ -81,38 +86,6 @@ void PaneMenus::addMeasurement(QMenu &menu, Document &document, int measurement)
                            new EditMeasurements(document, all, tr("Delete measurement")));
                    });
     menu.addSeparator();
-}
-
-void PaneMenus::addPlane(QMenu &menu, QWidget *pane) {
-    addSubmenu(menu, "windowMenu");
-    addSubmenu(menu, "slabMenu");
-    menu.addSeparator();
-    menu.addAction(tr("&Reset the plane's view"), this,
-                   [pane] { static_cast<MprView *>(pane)->resetView(); });
-    addNamed(menu, {"straightenAction", "alongScanAction"});
-}
-
-void PaneMenus::addProjection(QMenu &menu) {
-    QMenu *const views = menu.addMenu(tr("&View"));
-    addNamed(*views, {"frontViewAction", "backViewAction", "leftViewAction", "rightViewAction",
-                      "topViewAction", "bottomViewAction"});
-    addNamed(menu, {"anglesAction"});
-    menu.addSeparator();
-    menu.addAction(tr("&Fit to the patient") + "\tR", m_viewer.projection,
-                   &ProjectionView::fitView);
-    addNamed(menu, {"filmAction", "automaticToneAction", "removeCouchAction", "depthCueAction",
-                    "compareAction"});
-}
-
-void PaneMenus::addNamed(QMenu &menu, std::initializer_list<const char *> actions) {
-    for (const char *const name : actions)
-        if (auto *const action = m_window.findChild<QAction *>(name))
-            menu.addAction(action);
-}
-
-void PaneMenus::addSubmenu(QMenu &menu, const char *name) {
-    if (auto *const submenu = m_window.findChild<QMenu *>(name))
-        menu.addMenu(submenu);
 }
 
 } // namespace pellucid::ui

@@ -45,8 +45,8 @@ QCheckBox *check(const char *name, const QString &text, const QString &tip, bool
 
 } // namespace
 
-PreferencesDialog::PreferencesDialog(QWidget *window)
-    : QDialog(window), m_entries(shortcutEntries(*window)) {
+PreferencesDialog::PreferencesDialog(ActionTable &actions, QWidget *window)
+    : QDialog(window), m_actions(actions) {
     setObjectName("preferencesDialog");
     setWindowTitle(tr("Preferences"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -165,9 +165,9 @@ QWidget *PreferencesDialog::makeShortcuts() {
     connect(m_commands, &QTreeWidget::currentItemChanged, this, &PreferencesDialog::showChosenKey);
     connect(m_key, &QKeySequenceEdit::editingFinished, this, &PreferencesDialog::assignKey);
     connect(restore, &QPushButton::clicked, this, [this] {
-        if (chosen() < 0)
+        if (chosen() == nullptr)
             return;
-        m_key->setKeySequence(m_entries[std::size_t(chosen())].defaultKey);
+        m_key->setKeySequence(chosen()->defaultKey);
         assignKey();
     });
     connect(none, &QPushButton::clicked, this, [this] {
@@ -175,8 +175,8 @@ QWidget *PreferencesDialog::makeShortcuts() {
         assignKey();
     });
     connect(all, &QPushButton::clicked, this, [this] {
-        for (const ShortcutEntry &entry : m_entries)
-            setShortcut(entry, entry.defaultKey);
+        for (const ActionTable::Row *entry : m_actions.listed())
+            m_actions.setKey(*entry, entry->defaultKey);
         m_conflict->clear();
         showShortcuts();
     });
@@ -185,40 +185,40 @@ QWidget *PreferencesDialog::makeShortcuts() {
 }
 
 void PreferencesDialog::showShortcuts() {
-    const int before = chosen();
+    const ActionTable::Row *const before = chosen();
     m_commands->clear();
-    for (std::size_t n = 0; n < m_entries.size(); ++n) {
-        const ShortcutEntry &entry = m_entries[n];
-        const QString key = entry.action->shortcut().toString(QKeySequence::NativeText);
-        if (!containsWords(entry.text + "\n" + key, m_filter->text()))
+    for (std::size_t n = 0; n < m_actions.listed().size(); ++n) {
+        const ActionTable::Row &row = *m_actions.listed()[n];
+        const QString key = row.action->shortcut().toString(QKeySequence::NativeText);
+        if (!containsWords(row.path + "\n" + key, m_filter->text()))
             continue;
-        auto *item = new QTreeWidgetItem(m_commands, {entry.text, key});
+        auto *item = new QTreeWidgetItem(m_commands, {row.path, key});
         item->setData(0, Qt::UserRole, int(n));
-        if (entry.action->shortcut() != entry.defaultKey) {
+        if (row.action->shortcut() != row.defaultKey) {
             QFont changed = font();
             changed.setBold(true);
             item->setFont(1, changed);
         }
-        if (int(n) == before)
+        if (&row == before)
             m_commands->setCurrentItem(item);
     }
 }
 
-int PreferencesDialog::chosen() const {
+const ActionTable::Row *PreferencesDialog::chosen() const {
     const QTreeWidgetItem *const item = m_commands->currentItem();
-    return item == nullptr ? -1 : item->data(0, Qt::UserRole).toInt();
+    return item == nullptr ? nullptr : m_actions.listed()[item->data(0, Qt::UserRole).toUInt()];
 }
 
 void PreferencesDialog::showChosenKey() {
-    m_key->setEnabled(chosen() >= 0);
-    if (chosen() >= 0)
-        m_key->setKeySequence(m_entries[std::size_t(chosen())].action->shortcut());
+    m_key->setEnabled(chosen() != nullptr);
+    if (chosen() != nullptr)
+        m_key->setKeySequence(chosen()->action->shortcut());
 }
 
 void PreferencesDialog::assignKey() {
-    if (chosen() < 0)
+    if (chosen() == nullptr)
         return;
-    const ShortcutEntry &entry = m_entries[std::size_t(chosen())];
+    const ActionTable::Row &entry = *chosen();
     const QKeySequence key = m_key->keySequence();
     m_conflict->clear();
     // The panes always use these keys.
@@ -230,13 +230,13 @@ void PreferencesDialog::assignKey() {
             return;
         }
     // A key runs only one action: take it from the action that has it.
-    for (const ShortcutEntry &other : m_entries)
-        if (!key.isEmpty() && other.action != entry.action && other.action->shortcut() == key) {
-            setShortcut(other, {});
+    for (const ActionTable::Row *other : m_actions.listed())
+        if (!key.isEmpty() && other != &entry && other->action->shortcut() == key) {
+            m_actions.setKey(*other, {});
             m_conflict->setText(tr("%1 was taken from \"%2\", which now has no key")
-                                    .arg(key.toString(QKeySequence::NativeText), other.text));
+                                    .arg(key.toString(QKeySequence::NativeText), other->path));
         }
-    setShortcut(entry, key);
+    m_actions.setKey(entry, key);
     showShortcuts();
 }
 

@@ -4,7 +4,7 @@
 #include <QDialog>
 
 #include "ui/settings/preferences.h"
-#include "ui/settings/shortcuts.h"
+#include "ui/window/actions/action_table.h"
 
 class QCheckBox;
 class QComboBox;
@@ -21,7 +21,7 @@ class PlainLabel;
 class PreferencesDialog : public QDialog {
     Q_OBJECT
 public:
-    explicit PreferencesDialog(QWidget *window);
+    PreferencesDialog(ActionTable &actions, QWidget *window);
 
 signals:
     void changed(const pellucid::ui::Preferences &preferences);
@@ -33,9 +33,10 @@ private:
     void showShortcuts();
     void showChosenKey();
     void assignKey();
-    int chosen() const;
+    /// The selected row; null if there is none.
+    const ActionTable::Row *chosen() const;
 
-    std::vector<ShortcutEntry> m_entries;
+    ActionTable &m_actions;
     QComboBox *m_language, *m_theme, *m_toolBar;
     QCheckBox *m_remembers, *m_resumes, *m_title;
     QLineEdit *m_filter;

@@ -12,11 +12,13 @@
 
 #include "core/archive/reasons.h"
 #include "core/archive/sending.h"
+#include "ui/beside/study_pair.h"
 #include "ui/language/question.h"
 #include "ui/language/reasons.h"
 #include "ui/panels/earlier_panel.h"
 #include "ui/panels/study_panel.h"
 #include "ui/panels/transfers_panel.h"
+#include "ui/theme/dialog_place.h"
 #include "ui/window/servers_dialog.h"
 #include "ui/window/study_docks.h"
 #include "ui/window/workbench.h"
@@ -30,12 +32,12 @@ constexpr auto allowedKey = "links/allowedServers";
 
 } // namespace
 
-ServerCommands::ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks &docks)
-    : QObject(&window), m_window(window), m_bench(bench), m_docks(docks) {
+ServerCommands::ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks &docks,
+                               StudyPair &pair)
+    : QObject(&window), m_window(window), m_bench(bench), m_docks(docks), m_pair(pair) {
     connect(&docks.studies(), &StudyPanel::retrieveRequested, this, &ServerCommands::retrieve);
     connect(&docks.studies(), &StudyPanel::sendRequested, this, &ServerCommands::send);
     connect(&docks.transfersPanel(), &TransfersPanel::sendRequested, this, &ServerCommands::send);
-    connect(&bench.servers, &ServerBook::failed, this, &ServerCommands::failed);
     connectTransfers();
     connectEarlier();
     // After the window has connected to the signals.
@@ -53,18 +55,17 @@ void ServerCommands::connectTransfers() {
                     m_bench.study.opener.openArriving(study.study, series);
                 }
             });
-    connect(&m_bench.transfers, &TransferQueue::failed, this, &ServerCommands::failed);
-    connect(&m_bench.receiver, &StudyReceiver::failed, this, &ServerCommands::failed);
     connect(&m_bench.receiver, &StudyReceiver::arrived, this,
-            [this] { emit messageShown(tr("A study has arrived")); });
+            [this] { m_bench.notices.say(tr("A study has arrived")); });
     // What was asked for is shown, unless another study is open by then.
     connect(&m_bench.transfers, &TransferQueue::completed, this,
             [this](const QString &folder, bool isAwaited, const archive::RetrievalReport &report) {
                 const QString uid = QFileInfo(folder).fileName();
                 const auto askForOther = [this, folder, report] {
                     if (report.ofAnotherPatient > 0)
-                        askForAnotherPatient(report.listed, report.named,
-                                             [this, folder] { emit studyArrived(folder); });
+                        askForAnotherPatient(report.listed, report.named, [this, folder] {
+                            m_bench.study.opener.openPaths({folder});
+                        });
                 };
                 const bool isCorrected =
                     isAwaited && report.corrected > 0 && !m_askedToReplace.contains(uid);
@@ -85,9 +86,9 @@ void ServerCommands::connectTransfers() {
                     openAwaitedBeside();
                 }
                 if (isIdle && isAwaited && !isForBeside && uid != m_seen)
-                    emit studyArrived(folder);
+                    m_bench.study.opener.openPaths({folder});
                 else
-                    emit messageShown(tr("A study has arrived"));
+                    m_bench.notices.say(tr("A study has arrived"));
             });
 }
 
@@ -197,12 +198,12 @@ bool ServerCommands::openHere(const StudyFacts &wanted) {
         volumes.begin(), volumes.end(),
         [&](const VolumeFacts &a, const VolumeFacts &b) { return rank(a) < rank(b); });
     if (best == volumes.end() || !best->placed) {
-        emit messageShown(tr("This study has no volume"));
+        m_bench.notices.say(tr("This study has no volume"));
         return true;
     }
     const auto open =
         [this, source = librarySource(*study, *best, m_bench.library.files(*study, *best))] {
-            emit besideRequested(source);
+            m_pair.openBeside(source);
         };
     const archive::Patient listed = patientOf(wanted), named = patientOf(*study);
     if (archive::isOfAnother(listed, named))
@@ -213,12 +214,9 @@ bool ServerCommands::openHere(const StudyFacts &wanted) {
 }
 
 void ServerCommands::showServers() {
-    auto *dialog = m_window.findChild<ServersDialog *>();
-    if (dialog == nullptr)
-        dialog = new ServersDialog(m_bench.servers, m_bench.receiver, &m_window);
-    dialog->show();
-    dialog->raise();
-    dialog->activateWindow();
+    showOnly<ServersDialog>(m_window, [this] {
+        return new ServersDialog(m_bench.servers, m_bench.receiver, &m_window);
+    });
 }
 
 void ServerCommands::open(const OpenRequest &request) {
@@ -227,7 +225,7 @@ void ServerCommands::open(const OpenRequest &request) {
         return QString::fromStdString(one.name) == request.server;
     });
     if (server == servers.end()) {
-        emit failed(task::because::thereIsNoServer(request.server.toStdString()), {});
+        m_bench.notices.report(task::because::thereIsNoServer(request.server.toStdString()), {});
         return;
     }
     // With its address: another server of the same name is asked about again.
@@ -274,18 +272,18 @@ void ServerCommands::find(const OpenRequest &request) {
                 },
                 [this, request](const Outcome &outcome) {
                     if (outcome.kind == Outcome::Kind::failed)
-                        emit failed(*outcome.reason, request.server);
+                        m_bench.notices.report(*outcome.reason, request.server);
                 });
         });
 }
 
 void ServerCommands::send(const QStringList &files, const QString &server) {
     if (files.isEmpty()) {
-        emit messageShown(tr("There are no files to send"));
+        m_bench.notices.say(tr("There are no files to send"));
         return;
     }
     if (m_bench.exports.isRunning()) { // another job would cancel it
-        emit messageShown(tr("Another export is running"));
+        m_bench.notices.say(tr("Another export is running"));
         return;
     }
     m_bench.servers.withSecrets(
@@ -304,18 +302,18 @@ void ServerCommands::send(const QStringList &files, const QString &server) {
                 [this, paths, target = servers.front(), name](const Job &job) {
                     const auto report = archive::send(target, paths, {}, job.progress());
                     job.deliver([this, report, name] {
-                        for (const auto *const files : {&report.notSent, &report.withChanges})
-                            for (const dicom::Skipped &file : *files)
-                                emit failed(file.reason,
-                                            QString::fromStdString(file.path.string()));
-                        emit messageShown(tr("%1 of %2 sent to %3")
-                                              .arg(QString::number(report.state.sent),
-                                                   QString::number(report.state.files), name));
+                        for (const auto *const left : {&report.notSent, &report.withChanges})
+                            for (const dicom::Skipped &file : *left)
+                                m_bench.notices.report(file.reason,
+                                                       QString::fromStdString(file.path.string()));
+                        m_bench.notices.say(tr("%1 of %2 sent to %3")
+                                                .arg(QString::number(report.state.sent),
+                                                     QString::number(report.state.files), name));
                     });
                 },
                 [this, name](const Outcome &outcome) {
                     if (outcome.kind == Outcome::Kind::failed)
-                        emit failed(*outcome.reason, name);
+                        m_bench.notices.report(*outcome.reason, name);
                 });
         });
 }

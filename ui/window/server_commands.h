@@ -22,25 +22,19 @@ namespace pellucid::ui {
 
 struct Workbench;
 class StudyDocks;
+class StudyPair;
 
 /// The commands that concern servers: the dialog, retrieving, sending, links of other programs,
 /// earlier studies, and what happens when a study has arrived.
 class ServerCommands : public QObject {
     Q_OBJECT
 public:
-    ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks &docks);
+    ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks &docks, StudyPair &pair);
 
     void showServers();
     /// Opens what a link asks for: from a known server only, and after the user has allowed links
     /// for it.
     void open(const OpenRequest &request);
-
-signals:
-    /// A study is here, and wanted in the panes.
-    void studyArrived(const QString &folder);
-    void besideRequested(const pellucid::ui::StudySource &source);
-    void messageShown(const QString &text);
-    void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
     void connectTransfers();
@@ -63,6 +57,7 @@ private:
     QMainWindow &m_window;
     Workbench &m_bench;
     StudyDocks &m_docks;
+    StudyPair &m_pair;
     /// The study that was asked for last, unless another one has been opened since.
     QSet<QString> m_askedToReplace; ///< studies, by UID
     std::optional<RemoteStudy> m_awaited;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/tool_bar.h"
 
-#include <QAction>
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QMainWindow>
@@ -10,8 +9,7 @@
 #include <QToolButton>
 
 #include "ui/theme/icons.h"
-#include "ui/window/tools_menu.h"
-#include "ui/window/window_chooser.h"
+#include "ui/window/actions/commands.h"
 
 namespace pellucid::ui {
 
@@ -47,53 +45,50 @@ QComboBox *makeWindowBox() {
 
 } // namespace
 
-WindowChooser *makeToolBar(QMainWindow &window, Document &document, ToolBarStyle style,
-                           const ToolBarSources &sources) {
+ToolBar makeToolBar(QMainWindow &window, ActionTable &actions) {
     QToolBar *bar = window.addToolBar(ToolBarTexts::tr("Tools"));
     bar->setObjectName("toolBar");
     bar->setMovable(false);
     bar->setIconSize({20, 20});
-    bar->addAction(window.findChild<QAction *>("openFilesAction"));
-    bar->addAction(window.findChild<QAction *>("importAction"));
-    bar->addSeparator();
-    bar->addAction(window.findChild<QAction *>("undoAction"));
-    bar->addAction(window.findChild<QAction *>("redoAction"));
-    bar->addSeparator();
-    sources.tools.addTo(*bar);
+    const auto add = [&](std::initializer_list<const char *> ids) {
+        for (const char *const id : ids)
+            bar->addAction(actions[id]);
+        bar->addSeparator();
+    };
+    add({"openFilesAction", "importAction"});
+    add({"undoAction", "redoAction"});
+    addTools(*bar, actions);
     bar->addSeparator();
     auto *views = new QToolButton;
     views->setObjectName("viewsButton");
     views->setText(ToolBarTexts::tr("View"));
     views->setIcon(themedIcon("cube"));
-    views->setToolTip(ToolBarTexts::tr("See the patient from a side, or at an angle"));
+    views->setToolTip(ToolBarTexts::tr("Standard views and C-arm angles"));
     views->setPopupMode(QToolButton::InstantPopup);
     QObject::connect(bar, &QToolBar::toolButtonStyleChanged, views,
                      &QToolButton::setToolButtonStyle);
     auto *sides = new QMenu(views);
-    sides->addActions(sources.views);
+    actions.fill(*sides, standardViews());
     views->setMenu(sides);
     bar->addWidget(views);
-    bar->addActions(sources.layouts);
-    bar->addSeparator();
-    bar->addAction(window.findChild<QAction *>("exportPictureAction"));
+    add({"onePlusThreeAction", "twoByTwoAction"});
+    bar->addAction(actions["exportPictureAction"]);
     auto *space = new QWidget;
     space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
     bar->addWidget(space);
-    QComboBox *windowBox = makeWindowBox();
-    bar->addWidget(windowBox);
-    auto *chooser = new WindowChooser(document, sources.windowMenu, *windowBox);
+    QComboBox *windows = makeWindowBox();
+    bar->addWidget(windows);
     // Qt draws the overflow arrow in the colors of its own style.
     if (auto *more = bar->findChild<QToolButton *>("qt_toolbar_ext_button")) {
         more->setIcon(themedIcon("down"));
         more->setToolTip(ToolBarTexts::tr("More"));
         more->setAccessibleName(ToolBarTexts::tr("More"));
     }
-    setToolBarStyle(window, style);
-    return chooser;
+    return {bar, windows};
 }
 
-void setToolBarStyle(QMainWindow &window, ToolBarStyle style) {
-    window.findChild<QToolBar *>("toolBar")->setToolButtonStyle(buttonStyle(style));
+void setToolBarStyle(QToolBar &bar, ToolBarStyle style) {
+    bar.setToolButtonStyle(buttonStyle(style));
 }
 
 } // namespace pellucid::ui

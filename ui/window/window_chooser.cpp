@@ -2,21 +2,21 @@
 #include "ui/window/window_chooser.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <QAction>
 #include <QComboBox>
 #include <QMenu>
 #include <QSignalBlocker>
 
-#include "ui/document/add_command.h"
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
 #include "ui/language/names.h"
 #include "ui/language/number_text.h"
 #include "ui/language/shown_text.h"
-#include "ui/settings/shortcuts.h"
 #include "ui/studies/window_presets.h"
 #include "ui/theme/dialog_place.h"
+#include "ui/window/actions/action_table.h"
 #include "ui/window/display_window_dialog.h"
 
 namespace pellucid::ui {
@@ -37,14 +37,20 @@ QKeySequence keyOf(int digit) {
 
 } // namespace
 
-WindowChooser::WindowChooser(Document &document, QMenu &menu, QComboBox &box)
-    : QObject(&box), m_document(document), m_menu(menu), m_box(box) {
+WindowChooser::WindowChooser(Document &document, std::function<Document &()> target,
+                             QObject *parent)
+    : QObject(parent), m_document(document), m_target(std::move(target)) {}
+
+void WindowChooser::show(QMenu &menu, QComboBox &box, const ActionTable &actions) {
+    m_menu = &menu;
+    m_box = &box;
+    m_actions = &actions;
     connect(&box, &QComboBox::activated, this, [this](int index) {
         if (index < m_rows.size())
             m_rows[index]->trigger();
         showCurrent(); // the row that opens the dialog is not a window
     });
-    document.whenever(Change::displayWindow, this, [this](Changes changes) {
+    m_document.whenever(Change::displayWindow, this, [this](Changes changes) {
         if (changes & Change::volume)
             showWindows();
         else
@@ -55,7 +61,7 @@ WindowChooser::WindowChooser(Document &document, QMenu &menu, QComboBox &box)
 
 // A different window is shown as the present one is: inverted or not.
 void WindowChooser::choose(volume::ValueWindow window) {
-    Document &shown = target();
+    Document &shown = m_target();
     if (!shown.volume())
         return;
     window.isInverted = shown.displayWindow().isInverted;
@@ -63,58 +69,47 @@ void WindowChooser::choose(volume::ValueWindow window) {
         shown.undoStack()->push(new EditDisplayWindow(shown, window));
 }
 
+void WindowChooser::addRow(QAction &action, const QString &text) {
+    m_menu->addAction(&action);
+    m_rows << &action;
+    m_box->addItem(text);
+}
+
 void WindowChooser::add(const volume::ValueWindow &window, const QKeySequence &key) {
-    QAction *action = m_menu.addAction(menuText(windowLabel(window)));
+    auto *const action = new QAction(menuText(windowLabel(window)), m_menu);
     action->setShortcut(key);
     connect(action, &QAction::triggered, this, [this, window] {
         // The list is for the unit of the open study.
-        const auto &volume = target().volume();
+        const auto &volume = m_target().volume();
         if (volume && m_document.volume() && volume->unit() == m_document.volume()->unit())
             choose(window);
     });
-    m_rows << action;
-    m_box.addItem(windowLabel(window));
+    addRow(*action, windowLabel(window));
 }
 
 // The automatic window depends on all values: compute it only when chosen.
-void WindowChooser::addAutomatic() {
-    QAction *const action =
-        addCommand(m_menu, translatedName("Auto"), "autoWindowAction", keyOf(0), this, [this] {
-            if (target().volume())
-                choose(automaticWindow(*target().volume()));
-        });
-    m_rows << action;
-    m_box.addItem(action->text());
+void WindowChooser::chooseAutomatic() {
+    if (m_target().volume())
+        choose(automaticWindow(*m_target().volume()));
 }
 
-void WindowChooser::addDialog() {
-    m_menu.addSeparator();
-    QAction *inverted = addCommand(
-        m_menu, tr("&Inverted grey"), "invertedPlanesAction", QKeySequence("N"), this, [this] {
-            Document &shown = target();
-            volume::ValueWindow window = shown.displayWindow();
-            window.isInverted = !window.isInverted;
-            shown.undoStack()->push(new EditDisplayWindow(shown, window));
-            showCurrent(); // the mark in the menu is that of the open study
-        });
-    inverted->setCheckable(true);
-    inverted->setChecked(m_document.displayWindow().isInverted);
-    QAction *const dialog = addCommand(m_menu, tr("&Width and center..."), "displayWindowAction",
-                                       QKeySequence("Shift+W"), this, [this] { openDialog(); });
-    m_rows << dialog;
-    m_box.addItem(tr("Width and center..."));
+void WindowChooser::invert() {
+    Document &shown = m_target();
+    volume::ValueWindow window = shown.displayWindow();
+    window.isInverted = !window.isInverted;
+    shown.undoStack()->push(new EditDisplayWindow(shown, window));
 }
 
 void WindowChooser::showWindows() {
-    m_menu.clear();
+    m_menu->clear();
     m_rows.clear();
     const auto &volume = m_document.volume();
-    m_box.setEnabled(volume.has_value());
+    m_box->setEnabled(volume.has_value());
     const QSignalBlocker quiet(m_box);
-    m_box.clear();
+    m_box->clear();
     if (!volume)
         return;
-    addAutomatic();
+    addRow(*(*m_actions)["autoWindowAction"], translatedName("Auto"));
     std::vector<WindowPreset> presets = windowPresets();
     std::erase_if(presets, [&](const WindowPreset &p) { return p.unit != volume->unit(); });
     const std::vector<volume::ValueWindow> &ofFile = volume->notes().windows;
@@ -136,8 +131,9 @@ void WindowChooser::showWindows() {
     int digit = 0;
     for (const WindowPreset &preset : presets)
         add(preset.window, ++digit <= lastPresetKey ? keyOf(digit) : QKeySequence());
-    addDialog();
-    applyShortcuts(m_menu); // the user's keys for the entries with names
+    m_menu->addSeparator();
+    m_menu->addAction((*m_actions)["invertedPlanesAction"]);
+    addRow(*(*m_actions)["displayWindowAction"], tr("Width and center..."));
     showCurrent();
 }
 
@@ -146,34 +142,27 @@ void WindowChooser::showCurrent() {
         return;
     const QSignalBlocker quiet(m_box);
     // A window that is not in the menu has an extra row at the end.
-    while (m_box.count() > m_rows.size())
-        m_box.removeItem(m_box.count() - 1);
+    while (m_box->count() > m_rows.size())
+        m_box->removeItem(m_box->count() - 1);
     const QString text = windowLabel(m_document.displayWindow());
-    if (m_box.findText(text) < 0)
-        m_box.addItem(text);
-    m_box.setCurrentIndex(m_box.findText(text));
-    if (auto *inverted = m_menu.findChild<QAction *>("invertedPlanesAction"))
-        inverted->setChecked(m_document.displayWindow().isInverted);
+    if (m_box->findText(text) < 0)
+        m_box->addItem(text);
+    m_box->setCurrentIndex(m_box->findText(text));
 }
 
 void WindowChooser::openDialog() {
-    QWidget *const window = m_box.window();
-    auto *dialog = window->findChild<DisplayWindowDialog *>();
-    Document &shown = target();
-    if (dialog != nullptr && &dialog->document() != &shown) {
-        delete dialog;
-        dialog = nullptr;
-    }
-    if (dialog == nullptr) {
-        dialog = new DisplayWindowDialog(shown, window);
+    QWidget &window = *m_box->window();
+    Document &shown = m_target();
+    if (auto *const former = window.findChild<DisplayWindowDialog *>();
+        former != nullptr && &former->document() != &shown)
+        delete former;
+    placeBeside(showOnly<DisplayWindowDialog>(window, [&] {
+        auto *dialog = new DisplayWindowDialog(shown, &window);
         // A study beside may be closed before the dialog.
         connect(&shown, &QObject::destroyed, dialog, [dialog] { delete dialog; });
         connect(dialog, &DisplayWindowDialog::presetsChanged, this, &WindowChooser::showWindows);
-    }
-    dialog->show();
-    placeBeside(*dialog);
-    dialog->raise();
-    dialog->activateWindow();
+        return dialog;
+    }));
 }
 
 } // namespace pellucid::ui

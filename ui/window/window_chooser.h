@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include <QList>
@@ -17,34 +16,38 @@ class QMenu;
 
 namespace pellucid::ui {
 
+class ActionTable;
 class Document;
 
 /// The display windows of the planes, as a menu with keys and as a box that shows the current one:
 /// the automatic window, the file's windows, and the user's list. The last row of both opens the
-/// dialog that sets width and center and edits the list.
+/// dialog.
 class WindowChooser : public QObject {
     Q_OBJECT
 public:
-    /// Fills a menu and a box, which it does not own.
-    WindowChooser(Document &document, QMenu &menu, QComboBox &box);
-    /// The study that keys and menu act on, if it is not always `document`.
-    void setTarget(std::function<Document &()> target) { m_target = std::move(target); }
+    /// `target`: the study that keys and menu act on; the list is for the unit of `document`.
+    WindowChooser(Document &document, std::function<Document &()> target, QObject *parent);
+    /// Fills a menu and a box, which it does not own. The menu begins and ends with actions of the
+    /// table.
+    void show(QMenu &menu, QComboBox &box, const ActionTable &actions);
+
+    void chooseAutomatic();
+    void invert();
+    /// Opens the dialog that sets width and center and edits the list.
+    void openDialog();
 
 private:
     void showWindows();
     void showCurrent();
     void add(const volume::ValueWindow &window, const QKeySequence &key);
-    void addAutomatic();
-    void addDialog();
+    void addRow(QAction &action, const QString &text);
     void choose(volume::ValueWindow window);
-    void openDialog();
 
     Document &m_document;
-    QMenu &m_menu;
-    QComboBox &m_box;
-    Document &target() const { return m_target ? m_target() : m_document; }
-
     std::function<Document &()> m_target;
+    QMenu *m_menu = nullptr;
+    QComboBox *m_box = nullptr;
+    const ActionTable *m_actions = nullptr;
     QList<QAction *> m_rows; ///< of the box, in order
 };
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "ui/document/measurement_store.h"
+#include "ui/document/notices.h"
 #include "ui/engine/graphics_card.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/library/study_library.h"
@@ -17,8 +18,7 @@
 
 namespace pellucid::ui {
 
-/// Everything behind the window: the open study, the library, and what is kept of them. A window in
-/// another language or theme can be made over it without loss.
+/// Everything behind the window: the open study, the library, and what is kept of them.
 struct Workbench {
     /// `engine`: for this run only; none: the choice in the settings.
     explicit Workbench(std::optional<EngineChoice> engine = std::nullopt);
@@ -28,6 +28,7 @@ struct Workbench {
 
     GraphicsCard card;
     OpenStudy study;
+    Notices notices;
     JobRunner exports;
     StudyLibrary library;
     ServerBook servers;

@@ -12,6 +12,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/dicom/reasons.h"
+#include "core/task/reasons.h"
+
 namespace pellucid::task {
 
 namespace {

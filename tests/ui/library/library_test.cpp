@@ -7,10 +7,8 @@
 #include <QSqlQuery>
 #include <QtTest>
 
-#include "core/dicom/reasons.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
-#include "core/volume/reasons.h"
 #include "tests/ui/library/library_folder.h"
 #include "ui/library/import_studies.h"
 #include "ui/panels/study_list.h"

@@ -9,8 +9,8 @@
 namespace pellucid::ui {
 
 /// The tool of the left mouse button in the panes. In the projection, the button orbits unless the
-/// tool pans, zooms, measures (not a region of values) or marks regions. ToolsMenu::addTools lists
-/// the tools in the same order.
+/// tool pans, zooms, measures (not a region of values) or marks regions. Their texts, keys and
+/// buttons are in ui/window/actions/tool_commands.cpp.
 enum class Tool {
     window,
     pan,
@@ -42,6 +42,14 @@ inline RegionTool regionToolOf(Tool tool) {
     default:
         return RegionTool::none;
     }
+}
+
+/// The tool that marks regions in this way; the window tool for none.
+inline Tool toolFor(RegionTool wanted) {
+    for (const Tool tool : {Tool::connected, Tool::paint, Tool::scissors})
+        if (regionToolOf(tool) == wanted)
+            return tool;
+    return Tool::window;
 }
 
 inline bool marksRegions(Tool tool) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/window/help_menu.h"
+#include "ui/window/help.h"
 
 #include <QCoreApplication>
 #include <QDesktopServices>
@@ -9,7 +9,6 @@
 #include <QFile>
 #include <QHeaderView>
 #include <QLocale>
-#include <QMenu>
 #include <QPlainTextEdit>
 #include <QTabWidget>
 #include <QTreeWidget>
@@ -17,7 +16,7 @@
 #include <QVBoxLayout>
 
 #include "core/files/reasons.h"
-#include "ui/document/add_command.h"
+#include "ui/document/notices.h"
 #include "ui/language/plain_label.h"
 #include "ui/window/libraries.h"
 #include "ui/window/reasons.h"
@@ -26,14 +25,14 @@ namespace pellucid::ui {
 
 namespace {
 
-struct HelpMenuTexts {
-    Q_DECLARE_TR_FUNCTIONS(HelpMenuTexts)
+struct HelpTexts {
+    Q_DECLARE_TR_FUNCTIONS(HelpTexts)
 };
 
 // The manual in the program's language, or in English, where the installer puts it.
 QString manual() {
     const QDir folder(QCoreApplication::applicationDirPath() + "/../share/doc/pellucid/manual");
-    const QString translated = QCoreApplication::translate("HelpMenuTexts", "manual.html",
+    const QString translated = QCoreApplication::translate("HelpTexts", "manual.html",
                                                            "file name of the translated manual");
     return QDir::cleanPath(
         folder.filePath(folder.exists(translated) ? translated : QString("manual.html")));
@@ -42,9 +41,9 @@ QString manual() {
 QWidget *libraryTable() {
     auto *table = new QTreeWidget;
     table->setObjectName("aboutLibraries");
-    table->setAccessibleName(HelpMenuTexts::tr("Libraries"));
+    table->setAccessibleName(HelpTexts::tr("Libraries"));
     table->setHeaderLabels(
-        {HelpMenuTexts::tr("Library"), HelpMenuTexts::tr("Version"), HelpMenuTexts::tr("License")});
+        {HelpTexts::tr("Library"), HelpTexts::tr("Version"), HelpTexts::tr("License")});
     table->setRootIsDecorated(false);
     for (const ThirdParty &library : thirdParties)
         new QTreeWidgetItem(table, {library.name,
@@ -57,32 +56,42 @@ QWidget *libraryTable() {
 QWidget *licence() {
     auto *text = new QPlainTextEdit;
     text->setReadOnly(true);
-    text->setAccessibleName(HelpMenuTexts::tr("License"));
+    text->setAccessibleName(HelpTexts::tr("License"));
     QFile file(":/pellucid/LICENSE");
     if (file.open(QIODevice::ReadOnly))
         text->setPlainText(QString::fromUtf8(file.readAll()));
     return text;
 }
 
+} // namespace
+
+void openManual(Notices &notices) {
+    const QString page = manual();
+    if (!QFile::exists(page))
+        notices.report(task::because::doesNotExist, page);
+    else if (!QDesktopServices::openUrl(QUrl::fromLocalFile(page)))
+        notices.report(task::because::noBrowserForTheManual, page);
+}
+
 void showAbout(QWidget &window) {
     auto *dialog = new QDialog(&window);
     dialog->setObjectName("aboutDialog");
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle(HelpMenuTexts::tr("About Pellucid"));
+    dialog->setWindowTitle(HelpTexts::tr("About Pellucid"));
     auto *name = new PlainLabel("Pellucid " + QCoreApplication::applicationVersion());
     name->setProperty("role", "title");
     auto *what =
-        new PlainLabel(HelpMenuTexts::tr("Projections of DICOM studies in the frequency domain."));
-    auto *warning = new PlainLabel(HelpMenuTexts::tr("Not for diagnostic use."));
+        new PlainLabel(HelpTexts::tr("Projections of DICOM studies in the frequency domain."));
+    auto *warning = new PlainLabel(HelpTexts::tr("Not for diagnostic use."));
     warning->setObjectName("aboutWarning");
     warning->setProperty("role", "warning");
     auto *terms = new PlainLabel(
-        HelpMenuTexts::tr("Free software under the GNU General Public License, version 3 "
-                          "or later; without any warranty."));
+        HelpTexts::tr("Free software under the GNU General Public License, version 3 "
+                      "or later; without any warranty."));
     terms->setWordWrap(true);
     auto *tabs = new QTabWidget;
-    tabs->addTab(libraryTable(), HelpMenuTexts::tr("Libraries"));
-    tabs->addTab(licence(), HelpMenuTexts::tr("License"));
+    tabs->addTab(libraryTable(), HelpTexts::tr("Libraries"));
+    tabs->addTab(licence(), HelpTexts::tr("License"));
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close);
     QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);
     auto *layout = new QVBoxLayout(dialog);
@@ -92,22 +101,6 @@ void showAbout(QWidget &window) {
     layout->addWidget(buttons);
     dialog->resize(560, 560);
     dialog->show();
-}
-
-} // namespace
-
-void addHelpMenu(QMenu &menu, QWidget &window,
-                 const std::function<void(const task::Reason &, const QString &)> &failed) {
-    addCommand(menu, HelpMenuTexts::tr("&Manual"), "manualAction", QKeySequence("F1"), &menu,
-               [failed] {
-                   const QString page = manual();
-                   if (!QFile::exists(page))
-                       failed(task::because::doesNotExist, page);
-                   else if (!QDesktopServices::openUrl(QUrl::fromLocalFile(page)))
-                       failed(task::because::noBrowserForTheManual, page);
-               });
-    addCommand(menu, HelpMenuTexts::tr("&About Pellucid"), "aboutAction", {}, &menu,
-               [&window] { showAbout(window); });
 }
 
 } // namespace pellucid::ui
