@@ -8,7 +8,7 @@
 #include <QToolButton>
 
 #include "ui/beside/study_beside.h"
-#include "ui/window/display_window_dialog.h"
+#include "ui/dialogs/display_window_dialog.h"
 
 namespace pellucid {
 

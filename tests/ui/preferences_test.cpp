@@ -16,7 +16,7 @@
 #include <QTreeWidget>
 #include <QUndoView>
 
-#include "ui/window/actions/action_table.h"
+#include "ui/widgets/action_table.h"
 
 namespace pellucid {
 
@@ -31,7 +31,8 @@ private slots:
         restart();
         QCOMPARE(mainWindow().menuBar()->actions().front()->text(), QString::fromUtf8("檔案(&F)"));
         open(headPath());
-        choosePreset("Bone");
+        auto *const gallery = find<QListWidget>("presetGallery");
+        clickItem(*gallery, *gallery->item(1)); // its name is Chinese
         settle();
         // No visible text is English. Words of three letters and more are names and units.
         const QStringList english = englishTexts();

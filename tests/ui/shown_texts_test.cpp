@@ -29,13 +29,13 @@
 #include "core/segment/write_segmentation.h"
 #include "tests/support/dicom_writer.h"
 #include "ui/beside/study_beside.h"
+#include "ui/dialogs/huge_question.h"
 #include "ui/document/commands.h"
 #include "ui/document/region_marking.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
 #include "ui/panels/class_row.h"
 #include "ui/servers/login_dialog.h"
-#include "ui/window/huge_question.h"
+#include "ui/widgets/plain_label.h"
 #include "ui/window/workbench.h"
 
 namespace pellucid {

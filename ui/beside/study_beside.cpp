@@ -8,12 +8,12 @@
 
 #include "ui/beside/study_projection.h"
 #include "ui/jobs/job_strip.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

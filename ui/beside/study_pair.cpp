@@ -7,11 +7,11 @@
 
 #include "ui/beside/study_beside.h"
 #include "ui/document/document.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

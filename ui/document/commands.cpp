@@ -71,9 +71,4 @@ bool editLook(Document &document, const QString &text, DragId drag,
                      [&](scene::Scene &scene) { scene.look = std::move(look); });
 }
 
-DragId nextDragId() {
-    static DragId last = 0;
-    return ++last;
-}
-
 } // namespace pellucid::ui

@@ -12,16 +12,11 @@
 #include "core/scene/scene.h"
 #include "core/volume/volume.h"
 #include "ui/language/shown_text.h"
+#include "ui/widgets/drag_id.h"
 
 namespace pellucid::ui {
 
 class Document;
-
-/// Edits of one drag carry the same number and merge.
-using DragId = int;
-
-/// The number of an edit outside a drag; it never merges.
-inline constexpr DragId noDrag = 0;
 
 /// Replaces a value of the document. A kind of edit defines its id, which edits need in common to
 /// merge, and how the value is set.
@@ -92,9 +87,6 @@ public:
 private:
     void apply(const mpr::PlaneAxes &axes) override;
 };
-
-/// A number that no other drag has.
-DragId nextDragId();
 
 /// Applies `edit` to a copy of the scene and pushes the result as an edit named `text`. Returns
 /// false and pushes nothing if the scene stays the same. A change of the camera is ignored: looking

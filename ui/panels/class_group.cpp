@@ -8,8 +8,8 @@
 #include <QPainter>
 #include <QToolButton>
 
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

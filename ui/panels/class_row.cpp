@@ -8,10 +8,10 @@
 #include <QToolButton>
 
 #include "ui/language/names.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
 #include "ui/language/step_text.h"
-#include "ui/panels/value_slider.h"
+#include "ui/widgets/plain_label.h"
+#include "ui/widgets/value_slider.h"
 
 namespace pellucid::ui {
 

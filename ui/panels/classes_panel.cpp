@@ -12,14 +12,14 @@
 #include <QVBoxLayout>
 
 #include "core/preprocess/segment_class.h"
+#include "ui/dialogs/class_dialog.h"
 #include "ui/document/document.h"
 #include "ui/document/region_commands.h"
 #include "ui/language/names.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
-#include "ui/panels/class_dialog.h"
 #include "ui/panels/class_group.h"
 #include "ui/panels/class_row.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

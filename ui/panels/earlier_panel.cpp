@@ -8,11 +8,11 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
-#include "ui/language/plain_label.h"
-#include "ui/language/question.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 #include "ui/servers/earlier_studies.h"
+#include "ui/widgets/plain_label.h"
+#include "ui/widgets/question.h"
 
 namespace pellucid::ui {
 

@@ -14,8 +14,8 @@
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
 #include "ui/language/measurement_text.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

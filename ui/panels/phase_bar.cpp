@@ -6,8 +6,8 @@
 #include <QSlider>
 #include <QToolButton>
 
-#include "ui/language/plain_label.h"
 #include "ui/opening/phases.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

@@ -24,14 +24,14 @@
 #include "ui/document/region_commands.h"
 #include "ui/engine/look_previewer.h"
 #include "ui/language/names.h"
-#include "ui/language/plain_label.h"
-#include "ui/language/question.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 #include "ui/opening/reasons.h"
 #include "ui/panels/reasons.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/theme/theme.h"
+#include "ui/widgets/plain_label.h"
+#include "ui/widgets/question.h"
 
 namespace pellucid::ui {
 

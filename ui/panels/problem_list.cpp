@@ -12,10 +12,11 @@
 #include "core/decoder/reasons.h"
 #include "core/dicom/reasons.h"
 #include "ui/document/document.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 #include "ui/theme/theme.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 
@@ -49,10 +50,7 @@ ProblemList::ProblemList(Document &document, QWidget *parent)
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(4);
-    auto *clear = new QPushButton(tr("Clear"));
-    clear->setObjectName("clearProblemsButton");
-    clear->setProperty("role", "link");
-    clear->setToolTip(tr("Clear the list"));
+    auto *clear = makeLink(tr("Clear"), "clearProblemsButton", tr("Clear the list"));
     connect(clear, &QPushButton::clicked, &document, &Document::clearProblems);
     auto *row = new QHBoxLayout;
     row->addWidget(m_heading, 1);

@@ -8,14 +8,14 @@
 #include <QFormLayout>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QStyle>
 
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 #include "ui/views/overlay.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 
@@ -225,9 +225,7 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
 }
 
 void QualityPanel::showReason(const QString &text, bool isWarning) {
-    m_reason->setText(text);
-    m_reason->setProperty("role", isWarning ? "warning" : "muted");
-    m_reason->style()->polish(m_reason); // the style sheet depends on the role
+    showText(*m_reason, text, isWarning ? "warning" : "muted");
 }
 
 void QualityPanel::showError(const error::StatedError &measured) {

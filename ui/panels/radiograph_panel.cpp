@@ -9,8 +9,8 @@
 #include "core/classify/couch.h"
 #include "ui/document/document.h"
 #include "ui/document/region_commands.h"
-#include "ui/language/plain_label.h"
-#include "ui/panels/value_slider.h"
+#include "ui/widgets/plain_label.h"
+#include "ui/widgets/value_slider.h"
 
 namespace pellucid::ui {
 

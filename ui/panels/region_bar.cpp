@@ -11,8 +11,8 @@
 
 #include "ui/document/document.h"
 #include "ui/language/names.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

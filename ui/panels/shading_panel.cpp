@@ -15,11 +15,12 @@
 #include <QVBoxLayout>
 
 #include "ui/document/document.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
 #include "ui/panels/depth_curve.h"
 #include "ui/panels/light_sphere.h"
-#include "ui/panels/value_slider.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/plain_label.h"
+#include "ui/widgets/value_slider.h"
 
 namespace pellucid::ui {
 
@@ -33,14 +34,6 @@ using shading::Shading;
 constexpr double defaultCue = 0.6, defaultLight = 0.8;
 // Lit surfaces are faint beside the full density.
 constexpr double ambientUnderLight = 0.1;
-
-QPushButton *linkButton(const QString &text, const char *name, const QString &tip) {
-    auto *button = new QPushButton(text);
-    button->setObjectName(name);
-    button->setToolTip(plainToolTip(tip));
-    button->setProperty("role", "link");
-    return button;
-}
 
 QIcon colorIcon(const classify::Color &color) {
     QPixmap pixmap(24, 24);
@@ -65,10 +58,10 @@ ShadingPanel::ShadingPanel(Document &document, QWidget *parent)
       m_light(new ValueSlider({1.0, defaultLight}, "lightSlider", "lightValue")),
       m_ambient(new ValueSlider({shading::largestAmbient, 1.0}, "ambientSlider", "ambientValue")),
       m_reset(
-          linkButton(tr("Reset"), "resetShadingButton", tr("Remove the depth cue and all lights"))),
-      m_add(linkButton(tr("Add light"), "addLightButton", tr("Add a light"))),
-      m_remove(linkButton(tr("Remove"), "removeLightButton", tr("Remove the selected light"))),
-      m_color(linkButton({}, "lightColorButton", tr("Color of the selected light"))),
+          makeLink(tr("Reset"), "resetShadingButton", tr("Remove the depth cue and all lights"))),
+      m_add(makeLink(tr("Add light"), "addLightButton", tr("Add a light"))),
+      m_remove(makeLink(tr("Remove"), "removeLightButton", tr("Remove the selected light"))),
+      m_color(makeLink({}, "lightColorButton", tr("Color of the selected light"))),
       m_follows(new QCheckBox(tr("Follows viewer"))) {
     setObjectName("shadingPanel");
     setAttribute(Qt::WA_StyledBackground);

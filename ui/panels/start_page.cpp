@@ -5,19 +5,18 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 
 namespace {
 
 QPushButton *button(const QString &text, const char *name, const QString &tip) {
-    auto *b = new QPushButton(text);
-    b->setObjectName(name);
-    b->setToolTip(plainToolTip(tip));
-    b->setMinimumWidth(260);
-    return b;
+    QPushButton *wide = makeButton(text, name, tip);
+    wide->setMinimumWidth(260);
+    return wide;
 }
 
 } // namespace

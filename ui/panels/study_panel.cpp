@@ -16,18 +16,18 @@
 #include <QTreeView>
 #include <QVBoxLayout>
 
+#include "ui/dialogs/header_dialog.h"
+#include "ui/dialogs/study_details.h"
 #include "ui/document/document.h"
 #include "ui/jobs/job_strip.h"
-#include "ui/language/plain_label.h"
-#include "ui/language/question.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
-#include "ui/panels/header_dialog.h"
 #include "ui/panels/problem_list.h"
-#include "ui/panels/study_details.h"
 #include "ui/panels/study_row_painter.h"
 #include "ui/servers/server_search.h"
 #include "ui/settings/file_dialogs.h"
+#include "ui/widgets/plain_label.h"
+#include "ui/widgets/question.h"
 
 namespace pellucid::ui {
 

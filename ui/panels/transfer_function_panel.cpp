@@ -15,11 +15,12 @@
 #include "ui/document/document.h"
 #include "ui/language/names.h"
 #include "ui/language/number_text.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 #include "ui/panels/curve_editor.h"
-#include "ui/panels/limit_box.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/limit_box.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 
@@ -29,10 +30,7 @@ constexpr int histogramBins = 96;
 constexpr double maxValue = 9e8, typicalRange = 2000.0;
 
 QPushButton *addLink(QHBoxLayout *row, const QString &text, const char *name, const QString &tip) {
-    auto *button = new QPushButton(text);
-    button->setObjectName(name);
-    button->setToolTip(plainToolTip(tip));
-    button->setProperty("role", "link");
+    QPushButton *button = makeLink(text, name, tip);
     row->addWidget(button);
     return button;
 }

@@ -7,13 +7,13 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
-#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 #include "ui/panels/server_targets.h"
 #include "ui/servers/server_book.h"
 #include "ui/servers/study_receiver.h"
 #include "ui/servers/transfer_queue.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

@@ -9,9 +9,9 @@
 #include <QUrl>
 #include <QVBoxLayout>
 
-#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

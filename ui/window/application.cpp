@@ -6,7 +6,7 @@
 #include "core/helper/protection.h"
 #include "core/task/progress.h"
 #include "ui/language/failure.h"
-#include "ui/language/plain_label.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

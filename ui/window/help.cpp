@@ -17,7 +17,7 @@
 
 #include "core/files/reasons.h"
 #include "ui/document/notices.h"
-#include "ui/language/plain_label.h"
+#include "ui/widgets/plain_label.h"
 #include "ui/window/libraries.h"
 #include "ui/window/reasons.h"
 

@@ -17,8 +17,8 @@
 #include "ui/panels/radiograph_panel.h"
 #include "ui/panels/shading_panel.h"
 #include "ui/panels/transfer_function_panel.h"
-#include "ui/theme/dock.h"
 #include "ui/views/projection_view.h"
+#include "ui/widgets/dock.h"
 
 namespace pellucid::ui {
 

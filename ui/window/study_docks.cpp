@@ -10,7 +10,7 @@
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/study_panel.h"
 #include "ui/panels/transfers_panel.h"
-#include "ui/theme/dock.h"
+#include "ui/widgets/dock.h"
 #include "ui/window/workbench.h"
 
 namespace pellucid::ui {

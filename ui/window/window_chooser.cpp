@@ -9,15 +9,15 @@
 #include <QMenu>
 #include <QSignalBlocker>
 
+#include "ui/dialogs/display_window_dialog.h"
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
 #include "ui/language/names.h"
 #include "ui/language/number_text.h"
 #include "ui/language/shown_text.h"
 #include "ui/studies/window_presets.h"
-#include "ui/theme/dialog_place.h"
-#include "ui/window/actions/action_table.h"
-#include "ui/window/display_window_dialog.h"
+#include "ui/widgets/action_table.h"
+#include "ui/widgets/dialog_place.h"
 
 namespace pellucid::ui {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "ui/window/actions/action_table.h"
+#include "ui/widgets/action_table.h"
 #include "ui/window/actions/scope.h"
 
 class QToolBar;

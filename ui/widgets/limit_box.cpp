@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/limit_box.h"
+#include "ui/widgets/limit_box.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <QDialog>
 
 #include "ui/settings/preferences.h"
-#include "ui/window/actions/action_table.h"
+#include "ui/widgets/action_table.h"
 
 class QCheckBox;
 class QComboBox;

@@ -5,7 +5,7 @@
 
 #include <QWidget>
 
-#include "ui/document/commands.h"
+#include "ui/widgets/drag_id.h"
 
 class QDoubleSpinBox;
 class QSlider;

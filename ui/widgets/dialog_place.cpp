@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/theme/dialog_place.h"
+#include "ui/widgets/dialog_place.h"
 
 #include <algorithm>
 

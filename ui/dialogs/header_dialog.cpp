@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/header_dialog.h"
+#include "ui/dialogs/header_dialog.h"
 
 #include <algorithm>
 #include <functional>
@@ -23,9 +23,9 @@
 
 #include "core/decoder/decoder.h"
 #include "core/files/table_cell.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

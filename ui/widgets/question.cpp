@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/language/question.h"
+#include "ui/widgets/question.h"
 
 #include <QMessageBox>
 #include <QPushButton>

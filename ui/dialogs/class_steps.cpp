@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/class_steps.h"
+#include "ui/dialogs/class_steps.h"
 
 #include <algorithm>
 #include <utility>
@@ -13,10 +13,11 @@
 #include <QVBoxLayout>
 
 #include "ui/language/names.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
 #include "ui/language/step_text.h"
-#include "ui/panels/limit_box.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/limit_box.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 
@@ -28,14 +29,6 @@ using classify::StepEffect;
 using classify::StepInput;
 
 constexpr int listHeight = 110;
-
-QPushButton *makeButton(const QString &text, const char *name, const QString &tip) {
-    auto *button = new QPushButton(text);
-    button->setToolTip(plainToolTip(tip));
-    button->setObjectName(name);
-    button->setAutoDefault(false);
-    return button;
-}
 
 bool changesValues(const Step &step) {
     return describe(step.kind).effect == StepEffect::values;

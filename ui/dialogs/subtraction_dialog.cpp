@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/window/subtraction_dialog.h"
+#include "ui/dialogs/subtraction_dialog.h"
 
 #include <utility>
 
@@ -12,9 +12,9 @@
 #include <QVBoxLayout>
 
 #include "ui/document/document.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
 #include "ui/library/study_library.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/window/preferences_dialog.h"
+#include "ui/dialogs/preferences_dialog.h"
 
 #include <algorithm>
 
@@ -17,9 +17,9 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
 #include "ui/studies/search_words.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

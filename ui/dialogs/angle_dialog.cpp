@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/window/angle_dialog.h"
+#include "ui/dialogs/angle_dialog.h"
 
 #include <cmath>
 
@@ -14,9 +14,9 @@
 #include "core/scene/positioner_angles.h"
 #include "ui/document/document.h"
 #include "ui/language/names.h"
-#include "ui/language/plain_label.h"
 #include "ui/views/projection_texts.h"
 #include "ui/views/projection_view.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

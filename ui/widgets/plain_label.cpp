@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/language/plain_label.h"
+#include "ui/widgets/plain_label.h"
 
 #include <QEvent>
 

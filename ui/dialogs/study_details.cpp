@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/study_details.h"
+#include "ui/dialogs/study_details.h"
 
 #include <QCoreApplication>
 #include <QDialog>
@@ -10,8 +10,8 @@
 #include <QPixmap>
 #include <QVBoxLayout>
 
-#include "ui/language/plain_label.h"
 #include "ui/studies/thumbnail.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

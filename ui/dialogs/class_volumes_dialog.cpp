@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/window/class_volumes_dialog.h"
+#include "ui/dialogs/class_volumes_dialog.h"
 
 #include <algorithm>
 
@@ -20,9 +20,9 @@
 #include "ui/jobs/job_strip.h"
 #include "ui/language/names.h"
 #include "ui/language/number_text.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/settings/file_dialogs.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/class_dialog.h"
+#include "ui/dialogs/class_dialog.h"
 
 #include <algorithm>
 
@@ -13,14 +13,14 @@
 #include <QPushButton>
 
 #include "core/task/error.h"
+#include "ui/dialogs/class_steps.h"
 #include "ui/document/document.h"
 #include "ui/language/number_text.h"
-#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
-#include "ui/panels/class_steps.h"
-#include "ui/panels/limit_box.h"
-#include "ui/theme/dialog_place.h"
+#include "ui/widgets/dialog_place.h"
+#include "ui/widgets/limit_box.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

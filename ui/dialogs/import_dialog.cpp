@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/window/import_dialog.h"
+#include "ui/dialogs/import_dialog.h"
 
 #include <QDialogButtonBox>
 #include <QDir>
@@ -11,9 +11,9 @@
 #include <QSettings>
 #include <QVBoxLayout>
 
-#include "ui/language/plain_label.h"
 #include "ui/language/shown_text.h"
 #include "ui/settings/file_dialogs.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

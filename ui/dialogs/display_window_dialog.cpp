@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/window/display_window_dialog.h"
+#include "ui/dialogs/display_window_dialog.h"
 
 #include <algorithm>
 #include <utility>
@@ -17,7 +17,7 @@
 #include "ui/document/document.h"
 #include "ui/language/names.h"
 #include "ui/language/number_text.h"
-#include "ui/language/plain_label.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/export/export_dialog.h"
+#include "ui/dialogs/export_dialog.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -12,7 +12,6 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSpinBox>
-#include <QStyle>
 
 #include "core/archive/sending.h"
 #include "core/dicom/scan.h"
@@ -25,8 +24,6 @@
 #include "ui/export/recipe_file.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/jobs/job_strip.h"
-#include "ui/language/plain_label.h"
-#include "ui/language/question.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 #include "ui/opening/recent_paths.h"
@@ -34,6 +31,9 @@
 #include "ui/settings/file_dialogs.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/plain_label.h"
+#include "ui/widgets/question.h"
 
 namespace pellucid::ui {
 
@@ -242,9 +242,7 @@ void ExportDialog::saveRecipe() {
 }
 
 void ExportDialog::showMessage(const QString &text, const char *role) {
-    m_message->setText(text);
-    m_message->setProperty("role", role);
-    m_message->style()->polish(m_message);
+    showText(*m_message, text, role);
 }
 
 QFormLayout *ExportDialog::form() const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/window/receiver_form.h"
+#include "ui/dialogs/receiver_form.h"
 
 #include <QCheckBox>
 #include <QFormLayout>
@@ -7,13 +7,13 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
-#include <QStyle>
 #include <QVBoxLayout>
 
-#include "ui/language/plain_label.h"
 #include "ui/language/reasons.h"
 #include "ui/servers/study_receiver.h"
 #include "ui/settings/file_dialogs.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
 
@@ -104,10 +104,7 @@ void ReceiverForm::showState() {
         text = tr("%1 receives on port %2; %n objects have arrived", "",
                   int(m_receiver.receivedCount()))
                    .arg(now.ae, QString::number(now.port));
-    m_state->setText(text);
-    m_state->setProperty("role", m_receiver.failure() ? "warning" : "muted");
-    m_state->style()->unpolish(m_state);
-    m_state->style()->polish(m_state);
+    showText(*m_state, text, m_receiver.failure() ? "warning" : "muted");
 }
 
 } // namespace pellucid::ui

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/window/huge_question.h"
+#include "ui/dialogs/huge_question.h"
 
 #include <QCoreApplication>
 
-#include "ui/language/question.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
+#include "ui/widgets/question.h"
 
 namespace pellucid::ui {
 

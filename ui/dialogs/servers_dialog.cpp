@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/window/servers_dialog.h"
+#include "ui/dialogs/servers_dialog.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -12,19 +12,19 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSpinBox>
-#include <QStyle>
 #include <QTabWidget>
 #include <QVBoxLayout>
 
 #include "core/archive/login.h"
 #include "core/exchange/link.h"
-#include "ui/language/plain_label.h"
-#include "ui/language/question.h"
+#include "ui/dialogs/receiver_form.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 #include "ui/servers/server_book.h"
 #include "ui/settings/file_dialogs.h"
-#include "ui/window/receiver_form.h"
+#include "ui/widgets/form.h"
+#include "ui/widgets/plain_label.h"
+#include "ui/widgets/question.h"
 
 namespace pellucid::ui {
 
@@ -457,10 +457,7 @@ void ServersDialog::test() {
 }
 
 void ServersDialog::report(const QString &text, const char *role) {
-    m_message->setText(text);
-    m_message->setProperty("role", role);
-    m_message->style()->unpolish(m_message);
-    m_message->style()->polish(m_message);
+    showText(*m_message, text, role);
 }
 
 } // namespace pellucid::ui

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/window/actions/action_table.h"
+#include "ui/widgets/action_table.h"
 
 #include <cassert>
 #include <utility>
