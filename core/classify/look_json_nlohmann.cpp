@@ -174,8 +174,6 @@ template <class Points> json pointsJson(const Points &points) {
 }
 
 json functionJson(const TransferFunction &function) {
-    if (function.isWhole())
-        return function.weights;
     return {{"weights", function.weights}, {"range", {function.low, function.high}}};
 }
 

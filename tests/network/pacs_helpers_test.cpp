@@ -29,7 +29,7 @@
 #include "tests/network/pacs.h"
 #include "tests/network/processes.h"
 #include "tests/support/command.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/search_seed.h"
 
 namespace pellucid {
 
@@ -126,7 +126,7 @@ TEST_F(Pacs, HelpersThatAreKilledWhileTheyRetrieveLoseNothing) {
     Proxy proxy(dcmqrscp.port());
     archive::Server slow = server;
     slow.peer.port = proxy.port();
-    std::mt19937 random(freshSeed());
+    std::mt19937 random(searchSeed());
     const int rounds = isLong() ? 200 : 20;
     int hits = 0, survived = 0;
     for (int n = 0; n < rounds; ++n) {
@@ -175,7 +175,7 @@ TEST_F(Pacs, HelpersThatAreKilledWhileTheyReceiveKeepWhatWasConfirmed) {
         fs::copy_file(file, m_folder / "one" / "file", fs::copy_options::overwrite_existing);
         setOf[file.string()] = *dataSetsIn(m_folder / "one").begin();
     }
-    std::mt19937 random(freshSeed());
+    std::mt19937 random(searchSeed());
     const int rounds = isLong() ? 200 : 20;
     int hits = 0;
     std::size_t confirmedAll = 0;

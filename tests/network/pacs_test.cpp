@@ -31,7 +31,7 @@
 #include "tests/network/pacs.h"
 #include "tests/network/scripted_server.h"
 #include "tests/support/command.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/search_seed.h"
 
 namespace pellucid {
 
@@ -230,7 +230,7 @@ TEST_F(Pacs, KillsLoseNothing) {
     const std::string add = std::string("'") + cli + "' server add s --dicom COMMON@127.0.0.1:" +
                             std::to_string(dcmqrscp.port());
     ASSERT_EQ(test::run(add).exitCode, 0);
-    std::mt19937 random(test::freshSeed());
+    std::mt19937 random(test::searchSeed());
     const int kills = std::getenv("PELLUCID_LONG_TESTS") != nullptr ? 200 : 15;
     for (int n = 0; n < kills; ++n) {
         const std::string to = (m_folder / ("kill" + std::to_string(n))).string();
@@ -358,7 +358,7 @@ TEST_F(Pacs, CutsAndStallsLoseNothing) {
     server.peer.port = proxy.port();
     server.peer.silenceSeconds = 2.0;
     server.connections = 2;
-    std::mt19937 random(test::freshSeed());
+    std::mt19937 random(test::searchSeed());
     const int cuts = std::getenv("PELLUCID_LONG_TESTS") != nullptr ? 200 : 12;
     for (int n = 0; n < cuts; ++n) {
         const std::string to = "cut" + std::to_string(n);
@@ -444,8 +444,8 @@ TEST_F(Pacs, ASeriesIsSeenLongBeforeItIsHere) {
         EXPECT_EQ(arrived.loaded.volume.lattice().size().k, slices);
     });
     archive::RetrievalObserver observer;
-    observer.listed = [&](const archive::Listing &study) {
-        for (const archive::Instance &instance : study.instances)
+    observer.listed = [&](const archive::Listing &list) {
+        for (const archive::Instance &instance : list.instances)
             numbers.emplace(instance.sopInstanceUid, numbers.size());
         arriving = std::make_shared<dicom::ArrivingSeries>(numbers.size());
         listing = since();

@@ -192,24 +192,6 @@ private slots:
         QVERIFY(changed(before, projection()->picture()) < 0.001);
     }
 
-    void presetsAreThoseOfTheRegion() {
-        open(headPath());
-        const auto *const gallery = find<QListWidget>("presetGallery");
-        const auto isListed = [&](const char *name) {
-            return !gallery->findItems(name, Qt::MatchExactly).isEmpty();
-        };
-        QVERIFY(isListed("X-ray") && isListed("Head: bone") && isListed("Bone"));
-        QVERIFY(!isListed("Chest: bone") && !isListed("Contrast vessels"));
-        find<QPushButton>("allPresetsButton")->click();
-        QVERIFY(isListed("Chest: bone") && isListed("Contrast vessels"));
-        find<QPushButton>("allPresetsButton")->click();
-        QVERIFY(!isListed("Chest: bone"));
-        find<QAction>("chestPhantomAction")->trigger();
-        QTRY_VERIFY(document().currentSource() == 1);
-        settle();
-        QVERIFY(isListed("Chest: bone") && !isListed("Head: bone"));
-    }
-
     void oneCommandRemovesTheCouch() {
         const auto lattice =
             phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 96, 80}});
@@ -309,19 +291,6 @@ private slots:
         QVERIFY(document().scene().look == classify::Look());
         settle();
         QVERIFY(colorfulness(projection()->picture()) < 0.01);
-    }
-
-    void aPresetCannotTakeTheNameOfABuiltInOne() {
-        open(headPath());
-        QTest::mouseClick(find<QPushButton>("saveLookButton"), Qt::LeftButton);
-        auto *name = find<QLineEdit>("lookNameEdit");
-        name->setText("X-ray");
-        QTest::keyClick(name, Qt::Key_Return);
-        QVERIFY(find<QLabel>("presetMessage")->isVisible());
-        QVERIFY(find<QLabel>("presetMessage")->text().contains("is built in"));
-        QVERIFY(name->isVisible()); // still there for a different name
-        QTest::keyClick(name, Qt::Key_Escape);
-        QVERIFY(!name->isVisible());
     }
 
     void aDepthCueFollowsADragAndIsUndone() {

@@ -26,22 +26,6 @@ using classify::StepKind;
 class RegionsTest : public Workstation {
     Q_OBJECT
 private slots:
-    void theToolsShowTheirOptions() {
-        QVERIFY(!bar()->isVisible());
-        open(headPath());
-        choose("connectedToolAction");
-        QVERIFY(bar()->isVisible());
-        QVERIFY(find<QWidget>("regionLeakBox")->isVisible());
-        QVERIFY(!find<QWidget>("regionBallBox")->isVisible());
-        choose("paintToolAction");
-        QVERIFY(find<QWidget>("regionBallBox")->isVisible());
-        QVERIFY(!find<QWidget>("regionUseBox")->isVisible());
-        choose("scissorsToolAction");
-        QVERIFY(find<QWidget>("regionSlabBox")->isVisible());
-        choose("windowToolAction");
-        QVERIFY(!bar()->isVisible());
-    }
-
     void aClickFindsWhatIsConnectedWhileItIsDragged() {
         open(headPath());
         choose("connectedToolAction");
@@ -210,49 +194,6 @@ private slots:
         find<QAction>("growRegionAction")->trigger();
         QCOMPARE(classes[0].steps.back().at("mm"), 3.5);
         settle();
-    }
-
-    void theDialogShowsAClassAsAGraph() {
-        open(headPath());
-        choosePreset("Bone over soft tissue");
-        QTest::mouseDClick(find<QWidget>("classRow1"), Qt::LeftButton, Qt::NoModifier, {40, 8});
-        auto *const dialog = find<QDialog>("classDialog");
-        auto *const list = find<QListWidget>("classSteps");
-        const int before = list->count();
-        // Without the other class of the look.
-        auto *const others = find<QMenu>("step_without");
-        QCOMPARE(others->actions().size(), 1);
-        others->actions().front()->trigger();
-        QCOMPARE(list->count(), before + 1);
-        QCOMPARE(list->item(before)->text(), QString("without Bone"));
-        find<QAction>("step_grow")->trigger();
-        QCOMPARE(list->item(before + 1)->text(), QString("grown by 2 mm"));
-        find<QDoubleSpinBox>("stepNumber_mm")->setValue(1.5);
-        QCOMPARE(list->item(before + 1)->text(), QString("grown by 1.5 mm"));
-        // A step that changes values comes before those that find the region.
-        find<QAction>("step_gaussian")->trigger();
-        QCOMPARE(list->currentRow(), 0);
-        QVERIFY(!find<QPushButton>("stepDownButton")->isEnabled());
-        find<QDoubleSpinBox>("classEdgeBox")->setValue(0.75);
-        save("class_dialog");
-        QVERIFY(dialog->grab().save(artifact("class_dialog_alone.png")));
-        dialog->accept();
-        settle();
-        const auto &tissue = document().scene().look.classes[1];
-        QCOMPARE(tissue.edge, 0.75);
-        QCOMPARE(tissue.steps.front().kind, StepKind::gaussian);
-        QCOMPARE(QString::fromStdString(tissue.steps[tissue.steps.size() - 2].operand.name),
-                 QString::fromStdString(document().scene().look.classes[0].name));
-        // A renamed class stays in the step; a removed one becomes the step's own.
-        QTest::mouseDClick(find<QWidget>("classRow0"), Qt::LeftButton, Qt::NoModifier, {40, 8});
-        find<QLineEdit>("classNameEdit")->setText("Hard");
-        find<QDialog>("classDialog")->accept();
-        QCOMPARE(QString::fromStdString(tissue.steps[tissue.steps.size() - 2].operand.name),
-                 QString("Hard"));
-        // A class cannot be combined with one that depends on it.
-        QTest::mouseDClick(find<QWidget>("classRow0"), Qt::LeftButton, Qt::NoModifier, {40, 8});
-        QVERIFY(!find<QMenu>("step_without")->isEnabled());
-        find<QDialog>("classDialog")->reject();
     }
 
     void aPresetAsksForAPoint() {

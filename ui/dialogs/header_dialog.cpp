@@ -194,8 +194,8 @@ void HeaderDialog::search() {
 void HeaderDialog::copySelected() {
     const bool isAll = m_tree->selectedItems().isEmpty();
     QString text;
-    const auto cell = [](const QString &text) {
-        return QString::fromStdString(files::tabbedField(files::tableCell(text.toStdString())));
+    const auto cell = [](const QString &value) {
+        return QString::fromStdString(files::tabbedField(files::tableCell(value.toStdString())));
     };
     const std::function<void(const QTreeWidgetItem &, int)> add = [&](const QTreeWidgetItem &row,
                                                                       int depth) {

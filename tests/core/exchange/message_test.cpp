@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/task/error.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/search_seed.h"
 
 namespace pellucid::exchange {
 
@@ -83,7 +83,7 @@ TEST(ExchangeMessage, IdentifiersArePlain) {
 
 // A compromised helper may send anything: it is refused or taken, but nothing else happens.
 TEST(ExchangeMessage, AnyBytesAreRefusedOrTaken) {
-    std::mt19937 random(test::freshSeed());
+    std::mt19937 random(test::searchSeed());
     const std::vector<std::string> valid{
         pack(fullConnection()),
         pack(Query{}),
