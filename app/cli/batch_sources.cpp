@@ -178,7 +178,7 @@ public:
               const std::function<void(const StudyToRender &)> &use) override {
         const files::SessionFolder folder;
         const archive::ObjectFolder objects(folder.path(),
-                                            archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
+                                            archive::ObjectFolder::Durability::cached);
         archive::RetrievalObserver observer;
         std::string inputs;
         observer.listed = [&](const archive::Listing &listing) {

@@ -79,7 +79,7 @@ FetchedStudy::FetchedStudy(const RemoteOptions &remote, const std::string &serie
         else if (!series.empty())
             wanted.seriesUids = {series};
         const archive::ObjectFolder objects(m_folder.path(),
-                                            archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
+                                            archive::ObjectFolder::Durability::cached);
         const auto report = watched([&](const archive::RetrievalObserver &observer) {
             return archive::retrieve(server, wanted, objects, observer, progress);
         });

@@ -140,7 +140,7 @@ void addFindCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand("find", "Search servers for studies, series and images");
     c->add_option("NAME", o->names, "Names of servers")->required();
-    c->add_option("--level", o->level, "What is searched for; default study")
+    c->add_option("--level", o->level, "Query level; default study")
         ->check(CLI::IsMember({"study", "series", "image"}));
     c->add_option("--name", o->terms.patientName,
                   "Name of the patient, for studies; * and ? are wildcards");
@@ -153,7 +153,7 @@ void addFindCommand(CLI::App &app, const Context &context) {
     c->add_option("--series", o->terms.seriesUid, "UID of the series, for series and images");
     CLI::Option *limit =
         c->add_option("--limit", o->limit,
-                      "Most answers of each server; default: that of the server; 0: no limit");
+                      "Maximum results of each server; default: that of the server; 0: no limit");
     c->add_flag("--json", o->json, "Print a JSON array");
     c->callback([o, context, limit] {
         o->hasLimit = limit->count() > 0;

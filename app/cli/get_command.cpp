@@ -36,15 +36,15 @@ struct Options {
 };
 
 nlohmann::json jsonOf(const RetrievalReport &report, const fs::path &folder) {
-    nlohmann::json lacking = nlohmann::json::array();
-    for (const archive::RefusedObject &object : report.lacking)
-        lacking.push_back(
+    nlohmann::json missing = nlohmann::json::array();
+    for (const archive::RefusedObject &object : report.missing)
+        missing.push_back(
             {{"instance_uid", object.sopInstanceUid}, {"reason", object.reason.english()}});
     return {{"folder", folder.string()},       {"wanted", report.state.wanted},
             {"present", report.state.present}, {"received", report.state.received},
             {"bytes", report.state.bytes},     {"seconds", report.seconds},
             {"unwanted", report.unwanted},     {"of_another_patient", report.ofAnotherPatient},
-            {"corrected", report.corrected},   {"lacking", lacking}};
+            {"corrected", report.corrected},   {"missing", missing}};
 }
 
 // "509 of 512, 100 of them were here; 42.0 MB, 8.4 MB/s"
@@ -157,8 +157,7 @@ void addGetCommand(CLI::App &app, const Context &context) {
         c->add_option("--to", o->folder, "Folder to write to; default: the current one");
     c->add_flag("--library", o->isForLibrary, "Add the study to the library of the workstation")
         ->excludes(to);
-    c->add_option("--port", o->destination.port,
-                  "Port of this program if the server only sends (C-MOVE); default 11112")
+    c->add_option("--port", o->destination.port, "Local port for C-MOVE; default 11112")
         ->check(CLI::Range(1, 65535));
     c->add_option(
         "--ae", o->destination.ae,

@@ -53,7 +53,7 @@ void listen(Options o, const Context &context) {
     const archive::ObjectFolder folder(o.isForLibrary
                                            ? archive::libraryObjectFolder()
                                            : fs::absolute(o.folder.empty() ? "." : o.folder),
-                                       archive::ObjectFolder::Keeps::onDisk);
+                                       archive::ObjectFolder::Durability::synced);
     folder.create();
     std::optional<archive::TransferLog> log;
     if (o.isForLibrary)

@@ -9,7 +9,7 @@ namespace pellucid::task::because {
 // clang-format off
 // Servers on the network
 PELLUCID_REASON(thereIsNoTransfer, "there is no transfer %1")
-PELLUCID_REASON(objectsLack, "%1 not received: %2")
+PELLUCID_REASON(objectsMissing, "%1 not received: %2")
 PELLUCID_REASON(filesNotSent, "%1 not sent: %2")
 PELLUCID_REASON(filesNotSentForReasons, "%1 not sent, for %2 reasons")
 PELLUCID_REASON(notAllServersAnswered, "not all servers answered")

@@ -225,7 +225,7 @@ void addServerCommand(CLI::App &app, const Context &context) {
         ->check(CLI::ExistingFile);
     CLI::Option *certificate =
         put->add_option("--certificate", o->certificate,
-                        "Certificate that this program shows the server, in PEM format")
+                        "Client certificate, in PEM format")
             ->check(CLI::ExistingFile);
     CLI::Option *key =
         put->add_option("--key", o->key, "Private key of the certificate, in PEM format")
@@ -250,10 +250,10 @@ void addServerCommand(CLI::App &app, const Context &context) {
            "by a login in the browser (both for DICOMweb)")
         ->check(CLI::IsMember({"none", "basic", "bearer", "oauth"}));
     put->add_option("--issuer", o->login.issuer,
-                    "URL of the login server for oauth; it describes the next two")
+                    "Issuer URL for oauth; the two endpoints are discovered from it")
         ->excludes(dicom);
     put->add_option("--authorization-url", o->login.authorizationUrl,
-                    "URL of the login server's page, if there is no issuer")
+                    "Authorization endpoint, if there is no issuer")
         ->excludes(dicom);
     put->add_option("--token-url", o->login.tokenUrl,
                     "URL where the login server gives tokens, if there is no issuer")
@@ -262,7 +262,7 @@ void addServerCommand(CLI::App &app, const Context &context) {
                     "ID that the login server has for this program")
         ->excludes(dicom);
     put->add_option("--scope", o->login.scope,
-                    "What the login is to allow, such as 'openid offline_access'")
+                    "Scopes to request, such as 'openid offline_access'")
         ->excludes(dicom);
     put->add_option("--user", o->user, "User name for basic authentication");
     put->add_flag("--allow-insecure-login", o->allowsInsecureLogin,
@@ -274,7 +274,7 @@ void addServerCommand(CLI::App &app, const Context &context) {
         ->excludes(web);
     put->add_option("--connections", o->connections, "Most connections at once, 1 to 8; default 4")
         ->check(CLI::Range(1, archive::maxConnections));
-    put->add_option("--limit", o->limit, "Most answers to a search; default 200; 0: no limit");
+    put->add_option("--limit", o->limit, "Maximum number of results; default 200; 0: no limit");
     put->add_flag("--uncompress", o->uncompress,
                   "Send files uncompressed whose encoding a DICOM server does not accept")
         ->excludes(web);

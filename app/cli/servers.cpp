@@ -98,7 +98,7 @@ void requireComplete(const archive::RetrievalReport &report, const std::string &
     if (!report.isComplete())
         throw task::Error(
             task::ErrorCode::incomplete,
-            because::objectsLack(report.lacking.size(), report.lacking.front().reason), server);
+            because::objectsMissing(report.lacking.size(), report.lacking.front().reason), server);
 }
 
 } // namespace pellucid::cli

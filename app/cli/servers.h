@@ -26,10 +26,10 @@ std::string rateText(std::uint64_t bytes, double seconds);
 archive::RetrievalReport watched(
     const std::function<archive::RetrievalReport(const archive::RetrievalObserver &)> &retrieve);
 
-/// Names the objects that lack, by their UIDs, on standard error.
+/// Names the missing objects, by their UIDs, on standard error.
 void warnOfObjects(const archive::RetrievalReport &report);
 
-/// *Throws* Error{incomplete} if objects lack.
+/// *Throws* Error{incomplete} if objects are missing.
 void requireComplete(const archive::RetrievalReport &report, const std::string &server);
 
 } // namespace pellucid::cli

@@ -69,7 +69,7 @@ int main(int argc, char **argv) {
     using namespace pellucid;
     system::leaveMemoryOutOfDumps(); // not hideMemory: desktops then refuse their dialogs
     std::signal(SIGXFSZ, SIG_IGN);
-    CLI::App options("Look through DICOM studies as if the body were transparent", "pellucid");
+    CLI::App options("View DICOM studies as transparent projections", "pellucid");
     std::vector<std::string> paths;
     options.set_version_flag("--version", "pellucid " PELLUCID_VERSION);
     std::string engine;

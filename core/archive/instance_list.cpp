@@ -54,7 +54,7 @@ std::vector<double> numbersOf(const std::string &text) {
     return numbers;
 }
 
-// The place along the normal of the slices; nothing if the server does not tell.
+// The place along the normal of the slices; nothing if the server does not say.
 std::optional<double> heightOf(const Attributes &attributes) {
     const auto position = numbersOf(textOf(attributes, tag::position));
     const auto axes = numbersOf(textOf(attributes, tag::orientation));

@@ -15,7 +15,7 @@ namespace pellucid::archive {
 /// An object of a study, as a server lists it.
 struct Instance {
     std::string studyUid, seriesUid, sopInstanceUid;
-    std::string sopClassUid; ///< empty if the server does not tell
+    std::string sopClassUid; ///< empty if unknown
     int number = 0;          ///< 0 if unknown
 };
 
@@ -27,12 +27,12 @@ struct Wanted {
     Existing existing = Existing::stays; ///< of objects of which the server lists corrected data
 };
 
-/// A series of which a server lists less than it has, as far as it tells.
+/// A series of which a server lists less than it has, as far as it says.
 struct ShortSeries {
     std::string studyUid, seriesUid; ///< no series: the study
     std::size_t unlisted = 0;        ///< objects, as the server counts them
     std::size_t invalid = 0;         ///< of them, listed with an invalid UID
-    bool mayHaveMore = false; ///< the server has a limit, and does not tell how many there are
+    bool mayHaveMore = false; ///< the server has a limit, and does not say how many there are
 };
 
 /// Each takes about 800 bytes while it is retrieved. The largest studies have a tenth of that.

@@ -136,8 +136,8 @@ task::Reason reasonOf(const Correction &correction) {
     return because::studyDateIsCorrected(correction.here, correction.listed);
 }
 
-ObjectFolder::ObjectFolder(fs::path folder, Keeps keeps)
-    : m_folder(std::move(folder)), m_keeps(keeps) {}
+ObjectFolder::ObjectFolder(fs::path folder, Durability durability)
+    : m_folder(std::move(folder)), m_durability(durability) {}
 
 void ObjectFolder::create() const {
     files::createPrivateFolders(m_folder);
@@ -201,8 +201,8 @@ StoredObject ObjectFolder::keep(const files::AtomicFile &file, const exchange::A
     }
     files::createPrivateFolders(object.path.parent_path());
     copy->moveTo(object.path);
-    copy->commit(m_keeps == Keeps::onDisk ? files::AtomicFile::Bytes::flushed
-                                          : files::AtomicFile::Bytes::unflushed);
+    copy->commit(m_durability == Durability::synced ? files::AtomicFile::Bytes::flushed
+                                                    : files::AtomicFile::Bytes::unflushed);
     return object;
 }
 

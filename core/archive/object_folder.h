@@ -67,8 +67,8 @@ class ObjectFolder {
 public:
     /// `onDisk`: an object counts as kept only when it is on the disk, because its sender may
     /// delete it.
-    enum class Keeps { inMemoryOfTheSystem, onDisk };
-    ObjectFolder(std::filesystem::path folder, Keeps keeps);
+    enum class Durability { cached, synced };
+    ObjectFolder(std::filesystem::path folder, Durability durability);
 
     const std::filesystem::path &folder() const { return m_folder; }
     /// Creates the folder if it is missing; like all in it, for the user alone. *Throws*
@@ -97,7 +97,7 @@ public:
 
 private:
     std::filesystem::path m_folder;
-    Keeps m_keeps;
+    Durability m_durability;
 };
 
 } // namespace pellucid::archive

@@ -12,7 +12,7 @@ PELLUCID_REASON(senderMakesNoProgress, "the sender completed no message within %
 PELLUCID_REASON(senderHasTooManyConnections, "the sender has too many connections at the same time")
 PELLUCID_REASON(moreConnectionsRefusedFrom, "more refused connections from %1: %2")
 PELLUCID_REASON(moreConnectionsRefused, "more refused connections from several addresses: %1")
-PELLUCID_REASON(mayBeUncompressed, "%1; it may accept the file uncompressed: tick 'Uncompress what it does not accept' for this server (on the command line: server add with --uncompress)")
+PELLUCID_REASON(mayBeUncompressed, "%1; it may accept the file uncompressed: tick 'Decompress if the encoding is not accepted' for this server (on the command line: server add with --uncompress)")
 PELLUCID_REASON(isNoPort, "'%1' is not a port; use 1 to 65535")
 PELLUCID_REASON(isNoAeTitle, "'%1' is not an AE title; use 1 to 16 letters and digits")
 PELLUCID_REASON(isNoHost, "'%1' is neither the name nor the address of a host")

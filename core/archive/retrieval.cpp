@@ -471,7 +471,7 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     RetrievalWork work(listing, folder, observer, std::min(int(firstSlices), server.connections),
                        wanted.existing);
     MissingNote note(folder.folder() / wanted.studyUid, wanted.seriesUids, work);
-    // Every connection proposes the kinds that lack; a server that does not tell them gets the
+    // Every connection proposes the missing kinds; a server that does not list them gets the
     // common ones.
     std::set<std::string> classes = work.classes();
     if (classes.contains(""))
@@ -543,14 +543,14 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     }
     listener.reset();
     RetrievalReport report = work.report();
-    note.setFinal(report.lacking.size());
+    note.setFinal(report.missing.size());
     if (report.state.received > 0)
         files::flush(folder.folder());
     // Neither a list nor an object.
     if (instances.empty() && report.state.received + report.state.present == 0)
-        throw Error(ErrorCode::unusable, report.lacking.empty()
+        throw Error(ErrorCode::unusable, report.missing.empty()
                                              ? task::Reason(because::serverHasNoSuchStudy)
-                                             : report.lacking.front().reason);
+                                             : report.missing.front().reason);
     report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return report;
 }

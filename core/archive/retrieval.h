@@ -25,8 +25,8 @@ struct RetrievalState {
 struct RetrievalReport {
     RetrievalState state;
     double seconds = 0.0;
-    /// The objects that lack, each with its reason.
-    std::vector<RefusedObject> lacking;
+    /// The missing objects, each with its reason.
+    std::vector<RefusedObject> missing;
     /// Objects that came although nobody asked for them, or twice.
     std::size_t unwanted = 0;
     /// Objects here, received now or before, that name a patient who is not the one listed; and
@@ -38,7 +38,7 @@ struct RetrievalReport {
     /// replaced.
     std::size_t corrected = 0;
     std::vector<Correction> corrections{};
-    bool isComplete() const { return lacking.empty(); }
+    bool isComplete() const { return missing.empty(); }
 };
 
 /// Told from one thread at a time.
@@ -61,14 +61,14 @@ struct MoveDestination {
     bool isTakenByOtherTls = false;
 };
 
-/// Retrieves what lacks in a folder of a study: compressed objects stay compressed, series come
-/// from coarse to fine, over up to `Server::connections` connections, as far as the server grants
-/// them and they save time. A connection that is lost is
-/// made again while the others go on; what is still missing at the end is listed. *Throws*
-/// Error{unreachable} if nothing could be retrieved because the server cannot be reached, or
-/// because the port of the destination is in use; as exchange::Link otherwise; Error{unusable,
-/// loginHasExpired} if the user has to log in again; Error{output} if the folder cannot be written;
-/// Cancelled. What has arrived stays in any case.
+/// Retrieves the objects of a study that its folder does not have yet: compressed objects stay
+/// compressed, series come from coarse to fine, over up to `Server::connections` connections, as
+/// far as the server grants them and they save time. A connection that is lost is made again while
+/// the others go on; what is still missing at the end is listed. *Throws* Error{unreachable} if
+/// nothing could be retrieved because the server cannot be reached, or because the port of the
+/// destination is in use; as exchange::Link otherwise; Error{unusable, loginHasExpired} if the user
+/// has to log in again; Error{output} if the folder cannot be written; Cancelled. What has arrived
+/// stays in any case.
 RetrievalReport retrieve(const Server &server, const Wanted &wanted, const ObjectFolder &folder,
                          const RetrievalObserver &observer = {},
                          const task::Progress &progress = {},

@@ -84,7 +84,7 @@ bool RetrievalWork::takeUnlisted(const StoredObject &object) {
     if (series->unlisted > 0)
         --series->unlisted;
     else
-        ++m_state.wanted; // the server did not tell how many there are
+        ++m_state.wanted; // the server did not say how many there are
     return true;
 }
 
@@ -396,7 +396,7 @@ RetrievalReport RetrievalWork::report() {
     }
     for (const auto &[uid, instance] : m_missing) {
         const auto reason = m_reasons.find(uid);
-        report.lacking.push_back({uid, reason != m_reasons.end()
+        report.missing.push_back({uid, reason != m_reasons.end()
                                            ? reason->second
                                            : m_whyGivenUp.value_or(because::serverLeftItOut)});
     }
@@ -405,7 +405,7 @@ RetrievalReport RetrievalWork::report() {
         const bool isUncertain = series.mayHaveMore && !m_whole.contains(series.seriesUid);
         const std::size_t count = series.unlisted > 0 ? series.unlisted : isUncertain ? 1 : 0;
         for (std::size_t n = 0; n < count; ++n)
-            report.lacking.push_back({"", n < series.invalid
+            report.missing.push_back({"", n < series.invalid
                                               ? task::Reason(because::hasNoValidUids)
                                               : m_whyUnlisted.value_or(because::wasNotListed)});
     }

@@ -27,9 +27,9 @@ struct Batch {
 /// The size of the first batches; fewer objects do not repay a connection.
 inline constexpr std::size_t firstBatchSize = 8;
 
-/// The state of a retrieval, shared by its connections: what lacks and why, and the queue of
+/// The state of a retrieval, shared by its connections: what is missing, and why, and the queue of
 /// batches from coarse to fine. Thread-safe, but for `classes`, `needsMove` and `useMove`, which
-/// are for the time when no connection runs.
+/// call these while no connection runs.
 class RetrievalWork {
 public:
     /// `folder` and `observer` outlive this object. `existing`: whether objects here of which
@@ -54,15 +54,15 @@ public:
     /// The next batch; nothing when all are taken.
     std::optional<Batch> next();
 
-    /// After a lost connection: what has not come is asked for again.
+    /// After a lost connection: requests again what did not arrive.
     void putBack(Batch batch);
 
     /// Where an object may belong, also one that the server did not list; nothing if it is not
-    /// awaited. *Throws* if the server goes on and on with others.
+    /// awaited. *Throws* if the server keeps sending others.
     std::vector<ObjectFolder::Place> placesOf(const std::string &uid);
     void stored(const StoredObject &object);
     void refused(const std::string &uid, const task::Reason &reason);
-    /// Takes what another listener has stored in the folder meanwhile.
+    /// Counts objects that another listener has stored since.
     void findHere(const Batch &batch);
     /// The server ended a batch: what did not come has this reason unless it has its own.
     void ended(const Batch &batch, const exchange::RetrievalEnd &end);

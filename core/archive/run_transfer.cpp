@@ -97,11 +97,11 @@ RetrievalReport runTransfer(TransferLog &log, std::int64_t id, const Server &ser
         transfer->wanted.existing = existing;
         RetrievalReport report =
             retrieve(server, transfer->wanted,
-                     ObjectFolder(transfer->folder, ObjectFolder::Keeps::inMemoryOfTheSystem),
-                     recording, stoppable, destination);
+                     ObjectFolder(transfer->folder, ObjectFolder::Durability::cached), recording,
+                     stoppable, destination);
         log.finish(id, report.isComplete() ? TransferState::complete : TransferState::incomplete,
                    report.state, seconds(),
-                   report.isComplete() ? "" : report.lacking.front().reason.encoded());
+                   report.isComplete() ? "" : report.missing.front().reason.encoded());
         return report;
     } catch (const task::Cancelled &) {
         // A program that ends continues it at its next start, unless the user has cancelled it.

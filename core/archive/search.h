@@ -20,7 +20,7 @@ struct SearchTerms {
     std::string patientName, patientId, accession;
     std::string modality; ///< one or, with commas between, several
     std::string studyUid;
-    /// YYYYMMDD, or a range FROM-TO with one end missing perhaps.
+    /// YYYYMMDD, or a range FROM-TO either end may be open.
     std::string date;
     exchange::Level level = exchange::Level::study;
     std::string seriesUid; ///< for series and images

@@ -55,7 +55,7 @@ struct Output {
 struct Recipe {
     SeriesChoice series;
     std::vector<Output> outputs;
-    /// Of everything that the results depend on, also of the presets and scenes that it names.
+    /// Digest of all inputs of the results, also of the presets and scenes that it names.
     std::string digest;
 };
 

@@ -6,8 +6,8 @@
 
 namespace pellucid::classify {
 
-/// Whether the look has classes of the volume, and each of them is restricted to the body. A
-/// segment is what it is, with or without the couch.
+/// Whether the look has classes of the volume, and each of them is restricted to the body. Segments
+/// are not changed by removing the couch.
 bool isWithoutCouch(const Look &look);
 
 /// Restricts every class of the volume to the body, before its other regions. A look without

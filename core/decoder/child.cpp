@@ -144,7 +144,7 @@ Child::Answer Child::answer(const task::Progress &progress) {
         switch (message.kind) {
         case Message::Kind::need: {
             if (++memoryRequests > maxMemoryRequests) // a decoder that only asks for memory
-                throw Error(ErrorCode::unusable, because::decodedToNonsense);
+                throw Error(ErrorCode::unusable, because::implausibleAnswer);
             const bool isGranted = grow(message.size);
             if (!send(m_process.socket(),
                       {isGranted ? Message::Kind::granted : Message::Kind::refused, 0, m_arenaBytes,
@@ -156,7 +156,7 @@ Child::Answer Child::answer(const task::Progress &progress) {
         case Message::Kind::done:
             return take(message);
         default:
-            throw Error(ErrorCode::unusable, because::decodedToNonsense);
+            throw Error(ErrorCode::unusable, because::implausibleAnswer);
         }
     }
 }
@@ -186,7 +186,7 @@ Child::Answer Child::take(const Message &message) {
     if (message.size > std::min(m_arenaBytes, largestBodyBytes) ||
         dataOffset(message.size) > m_arenaBytes ||
         message.dataBytes > m_arenaBytes - dataOffset(message.size))
-        throw Error(ErrorCode::unusable, because::decodedToNonsense);
+        throw Error(ErrorCode::unusable, because::implausibleAnswer);
     if (m_mapped.size() < m_arenaBytes)
         m_mapped = Mapping(m_arena.get(), m_arenaBytes, Mapping::Access::read);
     m_body.assign(reinterpret_cast<const char *>(m_mapped.data()), message.size);
@@ -205,7 +205,7 @@ void Child::failByExitStatus() {
     // If it still runs, it has sent an invalid message.
     const std::optional<int> ended = m_process.endSignal();
     if (!ended)
-        throw Error(ErrorCode::unusable, because::decodedToNonsense);
+        throw Error(ErrorCode::unusable, because::implausibleAnswer);
     const int signal = *ended;
     system::log("a decoder was ended by signal " + std::to_string(signal));
     switch (signal) {

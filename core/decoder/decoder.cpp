@@ -70,7 +70,7 @@ std::uint64_t sampleCount(const InstanceHeader &h) {
         __builtin_mul_overflow(std::uint64_t(h.rows) * std::uint64_t(h.columns),
                                std::uint64_t(h.frames.size()), &samples) ||
         samples > (std::uint64_t(1) << 62))
-        throw Error(ErrorCode::unusable, because::decodedToNonsense);
+        throw Error(ErrorCode::unusable, because::implausibleAnswer);
     return samples;
 }
 
@@ -119,7 +119,7 @@ void Decoder::startAhead(int count, const task::Progress &progress) {
     try {
         for (int n = 0; n < count; ++n)
             children.push_back(acquire(progress));
-    } catch (const Error &) { // the first file will tell
+    } catch (const Error &) { // the first file reports it
     }
     for (auto &child : children)
         release(std::move(child));
@@ -212,7 +212,7 @@ DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress)
             InstanceHeader h = unpackHeader(answer.body);
             const std::uint64_t count = sampleCount(h);
             if (whyUnusable(h) || answer.data.size() != 2 * count)
-                throw Error(ErrorCode::unusable, because::decodedToNonsense);
+                throw Error(ErrorCode::unusable, because::implausibleAnswer);
             file.requireUnchanged();
             samples = {reinterpret_cast<const std::uint16_t *>(answer.data.data()), count};
             return h;
@@ -235,7 +235,7 @@ DecodedSegmentation Decoder::segmentation(const fs::path &path, const task::Prog
                 h.kind == SegmentationKind::binary ? (count + 7) / 8 : 2 * count;
             if (h.instance.rows > 65535 || h.instance.columns > 65535 || count == 0 ||
                 answer.data.size() != bytes)
-                throw Error(ErrorCode::unusable, because::decodedToNonsense);
+                throw Error(ErrorCode::unusable, because::implausibleAnswer);
             file.requireUnchanged();
             pixels = answer.data;
             return h;
@@ -254,7 +254,7 @@ UncompressedFile Decoder::uncompressed(const fs::path &path, bool isExplicit,
         const std::span<const std::byte> bytes =
             answerOf(child, progress, [&](const Child::Answer &answer) {
                 if (!looksLikeDicom(answer.data))
-                    throw Error(ErrorCode::unusable, because::decodedToNonsense);
+                    throw Error(ErrorCode::unusable, because::implausibleAnswer);
                 file.requireUnchanged();
                 return answer.data;
             });
@@ -272,12 +272,12 @@ DecodedStructureSet Decoder::structureSet(const fs::path &path, const task::Prog
             DecodedStructureSet read{unpackStructureSet(answer.body), {}};
             const std::uint64_t points = pointCount(read.header);
             if (answer.data.size() != points * sizeof(glm::dvec3))
-                throw Error(ErrorCode::unusable, because::decodedToNonsense);
+                throw Error(ErrorCode::unusable, because::implausibleAnswer);
             read.points.resize(points);
             std::memcpy(read.points.data(), answer.data.data(), answer.data.size());
             for (const glm::dvec3 &point : read.points)
                 if (!(glm::compMax(glm::abs(point)) <= farthestMm))
-                    throw Error(ErrorCode::unusable, because::decodedToNonsense);
+                    throw Error(ErrorCode::unusable, because::implausibleAnswer);
             file.requireUnchanged();
             return read;
         });
@@ -336,14 +336,14 @@ void Decoder::archive(const fs::path &path,
                 const bool isDamaged = (flags & damagedPart) != 0;
                 if ((flags & announcement) != 0) {
                     if (!isAnnouncing)
-                        throw Error(ErrorCode::unusable, because::decodedToNonsense);
+                        throw Error(ErrorCode::unusable, because::implausibleAnswer);
                     isAnnouncing = files.size() == filesAnnouncedAtOnce;
                     for (const ArchiveFile &f : files)
                         announce(f);
                 } else {
                     if (files.size() != 1 || isFirst == isInFile ||
                         (!isLast && (isDamaged || answer.data.size() != archivePartBytes)))
-                        throw Error(ErrorCode::unusable, because::decodedToNonsense);
+                        throw Error(ErrorCode::unusable, because::implausibleAnswer);
                     isAnnouncing = false;
                     isInFile = !isLast;
                     take({files[0], answer.data, isFirst, isLast, isDamaged});
@@ -388,7 +388,7 @@ bool Decoder::samples(const fs::path &path, const SampleRange &samples,
                 if (isDone ? left != 0
                            : bytes == 0 || bytes > left ||
                                  bytes % std::uint64_t(samples.bytesEach) != 0)
-                    throw Error(ErrorCode::unusable, because::decodedToNonsense);
+                    throw Error(ErrorCode::unusable, because::implausibleAnswer);
                 if (isDone)
                     return;
                 left -= bytes;

@@ -181,11 +181,11 @@ namespace {
 using helper::packed;
 
 [[noreturn]] void fail() {
-    throw task::Error(task::ErrorCode::unusable, task::because::decodedToNonsense);
+    throw task::Error(task::ErrorCode::unusable, task::because::implausibleAnswer);
 }
 
 template <class T> T unpacked(std::span<const std::byte> body) {
-    return helper::unpacked<T>(body, task::because::decodedToNonsense);
+    return helper::unpacked<T>(body, task::because::implausibleAnswer);
 }
 
 void requireValid(const volume::ValueWindow &window) {
@@ -366,7 +366,7 @@ VolumeLayout unpackLayout(std::span<const std::byte> body) {
 }
 
 task::Reason unpackReason(std::span<const std::byte> body) {
-    return helper::unpackedReason(body, task::because::decodedToNonsense);
+    return helper::unpackedReason(body, task::because::implausibleAnswer);
 }
 
 } // namespace pellucid::decoder

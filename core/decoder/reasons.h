@@ -17,7 +17,7 @@ PELLUCID_REASON(noMemoryForTheVolume, "not enough memory for the volume")
 PELLUCID_REASON(noMemoryForADecoder, "not enough memory to start the decoder")
 
 // The decoding process
-PELLUCID_REASON(decodedToNonsense, "was decoded to implausible data")
+PELLUCID_REASON(implausibleAnswer, "was decoded to implausible data")
 PELLUCID_REASON(takesTooLong, "takes too long to read")
 PELLUCID_REASON(decoderCannotStart, "the decoder cannot be started: %1")
 PELLUCID_REASON(decoderCrashed, "is so damaged that the decoder crashed")

@@ -194,7 +194,7 @@ void ArrivingSeries::decode(const std::vector<Arrival> &arrivals, const task::Pr
         try {
             m_decoded.keep(path, decoder::Decoder::shared().image(path, progress));
         } catch (const Error &error) {
-            // It is read again with the others, where its reason is told.
+            // It is read again with the others, which reports why.
             if (error.code() != ErrorCode::unusable && error.code() != ErrorCode::outOfMemory)
                 throw;
         }

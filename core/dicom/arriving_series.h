@@ -17,7 +17,7 @@
 
 namespace pellucid::dicom {
 
-/// A volume of which slices lack. It fills the same box as the whole, and has as many slices at
+/// A volume with missing slices. It fills the same box as the whole, and has as many slices at
 /// even distances, interpolated between those that are there; until every eighth is there, fewer if
 /// the whole has many.
 struct PartialVolume {
@@ -52,7 +52,7 @@ public:
     void end();
 
     /// Receives what is there at first, and when every eighth, fourth and second slice is there.
-    /// Its progress stops when the series is complete: then a partial volume is of no more use.
+    /// Its progress stops when the series is complete: then a partial volume is not needed.
     using Show = std::function<void(const PartialVolume &, const task::Progress &)>;
     /// Waits for all files, then assembles the volume of those that came, which says if some did
     /// not. Only series of single

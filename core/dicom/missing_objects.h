@@ -13,7 +13,7 @@ namespace pellucid::dicom {
 inline constexpr const char *missingObjectsName = "missing-objects.txt";
 
 /// Notes in a folder that a retrieval has not brought all objects of a study, or of some of its
-/// series, so that whoever opens what is there is told; 0: removes the note, unless it is of more
+/// series, so that whoever opens the rest hears of it; 0: removes the note, unless it is of more
 /// series than these. *Shape*: `seriesUids`: those that were retrieved; none: all of the study.
 /// *Throws* Error{output}.
 void noteMissingObjects(const std::filesystem::path &studyFolder,

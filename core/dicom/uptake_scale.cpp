@@ -228,42 +228,42 @@ UptakeScale uptakeScale(const std::vector<const InstanceHeader *> &files) {
         return refused(pet.units == "BQML" ? ValueUnit::activity : ValueUnit::none, 1.0,
                        because::petFilesDiffer);
     const bool isActivity = pet.units == "BQML";
-    const auto lacking = [&](const task::Reason &reason) {
+    const auto missing = [&](const task::Reason &reason) {
         return refused(isActivity ? ValueUnit::activity : ValueUnit::none, 1.0, reason);
     };
     const bool isUptake = pet.units == "GML";
     // Philips writes counts, with the factors in elements of its own.
     const bool isCounts = pet.units == "CNTS" && pet.uptakePerCount > 0.0;
     if (!isActivity && !isUptake && !isCounts)
-        return lacking(because::petUnitIs(pet.units));
+        return missing(because::petUnitIs(pet.units));
     const auto isCorrectedFor = [&](const char *what) {
         return pet.corrections.find(what) != std::string::npos;
     };
     // Values that are SUV already may come from programs that drop the list of corrections.
     if (!isCorrectedFor("ATTN") && !(isUptake && pet.corrections.empty()))
-        return lacking(because::notAttenuationCorrected);
+        return missing(because::notAttenuationCorrected);
     if (isUptake)
         return pet.uptakeType.empty() || pet.uptakeType == "BW"
                    ? UptakeScale{ValueUnit::uptake, 1.0, std::nullopt}
-                   : lacking(because::uptakeIsOfType(pet.uptakeType));
+                   : missing(because::uptakeIsOfType(pet.uptakeType));
     if ((pet.decayCorrection != "ADMIN" && pet.decayCorrection != "START") ||
         !isCorrectedFor("DECY"))
-        return lacking(because::notDecayCorrected);
+        return missing(because::notDecayCorrected);
     if (isCounts)
         return {ValueUnit::uptake, pet.uptakePerCount, std::nullopt};
     if (pet.injections > 1)
-        return lacking(because::severalInjections);
+        return missing(because::severalInjections);
     if (!(pet.weightKg >= minWeightKg && pet.weightKg <= maxWeightKg))
-        return lacking(because::noPlausibleWeight);
+        return missing(because::noPlausibleWeight);
     const double leastBq = pet.weightKg >= humanKg ? minHumanBq : minInjectedBq;
     if (!(pet.injectedBq >= leastBq && pet.injectedBq <= maxInjectedBq))
-        return lacking(because::noInjectedActivity);
+        return missing(because::noInjectedActivity);
     const bool needsHalfLife = pet.decayCorrection != "ADMIN";
     if (needsHalfLife && pet.halfLifeS > 0.0 && !isHalfLifePlausible(pet))
-        return lacking(because::halfLifeIsWrong);
+        return missing(because::halfLifeIsWrong);
     const auto left = activityLeft(files);
     if (!left)
-        return lacking(because::noDecayTime);
+        return missing(because::noDecayTime);
     constexpr double gramsPerKg = 1000.0;
     return {ValueUnit::uptake, pet.weightKg * gramsPerKg / (pet.injectedBq * *left), std::nullopt};
 }

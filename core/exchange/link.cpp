@@ -306,7 +306,7 @@ void Link::fail(const Message &message) {
     const std::optional<int> signal =
         message.kind == Kind::failed ? m_process.endSignal() : std::nullopt;
     if (!signal)
-        throw Error(ErrorCode::unreachable, because::helperSentNonsense);
+        throw Error(ErrorCode::unreachable, because::implausibleReply);
     system::log("a network helper was ended by signal " + std::to_string(*signal));
     throw Error(ErrorCode::unreachable, *signal == SIGSYS
                                             ? task::Reason(because::helperBrokeItsConfinement)

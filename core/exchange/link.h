@@ -22,8 +22,8 @@ public:
     /// An open file for the object, or the status that refuses it (PS3.4, B.2.3). The file belongs
     /// to the receiver.
     virtual std::variant<int, std::uint16_t> open(const Arrival &arrival) = 0;
-    /// The object is complete; 0 bytes: it could not be written. *Shape*: 0 when it is kept, or the
-    /// status for the sender.
+    /// The object is complete; 0 bytes: it could not be written. *Returns* 0 when it is kept, or
+    /// the status for the sender.
     virtual std::uint16_t keep(const Arrival &arrival, std::uint64_t bytes) = 0;
     /// Bytes of the current object so far, or 0 with objects that others received.
     virtual void receive(std::uint64_t) {}
@@ -39,7 +39,7 @@ using StepObserver = std::function<void(Step, const std::string &)>;
 /// be started; Cancelled, after which the connection is closed.
 class Link {
 public:
-    /// Connects. `observe` is told of each step that succeeds.
+    /// Connects. calls `observe` after each successful step.
     Link(const Connection &connection, const task::Progress &progress = {},
          const StepObserver &observe = {});
     ~Link();

@@ -118,11 +118,11 @@ struct Header {
 };
 
 [[noreturn]] void fail() {
-    throw task::Error(task::ErrorCode::unusable, because::helperSentNonsense);
+    throw task::Error(task::ErrorCode::unusable, because::implausibleReply);
 }
 
 template <class T> T unpacked(const std::string &body) {
-    return helper::unpacked<T>(std::as_bytes(std::span(body)), because::helperSentNonsense);
+    return helper::unpacked<T>(std::as_bytes(std::span(body)), because::implausibleReply);
 }
 
 void requireUid(const std::string &text) {
@@ -267,7 +267,7 @@ std::vector<std::string> unpackUids(const std::string &body) {
 }
 
 task::Reason unpackReason(const std::string &body) {
-    return helper::unpackedReason(std::as_bytes(std::span(body)), because::helperSentNonsense);
+    return helper::unpackedReason(std::as_bytes(std::span(body)), because::implausibleReply);
 }
 
 Redirection unpackRedirection(const std::string &body) {

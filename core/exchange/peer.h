@@ -48,7 +48,7 @@ std::string hostPart(const std::string &host);
 /// the former.
 std::string textOf(const sockaddr_storage &address);
 
-/// The addresses of a host, as the system's name service tells them; empty if it knows none.
+/// The addresses of a host, as the system resolves them; empty if it knows none.
 std::vector<std::string> addressesOf(const std::string &host);
 
 /// A kind of object, and one way to encode it (transfer syntax).

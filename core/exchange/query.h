@@ -59,7 +59,7 @@ constexpr std::uint32_t uidOf(Level level) {
 struct QueryEnd {
     bool reachedLimit = false;         ///< that of the query
     bool mayBeIncomplete = false;      ///< the server has a limit, too, or says that there is more
-    std::vector<std::string> warnings; ///< what the server remarks
+    std::vector<std::string> warnings; ///< the server's warnings
 };
 
 /// What is to be retrieved: a study, a series of it, or instances of the series.
@@ -74,8 +74,7 @@ struct Retrieval {
 struct RetrievalEnd {
     std::uint32_t completed = 0, failed = 0, warnings = 0;
     std::vector<std::string> failedInstances;
-    std::string
-        reason; ///< why some failed: an encoded task::Reason; empty if the server does not tell
+    std::string reason; ///< why some failed: an encoded task::Reason; empty if unknown
     bool operator==(const RetrievalEnd &) const = default;
 };
 

@@ -7,7 +7,7 @@
 namespace pellucid::task::because {
 
 // clang-format off
-PELLUCID_REASON(helperSentNonsense, "the network helper sent implausible data")
+PELLUCID_REASON(implausibleReply, "the network helper sent implausible data")
 PELLUCID_REASON(helperCannotStart, "the network helper cannot be started: %1")
 PELLUCID_REASON(helperCrashed, "the network helper crashed")
 PELLUCID_REASON(helperBrokeItsConfinement, "the server made the network helper attempt a forbidden system call")

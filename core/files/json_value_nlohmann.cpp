@@ -145,7 +145,7 @@ void JsonValue::refuse(const task::Reason &what) const {
 }
 
 void JsonValue::refuseWithin(const task::Reason &what) const {
-    // Its line is that of another text.
+    // The line number belongs to the inner text.
     if (what.is(because::atLine) && !what.arguments()[1].reasons.empty())
         refuseWithin(what.arguments()[1].reasons.front());
     if (!what.is(because::at) || what.arguments()[1].reasons.empty())

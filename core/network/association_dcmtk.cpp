@@ -110,7 +110,7 @@ std::vector<Proposal> proposalsFor(const exchange::Connection &connection) {
     switch (connection.purpose) {
     case Purpose::echo:
         proposals.push_back({UID_VerificationSOPClass, plainSyntaxes});
-        // What else it offers is told to the user.
+        // The user hears what else it offers.
         proposals.push_back({UID_FINDStudyRootQueryRetrieveInformationModel, plainSyntaxes});
         proposals.push_back({UID_GETStudyRootQueryRetrieveInformationModel, plainSyntaxes});
         proposals.push_back({UID_MOVEStudyRootQueryRetrieveInformationModel, plainSyntaxes});
@@ -198,7 +198,7 @@ void Association::negotiate(const exchange::Connection &connection) {
         }
         failRequest(requested.text(), peer.usesTls);
     }
-    // Whether a kind of object or only its encodings are refused, each object tells.
+    // Each object's status says whether its class or only its encodings were refused.
     if (connection.purpose != Purpose::store &&
         ASC_countAcceptedPresentationContexts(m_parameters) == 0)
         throw task::Error(task::ErrorCode::unusable, because::serverLacksTheService);
@@ -259,7 +259,7 @@ Association::Association(const exchange::Acceptance &acceptance, int socket, Con
     };
     if (!acceptance.calledAe.empty() && acceptance.calledAe != called.data())
         reject(ASC_REASON_SU_CALLEDAETITLENOTRECOGNIZED,
-               because::senderWantsAnother(m_callingAe, std::string(called.data())));
+               because::wrongCalledTitle(m_callingAe, std::string(called.data())));
     if (!acceptance.callingAes.empty() &&
         std::find(acceptance.callingAes.begin(), acceptance.callingAes.end(), m_callingAe) ==
             acceptance.callingAes.end())

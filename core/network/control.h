@@ -21,7 +21,7 @@ struct CancelledByProgram {};
 
 /// The start of a text in UTF-8, at most so many bytes.
 std::string shortened(const std::string &text, std::size_t bytes);
-inline constexpr std::size_t longestComment = 1024; ///< of what a server remarks
+inline constexpr std::size_t longestComment = 1024; ///< of a server's comment
 
 /// This process's end of the messages. Sending and waiting *throw* Disconnected.
 class Control {

@@ -132,7 +132,7 @@ void sendFragments(Association &association, unsigned char context, DUL_DATAPDV 
     do {
         const std::size_t now = std::min(longest, bytes.size());
         std::span<const std::byte> part = bytes.first(now);
-        if (now % 2 != 0) { // of a file that lacks its padding
+        if (now % 2 != 0) { // of a file without its padding
             padded.assign(part.begin(), part.end());
             padded.push_back(std::byte(0));
             part = padded;

@@ -25,7 +25,7 @@ struct Command {
     std::string comment;
 };
 
-/// Waits for the next command. *Shape*: nothing if the program cancels. *Throws* Lost.
+/// Waits for the next command. *Returns* nothing if the program cancels. *Throws* Lost.
 std::optional<Command> nextCommand(Association &association, Control &control);
 
 /// Receives the data set after a command. *Throws* Lost.

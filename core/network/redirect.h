@@ -15,7 +15,7 @@ struct LoginResult {
     std::string error; ///< empty: the login succeeded
 };
 
-/// Reads the head of an HTTP request. *Shape*: nothing if it is not the redirect of the login with
+/// Reads the head of an HTTP request. *Returns* nothing if it is not the redirect of the login with
 /// this state.
 std::optional<LoginResult> loginResultOf(const std::string &head, const std::string &state);
 

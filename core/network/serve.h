@@ -7,7 +7,7 @@ namespace pellucid::network {
 void prepareToServe();
 
 /// Connects as the program asks, then answers its requests through the socket until it closes.
-/// *Shape*: the exit status.
+/// *Returns* the exit status.
 int serve(int socket);
 
 } // namespace pellucid::network

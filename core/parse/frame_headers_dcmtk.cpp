@@ -229,7 +229,7 @@ void readVectors(DcmItem &dataset, InstanceHeader &header) {
 }
 
 // Where the frames of a file lie along the normal of the first, relative to it, mm; empty if they
-// are no slices, or nothing tells.
+// are no slices, or nothing says so.
 std::vector<double> depthsOf(DcmItem &dataset, const FrameHeader &first, InstanceHeader &header) {
     const std::size_t count = header.frames.size();
     // Of a dose: relative to the first, or where the axis is that of the patient, absolute.

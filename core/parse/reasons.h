@@ -13,7 +13,7 @@ PELLUCID_REASON(isDamaged, "is damaged")
 
 // The decoding process
 PELLUCID_REASON(decoderCannotBeSetUp, "the decoder cannot be set up")
-PELLUCID_REASON(isAskedForUnknowably, "was requested in a way that the decoder does not support")
+PELLUCID_REASON(unsupportedRequest, "was requested in a way that the decoder does not support")
 
 // Archives
 PELLUCID_REASON(isADamagedArchive, "is a damaged archive")

@@ -105,7 +105,7 @@ private:
             finish(0, {}, {});
             break;
         default:
-            throw Error(ErrorCode::usage, because::isAskedForUnknowably);
+            throw Error(ErrorCode::usage, because::unsupportedRequest);
         }
     }
 

@@ -123,7 +123,7 @@ void readSamples(std::span<const std::byte> file, const SampleRange &samples,
     if (samples.bytesEach < 1 || samples.bytesEach > 8 ||
         partBytes % std::size_t(samples.bytesEach) != 0 ||
         samples.bytes % std::uint64_t(samples.bytesEach) != 0)
-        throw Error(ErrorCode::usage, because::isAskedForUnknowably);
+        throw Error(ErrorCode::usage, because::unsupportedRequest);
     const std::uint64_t begin = samples.at + (samples.isDeflated ? 0 : samples.skip);
     if (begin > file.size() || (!samples.isDeflated && file.size() - begin < samples.bytes))
         throw Error(ErrorCode::unusable, because::isTruncated);

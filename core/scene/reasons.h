@@ -19,7 +19,7 @@ PELLUCID_REASON(imageSizeOutOfRange, "the image size must be 1 to %1 pixels a si
 PELLUCID_REASON(matrixIsNotParallel, "is not the matrix of a parallel projection: the third row must be 0, 0, 0 and a number other than 0")
 PELLUCID_REASON(pixelsOfMatrixAreNotSquare, "does not project on square pixels: the first three numbers of the first two rows must be perpendicular and of the same length")
 PELLUCID_REASON(pixelsOfViewsDiffer, "has pixels of another size than the matrices before")
-PELLUCID_REASON(matricesNeedASize, "needs a size, because a matrix does not tell where its picture ends")
+PELLUCID_REASON(matricesNeedASize, "needs a size: give --size with --matrix")
 PELLUCID_REASON(pixelMustBePositive, "the pixel size must be positive")
 PELLUCID_REASON(panMustBeFinite, "the pan must be finite")
 PELLUCID_REASON(orientationIsZero, "the orientation must not be zero")

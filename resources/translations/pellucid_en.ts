@@ -4,10 +4,10 @@
 <context>
     <name>HugeQuestionTexts</name>
     <message numerus="yes">
-        <source>So are %n others.</source>
+        <source>%n other images are also unusually large.</source>
         <translation>
-            <numerusform>So is %n other.</numerusform>
-            <numerusform>So are %n others.</numerusform>
+            <numerusform>%n other image is also unusually large.</numerusform>
+            <numerusform>%n other images are also unusually large.</numerusform>
         </translation>
     </message>
 </context>

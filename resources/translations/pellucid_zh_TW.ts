@@ -219,12 +219,6 @@
         <comment>file name, then what is odd about it</comment>
         <translation>%1 %2。</translation>
     </message>
-    <message numerus="yes">
-        <source>So are %n others.</source>
-        <translation>
-            <numerusform>另有 %n 個也是如此。</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Opening may use all memory and take a long time.</source>
         <translation>開啟可能耗盡記憶體並花費很長時間。</translation>
@@ -236,6 +230,12 @@
     <message>
         <source>Open</source>
         <translation>開啟</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n other images are also unusually large.</source>
+        <translation>
+            <numerusform>另有 %n 個影像也異常大。</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -883,14 +883,6 @@
         <translation>誤差未定</translation>
     </message>
     <message>
-        <source>cancelled: F5 prepares it</source>
-        <translation>已取消：按 F5 準備</translation>
-    </message>
-    <message>
-        <source>not prepared: F5 tries again</source>
-        <translation>未能準備：按 F5 重試</translation>
-    </message>
-    <message>
         <source>coarse</source>
         <translation>粗略</translation>
     </message>
@@ -931,6 +923,14 @@
         <translation>
             <numerusform>影像與精確影像相差 %1（相對 L2，介於 %2），在 %n 個頻率上實測，每個頻率皆對整個檢查精確加總。</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>cancelled (F5 to recompute)</source>
+        <translation>已取消（按 F5 重新計算）</translation>
+    </message>
+    <message>
+        <source>failed (F5 to try again)</source>
+        <translation>失敗（按 F5 再試一次）</translation>
     </message>
 </context>
 <context>
@@ -2086,10 +2086,6 @@
         <translation>程式發生錯誤；記錄檔中有詳情</translation>
     </message>
     <message>
-        <source>No study is open</source>
-        <translation>沒有開啟的檢查</translation>
-    </message>
-    <message>
         <source>%1 belongs to an open study; choose another name</source>
         <translation>%1 是已開啟檢查的檔案；請選擇其他名稱</translation>
     </message>
@@ -3066,10 +3062,6 @@
         <translation>連線失敗：%1</translation>
     </message>
     <message>
-        <source>the server sent an answer that does not belong to the question</source>
-        <translation>伺服器傳來與問題不符的回應</translation>
-    </message>
-    <message>
         <source>the sender asked for something other than storing</source>
         <translation>傳送端要求儲存以外的服務</translation>
     </message>
@@ -3152,10 +3144,6 @@
     <message>
         <source>the server answers with HTTP status %1</source>
         <translation>伺服器回應 HTTP 狀態 %1</translation>
-    </message>
-    <message>
-        <source>the server points to another server, which is not asked</source>
-        <translation>伺服器指向另一個伺服器，程式不會詢問</translation>
     </message>
     <message>
         <source>the server does not confirm that it stored the object</source>
@@ -3286,10 +3274,6 @@
         <translation>細節的大小超過體積的半徑</translation>
     </message>
     <message>
-        <source>The projection is not prepared; F5 prepares it</source>
-        <translation>投影尚未準備；F5 可重新準備</translation>
-    </message>
-    <message>
         <source>the number of answers must be at most %1</source>
         <translation>答案數最多為 %1</translation>
     </message>
@@ -3390,10 +3374,6 @@
         <translation>對方所送資料的呈現環境與其命令不同</translation>
     </message>
     <message>
-        <source>%1; it may accept the file uncompressed: tick &apos;Uncompress what it does not accept&apos; for this server (on the command line: server add with --uncompress)</source>
-        <translation>%1；伺服器可能接受解壓縮的檔案：請為此伺服器勾選「將其不接受者解壓縮」（命令列：server add 加 --uncompress）</translation>
-    </message>
-    <message>
         <source>&apos;%1&apos; is not a day of the calendar</source>
         <translation>「%1」不是日曆上的日期</translation>
     </message>
@@ -3460,10 +3440,6 @@
     <message>
         <source>has pixels of another size than the matrices before</source>
         <translation>像素大小與先前的矩陣不同</translation>
-    </message>
-    <message>
-        <source>needs a size, because a matrix does not tell where its picture ends</source>
-        <translation>需要大小，因為矩陣不說明影像的範圍</translation>
     </message>
     <message>
         <source>must be three rows of four numbers</source>
@@ -3550,16 +3526,8 @@
         <translation>需要名稱：預設名稱「%1」已是另一個輸出的名稱</translation>
     </message>
     <message>
-        <source>cannot be met: leave out pixel_mm or size</source>
-        <translation>無法達成：請省略 pixel_mm 或 size</translation>
-    </message>
-    <message>
         <source>cannot be met: the matrices determine what a picture contains</source>
         <translation>無法達成：影像的內容由矩陣決定</translation>
-    </message>
-    <message>
-        <source>contains &apos;%1&apos;, which is not a result and would be lost</source>
-        <translation>含有並非結果的「%1」，取代時會遺失</translation>
     </message>
     <message>
         <source>unknown member &apos;%1&apos;: use one of %2</source>
@@ -3850,10 +3818,6 @@
         <translation>頭側 %1 mm 處</translation>
     </message>
     <message>
-        <source>the other side&apos;s certificate is not accepted: %1; if you trust it, add its CA certificates (in the window: Authorities; on the command line: server add with --authorities)</source>
-        <translation>不接受對方的憑證：%1；若您信任此伺服器，請加入其憑證機構的憑證（視窗中：憑證機構；命令列：server add 加上 --authorities）</translation>
-    </message>
-    <message>
         <source>the server ends the connection without accepting an association; perhaps it expects TLS</source>
         <translation>伺服器未接受關聯即結束連線；可能需要 TLS</translation>
     </message>
@@ -3904,6 +3868,42 @@
     <message>
         <source>no web browser is set up to open the manual</source>
         <translation>未設定可開啟手冊的瀏覽器</translation>
+    </message>
+    <message>
+        <source>needs a size: give --size with --matrix</source>
+        <translation>需要大小：請以 --matrix 搭配 --size</translation>
+    </message>
+    <message>
+        <source>unexpected response from the server</source>
+        <translation>伺服器的回應不符預期</translation>
+    </message>
+    <message>
+        <source>the server redirects to another server; redirects are not followed</source>
+        <translation>伺服器轉向另一部伺服器；不跟隨轉向</translation>
+    </message>
+    <message>
+        <source>%1; it may accept the file uncompressed: tick &apos;Decompress if the encoding is not accepted&apos; for this server (on the command line: server add with --uncompress)</source>
+        <translation>%1；它可能接受未壓縮的檔案：請為此伺服器勾選「不接受該編碼時解壓縮」（命令列：server add 加上 --uncompress）</translation>
+    </message>
+    <message>
+        <source>pixel_mm and size contradict &apos;fit&apos;; remove one</source>
+        <translation>pixel_mm 與 size 和「fit」矛盾；請移除其一</translation>
+    </message>
+    <message>
+        <source>contains &apos;%1&apos;, which is not a result; choose an empty folder</source>
+        <translation>含有「%1」，這不是結果；請選擇空的資料夾</translation>
+    </message>
+    <message>
+        <source>no study is open</source>
+        <translation>沒有開啟的檢查</translation>
+    </message>
+    <message>
+        <source>the projection is not computed (F5 to recompute)</source>
+        <translation>尚未計算投影（按 F5 重新計算）</translation>
+    </message>
+    <message>
+        <source>the other side&apos;s certificate is not accepted: %1; if you trust it, add its CA certificates (in the window: CA certificates; on the command line: server add with --authorities)</source>
+        <translation>不接受對方的憑證：%1；若您信任此伺服器，請加入其憑證機構的憑證（視窗中：CA 憑證；命令列：server add 加上 --authorities）</translation>
     </message>
 </context>
 <context>
@@ -4931,20 +4931,12 @@
         <translation> 個取樣</translation>
     </message>
     <message>
-        <source>Fades the borders of a region, which would ring otherwise</source>
-        <translation>使區域的邊界漸淡，否則會產生波紋</translation>
-    </message>
-    <message>
         <source>Soft edge</source>
         <translation>柔和邊緣</translation>
     </message>
     <message>
         <source>The values of the volume</source>
         <translation>體積的數值</translation>
-    </message>
-    <message>
-        <source>Nothing: strokes and other classes are added</source>
-        <translation>空白：加入筆畫與其他類別</translation>
     </message>
     <message>
         <source>Segment %1</source>
@@ -4957,6 +4949,14 @@
     <message>
         <source>What the class consists of before its steps</source>
         <translation>類別在其步驟之前的內容</translation>
+    </message>
+    <message>
+        <source>Smooths the edge of a region to avoid ringing</source>
+        <translation>使範圍的邊緣平滑，以免產生波紋</translation>
+    </message>
+    <message>
+        <source>Empty (add strokes or classes later)</source>
+        <translation>空白（稍後加入筆畫或類別）</translation>
     </message>
 </context>
 <context>
@@ -5083,10 +5083,6 @@
         <translation>最大值</translation>
     </message>
     <message>
-        <source>Samples that belong at least half to a class, after its steps.</source>
-        <translation>在類別的步驟之後，至少一半屬於該類別的取樣。</translation>
-    </message>
-    <message>
         <source>Measuring the classes</source>
         <translation>測量類別</translation>
     </message>
@@ -5097,6 +5093,10 @@
     <message>
         <source>Table (*.csv)</source>
         <translation>表格 (*.csv)</translation>
+    </message>
+    <message>
+        <source>Counts samples whose membership after all steps is 50 % or more.</source>
+        <translation>計入經所有步驟後隸屬程度為 50 % 以上的取樣。</translation>
     </message>
 </context>
 <context>
@@ -5280,14 +5280,6 @@
         </translation>
     </message>
     <message>
-        <source>Earlier studies</source>
-        <translation>先前檢查</translation>
-    </message>
-    <message>
-        <source>Retrieves the latest earlier studies of the same modality when a study is opened</source>
-        <translation>開啟檢查時，取回相同儀器類別的最近先前檢查</translation>
-    </message>
-    <message>
         <source>none</source>
         <translation>無</translation>
     </message>
@@ -5302,14 +5294,6 @@
     <message>
         <source>the latest three</source>
         <translation>最近三個</translation>
-    </message>
-    <message>
-        <source>Retrieve in advance</source>
-        <translation>預先取回</translation>
-    </message>
-    <message>
-        <source>Perhaps another patient</source>
-        <translation>可能為其他病人</translation>
     </message>
     <message>
         <source>Click to open it beside</source>
@@ -5341,11 +5325,27 @@ Open it beside?</source>
         <source>%1: more than listed</source>
         <translation>%1：尚有未列出者</translation>
     </message>
+    <message>
+        <source>Prior studies</source>
+        <translation>先前檢查</translation>
+    </message>
+    <message>
+        <source>Retrieves the latest prior studies of the same modality when a study is opened</source>
+        <translation>開啟檢查時，擷取同一儀器類別最近的先前檢查</translation>
+    </message>
+    <message>
+        <source>Prefetch prior studies</source>
+        <translation>預先取回先前檢查</translation>
+    </message>
+    <message>
+        <source>Possibly a different patient</source>
+        <translation>可能為其他病人</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::EarlierStudies</name>
     <message>
-        <source>Looking for earlier studies</source>
+        <source>Looking for prior studies</source>
         <translation>尋找先前檢查</translation>
     </message>
 </context>
@@ -5484,10 +5484,6 @@ Open it beside?</source>
         <translation>無姓名</translation>
     </message>
     <message>
-        <source>Turntable, video (MP4): install ffmpeg first</source>
-        <translation>轉盤，影片 (MP4)：請先安裝 ffmpeg</translation>
-    </message>
-    <message>
         <source>Turntable, DICOM (multi-frame)</source>
         <translation>環繞一周，DICOM（多格）</translation>
     </message>
@@ -5536,12 +5532,16 @@ Open it beside?</source>
         <translation>關閉</translation>
     </message>
     <message>
-        <source>%1 has received it</source>
-        <translation>%1 已收到</translation>
-    </message>
-    <message>
         <source>Replace</source>
         <translation>取代</translation>
+    </message>
+    <message>
+        <source>Turntable video (MP4), needs ffmpeg</source>
+        <translation>轉盤影片（MP4），需要 ffmpeg</translation>
+    </message>
+    <message>
+        <source>Sent to %1</source>
+        <translation>已傳送至 %1</translation>
     </message>
 </context>
 <context>
@@ -6443,10 +6443,6 @@ Open it beside?</source>
         <translation>先顯示粗略影像；完整影像隨後</translation>
     </message>
     <message>
-        <source>The layers of the look, summed while their weights change</source>
-        <translation>權重變動期間加總外觀的各圖層</translation>
-    </message>
-    <message>
         <source>The error exceeds the tolerance: %1</source>
         <translation>誤差超過容差：%1</translation>
     </message>
@@ -6477,6 +6473,10 @@ Open it beside?</source>
     <message>
         <source>measured: %1</source>
         <translation>實測：%1</translation>
+    </message>
+    <message>
+        <source>Preview while weights change</source>
+        <translation>權重變更期間的預覽</translation>
     </message>
 </context>
 <context>
@@ -6526,8 +6526,8 @@ Open it beside?</source>
         <translation>放大骨小樑與血管等細微構造的程度；0：不變。按兩下：自動</translation>
     </message>
     <message>
-        <source>How strongly differences between thick and thin parts are compressed; 0: unchanged. Double-click: automatic</source>
-        <translation>壓縮厚薄部位差異的程度；0：不變。按兩下：自動</translation>
+        <source>Evens out thick and thin parts; 0: off. Double-click: automatic</source>
+        <translation>使厚薄部位趨於一致；0：關閉。按兩下：自動</translation>
     </message>
 </context>
 <context>
@@ -6543,10 +6543,6 @@ Open it beside?</source>
     <message>
         <source>&amp;Apply</source>
         <translation>套用(&amp;A)</translation>
-    </message>
-    <message>
-        <source>What arrives is added to the library. Other senders are turned away</source>
-        <translation>收到的內容加入檢查庫。其他傳送者一律拒絕</translation>
     </message>
     <message>
         <source>The name under which servers send to this program</source>
@@ -6573,20 +6569,12 @@ Open it beside?</source>
         <translation>憑證</translation>
     </message>
     <message>
-        <source>Certificate that this program shows (PEM)</source>
-        <translation>本程式出示的憑證（PEM）</translation>
-    </message>
-    <message>
         <source>Private key</source>
         <translation>私密金鑰</translation>
     </message>
     <message>
         <source>Private key of the certificate (PEM), without a password</source>
         <translation>憑證的私密金鑰（PEM），沒有密碼</translation>
-    </message>
-    <message>
-        <source>Authorities</source>
-        <translation>憑證機構</translation>
     </message>
     <message>
         <source>Receiving is off</source>
@@ -6614,6 +6602,18 @@ Open it beside?</source>
         <source>CA certificates that issue the senders&apos; certificates (PEM); each of these must name its sender&apos;s host or address</source>
         <translation>簽發傳送端憑證之憑證機構的憑證（PEM）；每份傳送端憑證須載明該傳送端的主機或位址</translation>
     </message>
+    <message>
+        <source>What arrives is added to the library. Other senders are rejected</source>
+        <translation>收到的資料加入資料庫。拒絕其他傳送者</translation>
+    </message>
+    <message>
+        <source>Certificate of this program (PEM)</source>
+        <translation>本程式的憑證（PEM）</translation>
+    </message>
+    <message>
+        <source>CA certificates</source>
+        <translation>CA 憑證</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::RegionBar</name>
@@ -6636,10 +6636,6 @@ Open it beside?</source>
     <message>
         <source>Leak limit</source>
         <translation>滲漏限度</translation>
-    </message>
-    <message>
-        <source>The region does not pass through openings narrower than this</source>
-        <translation>區域不會穿過比此更窄的開口</translation>
     </message>
     <message>
         <source>Radius</source>
@@ -6737,6 +6733,10 @@ Open it beside?</source>
         <source>Draw around the part to cut, in a plane or the projection</source>
         <translation>在切面或投影中圍出要剪裁的部分</translation>
     </message>
+    <message>
+        <source>Narrowest passage the region may grow through</source>
+        <translation>範圍可通過的最窄開口</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::RegionFinder</name>
@@ -6781,10 +6781,6 @@ Open it beside?</source>
 </context>
 <context>
     <name>pellucid::ui::ServerCommands</name>
-    <message>
-        <source>A study has arrived</source>
-        <translation>檢查已到達</translation>
-    </message>
     <message>
         <source>Another export is running</source>
         <translation>另一項匯出正在執行</translation>
@@ -6864,6 +6860,10 @@ Retrieve these images again, and replace those that are here?</source>
     <message>
         <source>Replace</source>
         <translation>取代</translation>
+    </message>
+    <message>
+        <source>Study received</source>
+        <translation>已收到檢查</translation>
     </message>
 </context>
 <context>
@@ -6951,10 +6951,6 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>自動</translation>
     </message>
     <message>
-        <source>Most answers to a search; 0: no limit</source>
-        <translation>搜尋的最多回應數；0：不限</translation>
-    </message>
-    <message>
         <source>Character set of answers that name none, such as ISO_IR 100</source>
         <translation>未註明字元集之回應所用的字元集，例如 ISO_IR 100</translation>
     </message>
@@ -7015,16 +7011,8 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>連線數</translation>
     </message>
     <message>
-        <source>Answers</source>
-        <translation>回應數</translation>
-    </message>
-    <message>
         <source>Character set</source>
         <translation>字元集</translation>
-    </message>
-    <message>
-        <source>Authorities</source>
-        <translation>憑證機構</translation>
     </message>
     <message>
         <source>Certificates that are trusted (PEM); empty: those of the system</source>
@@ -7033,10 +7021,6 @@ Retrieve these images again, and replace those that are here?</source>
     <message>
         <source>Certificate</source>
         <translation>憑證</translation>
-    </message>
-    <message>
-        <source>Certificate that this program shows (PEM); empty: none</source>
-        <translation>本程式出示的憑證（PEM）；留空：無</translation>
     </message>
     <message>
         <source>Private key</source>
@@ -7095,10 +7079,6 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>接收</translation>
     </message>
     <message>
-        <source>&amp;Uncompress what it does not accept</source>
-        <translation>將其不接受者解壓縮(&amp;U)</translation>
-    </message>
-    <message>
         <source>Sends compressed images uncompressed if the server does not accept their encoding</source>
         <translation>若伺服器不接受壓縮影像的編碼，則解壓縮後傳送</translation>
     </message>
@@ -7113,18 +7093,6 @@ Retrieve these images again, and replace those that are here?</source>
     <message>
         <source>Page on which users log in; only without an issuer</source>
         <translation>使用者登入的頁面；僅在沒有發行者時需要</translation>
-    </message>
-    <message>
-        <source>Where the login server gives tokens; only without an issuer</source>
-        <translation>登入伺服器發放權杖之處；僅在沒有發行者時需要</translation>
-    </message>
-    <message>
-        <source>The ID that the login server has for this program</source>
-        <translation>登入伺服器給予本程式的識別碼</translation>
-    </message>
-    <message>
-        <source>What the login is to allow, such as openid offline_access; optional</source>
-        <translation>登入所允許的範圍，例如 openid offline_access；可省略</translation>
     </message>
     <message>
         <source>Issuer</source>
@@ -7169,6 +7137,38 @@ Retrieve these images again, and replace those that are here?</source>
     <message>
         <source>Sends from</source>
         <translation>傳送來源</translation>
+    </message>
+    <message>
+        <source>Maximum number of results; 0: no limit</source>
+        <translation>結果的數目上限；0：不限</translation>
+    </message>
+    <message>
+        <source>&amp;Decompress if the encoding is not accepted</source>
+        <translation>不接受該編碼時解壓縮(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Token endpoint; only without an issuer</source>
+        <translation>權杖端點；僅在沒有簽發者時填寫</translation>
+    </message>
+    <message>
+        <source>Client ID registered for Pellucid</source>
+        <translation>為 Pellucid 註冊的用戶端 ID</translation>
+    </message>
+    <message>
+        <source>Scopes to request, such as openid offline_access; optional</source>
+        <translation>要求的範圍，例如 openid offline_access；選填</translation>
+    </message>
+    <message>
+        <source>Maximum results</source>
+        <translation>結果上限</translation>
+    </message>
+    <message>
+        <source>Client certificate (PEM); empty: none</source>
+        <translation>用戶端憑證（PEM）；空白：無</translation>
+    </message>
+    <message>
+        <source>CA certificates</source>
+        <translation>CA 憑證</translation>
     </message>
 </context>
 <context>
@@ -7258,10 +7258,6 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>曲線數值的個數</translation>
     </message>
     <message>
-        <source>Number of curve values; each costs up to two slices</source>
-        <translation>曲線數值的個數；每個最多耗費兩個切片</translation>
-    </message>
-    <message>
         <source>The selected light follows the viewer; otherwise, it stays with the patient</source>
         <translation>所選光源跟隨觀看者；否則固定於病患</translation>
     </message>
@@ -7296,6 +7292,10 @@ Retrieve these images again, and replace those that are here?</source>
     <message>
         <source>Light direction</source>
         <translation>光源的方向</translation>
+    </message>
+    <message>
+        <source>Points of the curve; more points render slower</source>
+        <translation>曲線的點數；點越多，計算越慢</translation>
     </message>
 </context>
 <context>
@@ -7427,7 +7427,7 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>傳輸</translation>
     </message>
     <message>
-        <source>EARLIER STUDIES</source>
+        <source>PRIOR STUDIES</source>
         <translation>先前檢查</translation>
     </message>
 </context>
@@ -7537,10 +7537,6 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>開啟</translation>
     </message>
     <message>
-        <source>Open beside</source>
-        <translation>並排開啟</translation>
-    </message>
-    <message>
         <source>Details...</source>
         <translation>詳細資料…</translation>
     </message>
@@ -7615,6 +7611,10 @@ Retrieve these images again, and replace those that are here?</source>
     <message>
         <source>Log in to %1</source>
         <translation>登入 %1</translation>
+    </message>
+    <message>
+        <source>Open side by side</source>
+        <translation>並排開啟</translation>
     </message>
 </context>
 <context>

@@ -114,7 +114,7 @@ Parts partsOf(const std::string &type, Bytes body, std::size_t piece) {
 
 void packing(Bytes bytes) {
     using Values = std::map<std::string, std::vector<std::optional<double>>>;
-    const task::Reason refusal = task::because::helperSentNonsense;
+    const task::Reason refusal = task::because::implausibleReply;
     refusing([&] {
         const std::string packed = helper::packed(helper::unpacked<Values>(bytes, refusal));
         const auto again = helper::unpacked<Values>(std::as_bytes(std::span(packed)), refusal);

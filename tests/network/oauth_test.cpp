@@ -253,7 +253,7 @@ TEST_F(OAuth, ATokenThatExpiresIsRenewedInTheMiddleAndNothingIsLost) {
     logIn();
     m_web.expireEvery(7);
     const archive::RetrievalReport report = get(m_server, webStudy);
-    EXPECT_TRUE(report.isComplete()) << report.lacking.front().reason.english();
+    EXPECT_TRUE(report.isComplete()) << report.missing.front().reason.english();
     EXPECT_EQ(report.state.received, std::size_t(objects));
     EXPECT_EQ(report.unwanted, 0U);
     EXPECT_EQ(m_web.sent().size(), std::size_t(objects)); // none was asked for twice
@@ -302,7 +302,7 @@ TEST_F(OAuth, ATokenThatAnotherConnectionHasUsedUpIsRenewed) {
     });
     const archive::RetrievalReport report = get(m_server, webStudy);
     m_web.setScript({});
-    EXPECT_TRUE(report.isComplete()) << report.lacking.front().reason.english();
+    EXPECT_TRUE(report.isComplete()) << report.missing.front().reason.english();
     EXPECT_EQ(report.state.received, std::size_t(objects));
     EXPECT_EQ(m_web.sent().size(), std::size_t(objects));
     EXPECT_EQ(m_tokens.issued(), 3);

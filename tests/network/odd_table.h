@@ -47,12 +47,12 @@ inline std::string searched(const archive::Server &server, const task::Progress 
 inline std::string retrieved(const archive::Server &server, const std::string &study,
                              const fs::path &to, const task::Progress &progress,
                              const archive::MoveDestination &destination = {}) {
-    const archive::ObjectFolder folder(to, archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const archive::ObjectFolder folder(to, archive::ObjectFolder::Durability::cached);
     const auto report = archive::retrieve(server, {study, {}}, folder, {}, progress, destination);
     std::string text =
         std::to_string(report.state.received) + " of " + std::to_string(report.state.wanted);
     if (!report.isComplete())
-        text += " incomplete: " + report.lacking.front().reason.english();
+        text += " incomplete: " + report.missing.front().reason.english();
     if (const std::size_t files = filesIn(to).size(); files != report.state.received)
         text += ", but " + std::to_string(files) + " files";
     if (report.ofAnotherPatient > 0)

@@ -111,7 +111,7 @@ protected:
     archive::RetrievalReport get(const archive::Server &server, const std::string &study,
                                  const std::string &to = "got") {
         const archive::ObjectFolder folder(m_folder / to,
-                                           archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
+                                           archive::ObjectFolder::Durability::cached);
         return archive::retrieve(server, {study, {}}, folder);
     }
 

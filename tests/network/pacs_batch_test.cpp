@@ -207,11 +207,10 @@ TEST_F(PacsBatch, AMultiFrameCaptureComesBack) {
          "look": "Bone over soft tissue"}]})");
     ASSERT_EQ(batch(by, "--from s --find study=" + study + " --send s").exitCode, 0);
     ASSERT_EQ(picturesOf(server, study).size(), 2U);
-    const archive::RetrievalReport report =
-        archive::retrieve(server, {study, {}},
-                          archive::ObjectFolder(m_folder / "back",
-                                                archive::ObjectFolder::Keeps::inMemoryOfTheSystem));
-    EXPECT_TRUE(report.isComplete()) << report.lacking.front().reason.english();
+    const archive::RetrievalReport report = archive::retrieve(
+        server, {study, {}},
+        archive::ObjectFolder(m_folder / "back", archive::ObjectFolder::Durability::cached));
+    EXPECT_TRUE(report.isComplete()) << report.missing.front().reason.english();
     EXPECT_EQ(report.state.received, 10U);
 }
 
@@ -355,8 +354,7 @@ TEST_F(PacsBatchInOrthanc, EachSeriesThatArrivesIsRenderedOnce) {
     const CommandResult local = batch(recipe(onePicture), "'" + (m_folder / "A").string() +
                                                               "' --out '" + out.string() + "'");
     ASSERT_EQ(local.exitCode, 0) << local.error;
-    const archive::ObjectFolder folder(m_folder / "got",
-                                       archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const archive::ObjectFolder folder(m_folder / "got", archive::ObjectFolder::Durability::cached);
     const archive::Wanted pictures{studies[0], picturesOf(m_server, studies[0])};
     ASSERT_TRUE(archive::retrieve(m_server, pictures, folder).isComplete());
     ASSERT_EQ(filesIn(m_folder / "got").size(), 1U);

@@ -141,7 +141,7 @@ TEST_F(Pacs, HelpersThatAreKilledWhileTheyRetrieveLoseNothing) {
             received = report.state.received;
             // A retrieval that goes on without the helper brings everything.
             EXPECT_TRUE(report.isComplete())
-                << "killed after " << after << " us: " << report.lacking.front().reason.english();
+                << "killed after " << after << " us: " << report.missing.front().reason.english();
             ++survived;
         } catch (const task::Error &error) { // the first helper, which lists the objects
             EXPECT_EQ(error.code(), task::ErrorCode::unreachable) << error.what();
@@ -182,7 +182,7 @@ TEST_F(Pacs, HelpersThatAreKilledWhileTheyReceiveKeepWhatWasConfirmed) {
     for (int n = 0; n < rounds; ++n) {
         SCOPED_TRACE(n);
         const ObjectFolder folder(m_folder / ("in" + std::to_string(n)),
-                                  ObjectFolder::Keeps::onDisk);
+                                  ObjectFolder::Durability::synced);
         fs::create_directories(folder.folder());
         archive::TransferLog log(m_folder / ("log" + std::to_string(n) + ".sqlite"));
         archive::Receiving receiving(folder, &log);

@@ -66,7 +66,7 @@ protected:
 
 // The helper did not break: its own faults have reasons of their own.
 bool blamesTheHelper(const task::Reason &reason) {
-    return reason.is(because::helperCrashed) || reason.is(because::helperSentNonsense) ||
+    return reason.is(because::helperCrashed) || reason.is(because::implausibleReply) ||
            reason.is(because::helperBrokeItsConfinement) || reason.is(because::helperDoesNotAnswer);
 }
 
@@ -103,13 +103,13 @@ TEST_F(Lies, AFalseObjectIsRefusedAndTheOthersAreKept) {
         });
         const RetrievalReport report = get(at(lying), LyingServer::study, lie.what);
         EXPECT_EQ(status, 0xa900); // the server learns that it was not kept
-        ASSERT_EQ(report.lacking.size(), 1U);
-        EXPECT_EQ(report.lacking[0].sopInstanceUid, LyingServer::instance(1));
-        EXPECT_FALSE(report.lacking[0].reason.english().empty());
+        ASSERT_EQ(report.missing.size(), 1U);
+        EXPECT_EQ(report.missing[0].sopInstanceUid, LyingServer::instance(1));
+        EXPECT_FALSE(report.missing[0].reason.english().empty());
         if (const auto reason = reasons.find(lie.what); reason != reasons.end()) {
-            EXPECT_EQ(report.lacking[0].reason.english(), reason->second.english());
+            EXPECT_EQ(report.missing[0].reason.english(), reason->second.english());
         }
-        EXPECT_FALSE(blamesTheHelper(report.lacking[0].reason));
+        EXPECT_FALSE(blamesTheHelper(report.missing[0].reason));
         expectOnly(lie.what, {0, 2, 3});
         EXPECT_FALSE(fs::exists("/tmp/pellucid-lie"));
     }
@@ -157,8 +157,8 @@ TEST_F(Lies, AServerThatSendsWithoutEndIsLeft) {
                                     LyingServer::sendTruly(association, LyingServer::instance(n));
                             });
     const RetrievalReport report = get(at(lying), LyingServer::study);
-    ASSERT_EQ(report.lacking.size(), std::size_t(instances));
-    for (const auto &object : report.lacking)
+    ASSERT_EQ(report.missing.size(), std::size_t(instances));
+    for (const auto &object : report.missing)
         EXPECT_TRUE(object.reason.is(because::serverSendsTooMuch)) << object.reason.english();
     EXPECT_LT(sent, 3000);
     expectOnly("got", {});
@@ -173,8 +173,8 @@ TEST_F(Lies, ClaimsAreComparedWithWhatCame) {
     });
     const RetrievalReport report = get(at(lying), LyingServer::study);
     EXPECT_EQ(report.state.received, 1U);
-    ASSERT_EQ(report.lacking.size(), std::size_t(instances) - 1);
-    for (const auto &object : report.lacking)
+    ASSERT_EQ(report.missing.size(), std::size_t(instances) - 1);
+    for (const auto &object : report.missing)
         EXPECT_TRUE(object.reason.is(because::serverLeftItOut)) << object.reason.english();
     expectOnly("got", {0});
 }
@@ -213,8 +213,8 @@ TEST_F(Lies, BrokenMessagesEndTheConnectionOnly) {
         if (!reports[n])
             continue;
         EXPECT_EQ(reports[n]->state.received, 1U);
-        EXPECT_EQ(reports[n]->lacking.size(), std::size_t(instances) - 1);
-        for (const auto &object : reports[n]->lacking) {
+        EXPECT_EQ(reports[n]->missing.size(), std::size_t(instances) - 1);
+        for (const auto &object : reports[n]->missing) {
             EXPECT_FALSE(blamesTheHelper(object.reason)) << object.reason.english();
             EXPECT_FALSE(object.reason.is(because::serverLeftItOut)) << object.reason.english();
             // An abort is an end that the other side wanted.
@@ -253,7 +253,7 @@ TEST_F(Lies, AnEndlessObjectIsCancelled) {
         if (state.received == 1 && bytes > (std::uint64_t(8) << 20))
             stop.request_stop();
     };
-    const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const ObjectFolder folder(m_folder / "got", ObjectFolder::Durability::cached);
     EXPECT_THROW(archive::retrieve(at(lying), {LyingServer::study, {}}, folder, observer,
                                    task::Progress(stop.get_token())),
                  task::Cancelled);
@@ -288,7 +288,7 @@ TEST_F(Lies, ImagesOfAnotherPatientAreReported) {
         observer.matches = [&](const archive::StoredObject &object) {
             shown.insert(object.sopInstanceUid);
         };
-        const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+        const ObjectFolder folder(m_folder / "got", ObjectFolder::Durability::cached);
         const auto report =
             archive::retrieve(at(lying), {LyingServer::study, {}}, folder, observer);
         EXPECT_TRUE(report.isComplete());
@@ -300,7 +300,7 @@ TEST_F(Lies, ImagesOfAnotherPatientAreReported) {
                                                 LyingServer::instance(3)}));
     }
     // Who was shown is whom the user asked for, whatever the server says now.
-    const ObjectFolder folder(m_folder / "asked", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const ObjectFolder folder(m_folder / "asked", ObjectFolder::Durability::cached);
     const auto report = archive::retrieve(
         at(lying), {LyingServer::study, {}, {"OTHER^PATIENT", "ID-999", ""}}, folder);
     EXPECT_EQ(report.ofAnotherPatient, std::size_t(instances) - 1);
@@ -328,7 +328,7 @@ TEST_F(Lies, AnEndlessListOfObjectsIsRefused) {
             }
             association.answer(request, 0);
         });
-    const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const ObjectFolder folder(m_folder / "got", ObjectFolder::Durability::cached);
     try {
         archive::retrieve(serverAt(lying.port(), "LIES"), {LyingServer::study, {}}, folder);
         ADD_FAILURE() << "something was retrieved";
@@ -409,7 +409,7 @@ TEST_F(Lies, IdentifiersOfAListAreChecked) {
     EXPECT_EQ(result.entries[0].text(exchange::tag::studyUid), "1.2.826.0.1.3680043.8.498.55");
     for (const char c : result.entries[0].text(exchange::tag::patientName))
         EXPECT_GE((unsigned char)(c), 0x20U);
-    const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const ObjectFolder folder(m_folder / "got", ObjectFolder::Durability::cached);
     try {
         archive::retrieve(server, {"1.2.826.0.1.3680043.8.498.55", {}}, folder);
         ADD_FAILURE() << "something was retrieved";

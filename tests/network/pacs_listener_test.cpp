@@ -189,7 +189,7 @@ protected:
     }
 
     archive::ListenerOptions m_options;
-    archive::ObjectFolder m_objects{m_folder / "in", archive::ObjectFolder::Keeps::onDisk};
+    archive::ObjectFolder m_objects{m_folder / "in", archive::ObjectFolder::Durability::synced};
     std::vector<archive::RefusedObject> m_refused;
     archive::Receiving m_receiving{
         m_objects, nullptr, {{}, [this](const archive::RefusedObject &object) {

@@ -89,7 +89,7 @@ TEST_F(PacsOdd, WhatCanComeComes) {
     for (const Case &one : cases) {
         SCOPED_TRACE(one.name);
         const auto report = retrieved(one.quirks, one.name);
-        EXPECT_TRUE(report.isComplete()) << report.lacking.front().reason.english();
+        EXPECT_TRUE(report.isComplete()) << report.missing.front().reason.english();
         EXPECT_EQ(report.state.received, std::size_t(objectCount));
         EXPECT_EQ(report.state.wanted, std::size_t(objectCount));
         EXPECT_EQ(filesIn(m_folder / one.name).size(), std::size_t(objectCount));
@@ -112,7 +112,7 @@ TEST_F(PacsOdd, APartOfAStudyIsIncomplete) {
     const auto short20 = retrieved({.cap = 20, .sendsSeries = false}, "short");
     EXPECT_EQ(short20.state.received, 20U);
     EXPECT_EQ(short20.state.wanted, std::size_t(objectCount));
-    ASSERT_EQ(short20.lacking.size(), std::size_t(objectCount - 20));
+    ASSERT_EQ(short20.missing.size(), std::size_t(objectCount - 20));
     // Whoever opens the folder is told.
     const auto missingIn = [&](const char *name) {
         return dicom::missingObjectsBeside(filesIn(m_folder / name).front()).value_or(0);
@@ -126,8 +126,8 @@ TEST_F(PacsOdd, APartOfAStudyIsIncomplete) {
     EXPECT_FALSE(unsaid.isComplete());
     const auto invalid = retrieved({.sendsSeries = false, .hasInvalidUid = true}, "invalid");
     EXPECT_EQ(invalid.state.received, std::size_t(objectCount - 1));
-    ASSERT_EQ(invalid.lacking.size(), 1U);
-    EXPECT_TRUE(invalid.lacking.front().reason.is(because::hasNoValidUids));
+    ASSERT_EQ(invalid.missing.size(), 1U);
+    EXPECT_TRUE(invalid.missing.front().reason.is(because::hasNoValidUids));
 }
 
 // De-identified objects, which differ from their meta headers, go out and come back.
@@ -208,8 +208,7 @@ TEST_F(PacsScripted, ACorrectionIsNoticedAndReplaced) {
     quirks.objects = 3;
     quirks.change = namesPatient(name);
     const OddWebServer web(quirks);
-    const archive::ObjectFolder folder(m_folder / "got",
-                                       archive::ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const archive::ObjectFolder folder(m_folder / "got", archive::ObjectFolder::Durability::cached);
     const auto retrieve = [&](archive::Existing existing) {
         return archive::retrieve(web.server(),
                                  {.studyUid = OddWebServer::study, .existing = existing}, folder);

@@ -179,7 +179,7 @@ TEST_F(Pacs, NeitherPatientsNorSecretsShowOutside) {
     EXPECT_TRUE(archive::runTransfer(transfers, transfers.add(transfer), server).isComplete());
     // The same objects are received in another folder.
     const archive::ObjectFolder received(m_folder / "received",
-                                         archive::ObjectFolder::Keeps::onDisk);
+                                         archive::ObjectFolder::Durability::synced);
     fs::create_directories(received.folder());
     archive::TransferLog arrivals(log);
     archive::Receiving receiving(received, &arrivals);

@@ -113,7 +113,7 @@ TEST_F(Pacs, CompressedObjectsStayCompressed) {
             put(server, sent);
             const std::string to = name + server.peer.calledAe;
             const RetrievalReport report = get(server, studyIn(sent), to);
-            EXPECT_TRUE(report.isComplete()) << to << report.lacking.front().reason.english();
+            EXPECT_TRUE(report.isComplete()) << to << report.missing.front().reason.english();
             const auto metaSyntax = [](const fs::path &folder) {
                 return dicom::scan({folder})
                     .patients.at(0)
@@ -149,7 +149,7 @@ TEST_F(Pacs, EveryServiceOfDicomWeb) {
     EXPECT_EQ(named.entries[0].text(exchange::tag::studyUid), studyIn(plain));
     for (const auto &[name, sent] : {std::pair("a", plain), std::pair("b", compressed)}) {
         const RetrievalReport report = get(server, studyIn(sent), name);
-        EXPECT_TRUE(report.isComplete()) << report.lacking.front().reason.english();
+        EXPECT_TRUE(report.isComplete()) << report.missing.front().reason.english();
         EXPECT_EQ(dataSetsIn(m_folder / name), dataSetsIn(sent));
     }
     server.peer.path = "/elsewhere";
@@ -319,19 +319,19 @@ TEST_F(Pacs, AServerThatOnlySendsIsGivenAPort) {
     const fs::path sent = series("M", 20);
     put(server, sent);
     server.retrieve = archive::RetrieveMethod::move;
-    const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const ObjectFolder folder(m_folder / "got", ObjectFolder::Durability::cached);
     const RetrievalReport report =
         archive::retrieve(server, {studyIn(sent), {}}, folder, {}, {},
                           {.ae = "PELLUCID", .port = dcmqrscp.destinationPort});
     EXPECT_TRUE(report.isComplete());
     EXPECT_EQ(dataSetsIn(m_folder / "got"), dataSetsIn(sent));
     // A destination that the server does not know.
-    const ObjectFolder other(m_folder / "other", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const ObjectFolder other(m_folder / "other", ObjectFolder::Durability::cached);
     const RetrievalReport refused = archive::retrieve(server, {studyIn(sent), {}}, other, {}, {},
                                                       {.ae = "NOBODY", .port = test::freePort()});
-    ASSERT_EQ(refused.lacking.size(), 20U);
-    EXPECT_NE(refused.lacking[0].reason.english().find("0xA801"), std::string::npos)
-        << refused.lacking[0].reason.english();
+    ASSERT_EQ(refused.missing.size(), 20U);
+    EXPECT_NE(refused.missing[0].reason.english().find("0xA801"), std::string::npos)
+        << refused.missing[0].reason.english();
     // The port of another receiver.
     int port = 0;
     const int taken = test::listenOn(port);
@@ -371,7 +371,7 @@ TEST_F(Pacs, CutsAndStallsLoseNothing) {
         try {
             const RetrievalReport report = get(server, study, to);
             had = report.state.received;
-            for (const auto &object : report.lacking)
+            for (const auto &object : report.missing)
                 EXPECT_FALSE(object.reason.english().empty());
         } catch (const task::Error &error) {
             EXPECT_EQ(error.code(), task::ErrorCode::unreachable) << error.what();
@@ -456,7 +456,7 @@ TEST_F(Pacs, ASeriesIsSeenLongBeforeItIsHere) {
         firstObject = firstObject == 0.0 ? double(lastByte) : firstObject;
         arriving->add(numbers.at(object.sopInstanceUid), object.path);
     };
-    const ObjectFolder folder(m_folder / "got", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const ObjectFolder folder(m_folder / "got", ObjectFolder::Durability::cached);
     EXPECT_TRUE(archive::retrieve(server, {study, {}}, folder, observer).isComplete());
     loader.join();
     std::cout << slices << " slices at 100 Mbit/s: listed after " << listing
@@ -472,7 +472,7 @@ TEST_F(Pacs, TheListenerConfirmsWhatItHas) {
     if (!test::isInstalled("storescu"))
         GTEST_SKIP() << "storescu is not installed";
     const fs::path sent = series("L", 6);
-    const ObjectFolder folder(m_folder / "in", ObjectFolder::Keeps::onDisk);
+    const ObjectFolder folder(m_folder / "in", ObjectFolder::Durability::synced);
     fs::create_directories(folder.folder());
     archive::TransferLog log(m_folder / "transfers.sqlite");
     std::vector<archive::ConnectionEnd> ends;

@@ -352,9 +352,9 @@ def missing():
         return "only root can start the daemons of Slurm and their namespaces"
     os.environ["PATH"] += ":/usr/sbin:/sbin"
     needed = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "sinfo", "scontrol", "unshare", "setpriv", "ip")
-    lacking = [program for program in needed if not shutil.which(program)]
-    if lacking:
-        return f"not installed: {', '.join(lacking)}"
+    missing = [program for program in needed if not shutil.which(program)]
+    if missing:
+        return f"not installed: {', '.join(missing)}"
     tried = subprocess.run([*NAMESPACES, "true"], capture_output=True, text=True)
     return f"no namespaces: {tried.stderr.strip()}" if tried.returncode else None
 

@@ -38,6 +38,7 @@ private slots:
         const QStringList english = englishTexts();
         QVERIFY2(english.isEmpty(), qPrintable(english.join(" | ")));
         save("zh_TW");
+        requireKeysInManual("manual_zh_TW.html");
         choose("languageBox", "en");
         restart();
         QCOMPARE(mainWindow().menuBar()->actions().front()->text(), QString("&File"));
@@ -107,11 +108,16 @@ private slots:
         QSet<QString> names;
         for (const auto *row : mainWindow().actions().listed()) {
             QVERIFY2(!names.contains(row->command.id), qPrintable(row->command.id));
+            QVERIFY2(row->path.contains(" > "), qPrintable(row->command.id));
+            QVERIFY2(!row->action->toolTip().isEmpty(), qPrintable(row->command.id));
+            QVERIFY2(row->command.icon.isEmpty() != !row->action->icon().isNull(),
+                     qPrintable(row->command.id));
             names << row->command.id;
         }
         for (const char *name : {"openFilesAction", "undoAction", "saveLookAction", "slabAction",
                                  "nextPhaseAction", "manualAction", "fullScreenAction"})
             QVERIFY2(names.contains(name), name);
+        requireKeysInManual("manual.html");
         // No key is given twice.
         QHash<QString, QString> keys;
         for (const auto *row : mainWindow().actions().listed()) {
@@ -208,6 +214,31 @@ private slots:
     }
 
 private:
+    // The manual's table of keys is written by `./dev accept-pictures`.
+    void requireKeysInManual(const char *page) {
+        QString rows;
+        for (const auto *row : mainWindow().actions().listed())
+            if (!row->defaultKey.isEmpty())
+                rows +=
+                    QString("<tr><td>%1</td><td>%2</td></tr>\n")
+                        .arg(row->path.toHtmlEscaped(),
+                             row->defaultKey.toString(QKeySequence::NativeText).toHtmlEscaped());
+        QFile file(QString(PELLUCID_SOURCE "/resources/manual/") + page);
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        QString text = QString::fromUtf8(file.readAll());
+        file.close();
+        const QString begin = "<!-- keys -->\n", end = "<!-- end of keys -->";
+        const auto from = text.indexOf(begin) + begin.size(), to = text.indexOf(end);
+        if (qEnvironmentVariableIsSet("PELLUCID_ACCEPT_BASELINES")) {
+            text.replace(from, to - from, rows);
+            QVERIFY(file.open(QIODevice::WriteOnly));
+            file.write(text.toUtf8());
+            return;
+        }
+        QVERIFY2(text.mid(from, to - from) == rows,
+                 "the keys of the manual are others: ./dev accept-pictures");
+    }
+
     void choose(const char *box, const QVariant &value) {
         openPreferences();
         auto *choice = find<QComboBox>(box);

@@ -70,7 +70,7 @@ private slots:
         // Escape drops a region that is being chosen.
         QTest::mousePress(plane, Qt::LeftButton, {}, at);
         QTest::keyClick(plane, Qt::Key_Escape);
-        QVERIFY(!marking().sought());
+        QVERIFY(!marking().candidate());
         const int edits = document().undoStack()->index();
         QTest::mouseRelease(plane, Qt::LeftButton, {}, at);
         QCOMPARE(document().undoStack()->index(), edits);

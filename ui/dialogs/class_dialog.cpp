@@ -47,7 +47,7 @@ ClassDialog::ClassDialog(Document &document, std::size_t index, QWidget *parent)
     m_edge->setRange(0.0, classify::softestEdge);
     m_edge->setSingleStep(0.25);
     m_edge->setSuffix(tr(" samples"));
-    m_edge->setToolTip(tr("Fades the borders of a region, which would ring otherwise"));
+    m_edge->setToolTip(tr("Smooths the edge of a region to avoid ringing"));
     m_edge->setValue(tissue.edge);
     m_color->setObjectName("classColorButton");
     m_color->setAutoDefault(false);
@@ -83,14 +83,14 @@ void ClassDialog::addSource(QFormLayout &form) {
     m_low = new LimitBox("classLowBox", classify::lowestValue, classify::highestValue, width);
     m_high = new LimitBox("classHighBox", classify::lowestValue, classify::highestValue, width);
     m_softness = new LimitBox("classSoftnessBox", 0.0, classify::highestValue, width);
-    m_low->give(m_tissue.low);
-    m_high->give(m_tissue.high);
-    m_softness->give(m_tissue.softness);
+    m_low->setNumber(m_tissue.low);
+    m_high->setNumber(m_tissue.high);
+    m_softness->setNumber(m_tissue.softness);
     m_softness->setToolTip(tr("Width of the soft edge at both ends of the range"));
     m_source->setObjectName("classSourceBox");
     m_source->setToolTip(tr("What the class consists of before its steps"));
     m_source->addItem(tr("The values of the volume"));
-    m_source->addItem(tr("Nothing: strokes and other classes are added"));
+    m_source->addItem(tr("Empty (add strokes or classes later)"));
     QStringList segments;
     if (m_document.segments())
         for (const segment::Segmentation &file : m_document.segments()->segmentations())

@@ -176,7 +176,7 @@ void ClassSteps::showNumbers() {
             box->setDecimals(0);
             box->setSingleStep(1.0);
         }
-        box->give(step.at(parameter.name));
+        box->setNumber(step.at(parameter.name));
         auto *label = new PlainLabel(parameterText(parameter));
         label->setWordWrap(true);
         label->setBuddy(box);

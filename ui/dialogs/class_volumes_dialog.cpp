@@ -106,7 +106,7 @@ void ClassVolumesDialog::measure() {
     if (!m_document.volume())
         return;
     m_measured = m_document.scene().look.classes;
-    m_message->setText(tr("Samples that belong at least half to a class, after its steps."));
+    m_message->setText(tr("Counts samples whose membership after all steps is 50 % or more."));
     classify::Look look = m_document.scene().look;
     for (classify::TissueClass &tissue : look.classes) // hidden ones, too
         tissue.weight = std::max(tissue.weight, 1.0);

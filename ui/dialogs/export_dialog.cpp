@@ -68,7 +68,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     m_pane->setCurrentIndex(int(Pane::projection));
     if (!files::VideoFile::isAvailable())
         m_format->setItemText(int(PictureFormat::video),
-                              tr("Turntable, video (MP4): install ffmpeg first"));
+                              tr("Turntable video (MP4), needs ffmpeg"));
     m_annotated->setObjectName("exportAnnotatedBox");
     m_annotated->setChecked(true);
     m_annotated->setToolTip(tr("Names, letters, scale and measurements; without them the picture "
@@ -242,7 +242,7 @@ void ExportDialog::saveRecipe() {
 }
 
 void ExportDialog::showMessage(const QString &text, const char *role) {
-    showText(*m_message, text, role);
+    setMessage(*m_message, text, role);
 }
 
 QFormLayout *ExportDialog::form() const {
@@ -357,7 +357,7 @@ void ExportDialog::start(const QString &title, const std::function<void(const Jo
             m_write->setEnabled(false);
             m_close->setText(tr("Close"));
             m_close->setFocus();
-            showMessage(tr("%1 has received it").arg(m_sentTo), "muted");
+            showMessage(tr("Sent to %1").arg(m_sentTo), "muted");
         }
         if (outcome.kind == Outcome::Kind::failed)
             showMessage(translated(*outcome.reason), "warning");

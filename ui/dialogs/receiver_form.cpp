@@ -26,7 +26,7 @@ ReceiverForm::ReceiverForm(StudyReceiver &receiver, QWidget *parent)
     setObjectName("receiverForm");
     const ReceiverSettings &now = receiver.settings();
     m_on->setObjectName("receiverOnBox");
-    m_on->setToolTip(tr("What arrives is added to the library. Other senders are turned away"));
+    m_on->setToolTip(tr("What arrives is added to the library. Other senders are rejected"));
     m_on->setChecked(now.isOn);
     m_ae->setObjectName("receiverAeEdit");
     m_ae->setToolTip(tr("The name under which servers send to this program"));
@@ -49,13 +49,13 @@ ReceiverForm::ReceiverForm(StudyReceiver &receiver, QWidget *parent)
     m_form->addRow(tr("Port"), m_port);
     m_form->addRow({}, m_tls);
     m_certificate = addFileRow(*m_form, tr("Certificate"), "receiverCertificateEdit",
-                               tr("Certificate that this program shows (PEM)"));
+                               tr("Certificate of this program (PEM)"));
     m_certificate->setText(now.certificate);
     m_key = addFileRow(*m_form, tr("Private key"), "receiverKeyEdit",
                        tr("Private key of the certificate (PEM), without a password"));
     m_key->setText(now.key);
     m_authorities =
-        addFileRow(*m_form, tr("Authorities"), "receiverAuthoritiesEdit",
+        addFileRow(*m_form, tr("CA certificates"), "receiverAuthoritiesEdit",
                    tr("CA certificates that issue the senders' certificates (PEM); each of these "
                       "must name its sender's host or address"));
     m_authorities->setText(now.authorities);
@@ -104,7 +104,7 @@ void ReceiverForm::showState() {
         text = tr("%1 receives on port %2; %n objects have arrived", "",
                   int(m_receiver.receivedCount()))
                    .arg(now.ae, QString::number(now.port));
-    showText(*m_state, text, m_receiver.failure() ? "warning" : "muted");
+    setMessage(*m_state, text, m_receiver.failure() ? "warning" : "muted");
 }
 
 } // namespace pellucid::ui

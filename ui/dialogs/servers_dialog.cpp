@@ -181,10 +181,10 @@ QWidget *ServersDialog::makeForm() {
     m_connections = spinBox("connectionsBox", 1, archive::maxConnections,
                             tr("Most connections at the same time while retrieving; fewer are "
                                "used where more would not save time"));
-    m_limit = spinBox("limitBox", 0, 100000, tr("Most answers to a search; 0: no limit"));
+    m_limit = spinBox("limitBox", 0, 100000, tr("Maximum number of results; 0: no limit"));
     m_characterSet = lineEdit("characterSetEdit",
                               tr("Character set of answers that name none, such as ISO_IR 100"));
-    m_uncompress = new QCheckBox(tr("&Uncompress what it does not accept"));
+    m_uncompress = new QCheckBox(tr("&Decompress if the encoding is not accepted"));
     m_uncompress->setObjectName("uncompressBox");
     m_uncompress->setToolTip(
         tr("Sends compressed images uncompressed if the server does not accept their encoding"));
@@ -204,10 +204,10 @@ QWidget *ServersDialog::makeForm() {
     m_authorizationUrl =
         lineEdit("authorizationUrlEdit", tr("Page on which users log in; only without an issuer"));
     m_tokenUrl =
-        lineEdit("tokenUrlEdit", tr("Where the login server gives tokens; only without an issuer"));
-    m_clientId = lineEdit("clientIdEdit", tr("The ID that the login server has for this program"));
+        lineEdit("tokenUrlEdit", tr("Token endpoint; only without an issuer"));
+    m_clientId = lineEdit("clientIdEdit", tr("Client ID registered for Pellucid"));
     m_scope = lineEdit("scopeEdit",
-                       tr("What the login is to allow, such as openid offline_access; optional"));
+                       tr("Scopes to request, such as openid offline_access; optional"));
     m_keyPassword = lineEdit("keyPasswordEdit", m_secret->toolTip());
     m_keyPassword->setEchoMode(QLineEdit::Password);
     m_form->addRow(tr("Name"), m_name);
@@ -220,15 +220,15 @@ QWidget *ServersDialog::makeForm() {
     m_form->addRow(tr("Retrieve"), m_retrieve);
     m_form->addRow(tr("Sends from"), m_sendsFrom);
     m_form->addRow(tr("Connections"), m_connections);
-    m_form->addRow(tr("Answers"), m_limit);
+    m_form->addRow(tr("Maximum results"), m_limit);
     m_form->addRow(tr("Character set"), m_characterSet);
     m_form->addRow({}, m_uncompress);
     m_form->addRow({}, m_tls);
     m_authorities =
-        addFileRow(*m_form, tr("Authorities"), "authoritiesEdit",
+        addFileRow(*m_form, tr("CA certificates"), "authoritiesEdit",
                    tr("Certificates that are trusted (PEM); empty: those of the system"));
     m_certificate = addFileRow(*m_form, tr("Certificate"), "certificateEdit",
-                               tr("Certificate that this program shows (PEM); empty: none"));
+                               tr("Client certificate (PEM); empty: none"));
     m_key = addFileRow(*m_form, tr("Private key"), "keyEdit",
                        tr("Private key of the certificate (PEM)"));
     m_form->addRow(tr("Key password"), m_keyPassword);
@@ -457,7 +457,7 @@ void ServersDialog::test() {
 }
 
 void ServersDialog::report(const QString &text, const char *role) {
-    showText(*m_message, text, role);
+    setMessage(*m_message, text, role);
 }
 
 } // namespace pellucid::ui

@@ -14,7 +14,7 @@ PELLUCID_REASON(noFolderForMeasurements, "The measurements cannot be saved: ther
 PELLUCID_REASON(formerMeasurementsUnreadable, "the earlier ones cannot be read and would be lost")
 
 // The window
-PELLUCID_REASON(noStudyIsOpen, "No study is open")
+PELLUCID_REASON(noStudyIsOpen, "no study is open")
 PELLUCID_REASON(isOfAnOpenStudy, "%1 belongs to an open study; choose another name")
 // clang-format on
 

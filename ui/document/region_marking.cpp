@@ -7,7 +7,7 @@ void RegionMarking::setTool(RegionTool tool) {
     if (tool == m_tool)
         return;
     m_tool = tool;
-    m_sought.reset();
+    m_candidate.reset();
     emit toolChanged();
 }
 
@@ -18,11 +18,11 @@ void RegionMarking::setOptions(const RegionOptions &options) {
     emit optionsChanged();
 }
 
-void RegionMarking::setSought(const std::optional<classify::TissueClass> &sought) {
-    if (sought == m_sought)
+void RegionMarking::setCandidate(const std::optional<classify::TissueClass> &candidate) {
+    if (candidate == m_candidate)
         return;
-    m_sought = sought;
-    emit soughtChanged();
+    m_candidate = candidate;
+    emit candidateChanged();
 }
 
 void RegionMarking::setTint(const std::optional<RegionTint> &tint) {

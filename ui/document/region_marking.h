@@ -62,8 +62,8 @@ public:
     void setOptions(const RegionOptions &options);
 
     /// The region that the user is choosing, with its operands; not set: none.
-    const std::optional<classify::TissueClass> &sought() const { return m_sought; }
-    void setSought(const std::optional<classify::TissueClass> &sought);
+    const std::optional<classify::TissueClass> &candidate() const { return m_candidate; }
+    void setCandidate(const std::optional<classify::TissueClass> &candidate);
 
     /// The region that was found last; not set: none is shown.
     const std::optional<RegionTint> &tint() const { return m_tint; }
@@ -76,14 +76,14 @@ signals:
     void toolChanged();
     void toolRequested(pellucid::ui::RegionTool tool);
     void optionsChanged();
-    void soughtChanged();
+    void candidateChanged();
     /// Also if a search began or ended.
     void tintChanged();
 
 private:
     RegionTool m_tool = RegionTool::none;
     RegionOptions m_options;
-    std::optional<classify::TissueClass> m_sought;
+    std::optional<classify::TissueClass> m_candidate;
     std::optional<RegionTint> m_tint;
     bool m_isSearching = false;
 };

@@ -10,16 +10,16 @@ namespace pellucid::ui {
 namespace {
 
 // The last regions that were tried, of a large volume.
-constexpr std::size_t soughtBytes = std::size_t(256) << 20;
+constexpr std::size_t candidateBytes = std::size_t(256) << 20;
 
 } // namespace
 
 RegionFinder::RegionFinder(Document &document, std::shared_ptr<preprocess::StepCache> steps,
                            QObject *parent)
     : QObject(parent), m_document(document), m_steps(std::move(steps)),
-      m_soughtSteps(std::make_shared<preprocess::StepCache>(soughtBytes)) {
+      m_candidateSteps(std::make_shared<preprocess::StepCache>(candidateBytes)) {
     const RegionMarking &marking = document.marking();
-    for (const auto changed : {&RegionMarking::toolChanged, &RegionMarking::soughtChanged})
+    for (const auto changed : {&RegionMarking::toolChanged, &RegionMarking::candidateChanged})
         connect(&marking, changed, this, &RegionFinder::update);
     document.whenever(
         Change::scene | Change::selection | Change::segments, this, [this](Changes changes) {
@@ -35,8 +35,8 @@ std::optional<classify::TissueClass> RegionFinder::wanted() const {
     if (!m_document.volume() || m_document.isPreview())
         return std::nullopt;
     const RegionMarking &marking = m_document.marking();
-    if (marking.sought())
-        return marking.sought();
+    if (marking.candidate())
+        return marking.candidate();
     const int selected = m_document.selectedClass();
     if (marking.tool() == RegionTool::none || selected < 0)
         return std::nullopt;
@@ -66,7 +66,7 @@ void RegionFinder::update() {
 void RegionFinder::start() {
     m_document.marking().setSearching(true);
     // Regions that are only tried must not displace the results of the look.
-    const auto &steps = m_document.marking().sought() ? m_soughtSteps : m_steps;
+    const auto &steps = m_document.marking().candidate() ? m_candidateSteps : m_steps;
     const auto find = [this, steps, volume = *m_document.volume(), segments = m_document.segments(),
                        tissue = *m_wanted](const Job &job) {
         preprocess::ClassRunner runner(*steps, segments);

@@ -33,7 +33,7 @@ private:
     void start();
 
     Document &m_document;
-    std::shared_ptr<preprocess::StepCache> m_steps, m_soughtSteps;
+    std::shared_ptr<preprocess::StepCache> m_steps, m_candidateSteps;
     std::optional<classify::TissueClass> m_wanted;
     JobRunner m_jobs;
 };

@@ -15,7 +15,7 @@ PELLUCID_REASON(recipesAreOfProjections, "recipes make projections; choose the p
 PELLUCID_REASON(recipesAreOfOneVolume, "recipes cannot subtract volumes yet")
 
 // Export
-PELLUCID_REASON(projectionIsNotPrepared, "The projection is not prepared; F5 prepares it")
+PELLUCID_REASON(projectionIsNotPrepared, "the projection is not computed (F5 to recompute)")
 PELLUCID_REASON(projectionIsBeingMade, "The projection is still being computed")
 PELLUCID_REASON(valuesOfTheProjectionOnly, "Only the projection can be exported as values")
 PELLUCID_REASON(onlyTheProjectionTurns, "Only the projection can be exported as a turntable")

@@ -53,10 +53,10 @@ StudyOpener::StudyOpener(Document &document, JobRunner &jobs, LookPreparer &prep
                          QObject *parent)
     : QObject(parent), m_document(document), m_jobs(jobs), m_preparer(preparer) {
     // Queued: the code that ended the job may start the next one.
-    connect(&jobs, &JobRunner::finished, this, &StudyOpener::goBack, Qt::QueuedConnection);
+    connect(&jobs, &JobRunner::finished, this, &StudyOpener::returnToFormer, Qt::QueuedConnection);
 }
 
-void StudyOpener::goBack() {
+void StudyOpener::returnToFormer() {
     if (m_jobs.isRunning()) // another study is being opened, and may fail as well
         return;
     const auto former = std::exchange(m_former, std::nullopt);
@@ -431,7 +431,7 @@ StudyOpener::Finish StudyOpener::finishing(const QStringList &segmentations,
 
 void StudyOpener::openArriving(const StudyFacts &study,
                                const std::shared_ptr<dicom::ArrivingSeries> &series) {
-    // It stands for the series until the files tell which it is.
+    // It stands for the series until the files say which it is.
     StudySource source;
     source.study = study;
     source.volume.description = tr("Arriving");

@@ -86,7 +86,7 @@ private:
     void resume(StudyView &view);
     void keepCurrent();
     /// Reopens the previous study after a load that failed or was cancelled.
-    void goBack();
+    void returnToFormer();
     /// Leaves a phase for another, and returns how it was looked at.
     StudyView leavePhase(int next);
     /// Looks at the volume as at the former phase, at the same pixel size.

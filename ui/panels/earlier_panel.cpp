@@ -45,7 +45,7 @@ EarlierPanel::EarlierPanel(EarlierStudies &studies, QWidget *parent)
     setObjectName("earlierPanel");
     setAttribute(Qt::WA_StyledBackground);
     m_tree->setObjectName("earlierTree");
-    m_tree->setAccessibleName(tr("Earlier studies"));
+    m_tree->setAccessibleName(tr("Prior studies"));
     m_tree->setHeaderHidden(true);
     m_tree->setIndentation(0);
     m_tree->setRootIsDecorated(false);
@@ -59,11 +59,11 @@ EarlierPanel::EarlierPanel(EarlierStudies &studies, QWidget *parent)
     m_state->setWordWrap(true);
     m_inAdvance->setObjectName("inAdvanceBox");
     m_inAdvance->setToolTip(
-        tr("Retrieves the latest earlier studies of the same modality when a study is opened"));
+        tr("Retrieves the latest prior studies of the same modality when a study is opened"));
     m_inAdvance->addItems(
         {tr("none"), tr("the latest"), tr("the latest two"), tr("the latest three")});
     m_inAdvance->setCurrentIndex(studies.inAdvance());
-    auto *label = new PlainLabel(tr("Retrieve in advance"));
+    auto *label = new PlainLabel(tr("Prefetch prior studies"));
     label->setBuddy(m_inAdvance);
     auto *choice = new QHBoxLayout;
     choice->addWidget(label);
@@ -117,7 +117,7 @@ void EarlierPanel::list() {
         const EarlierStudy &one = m_studies.studies()[n];
         if (isCertain && !one.isCertain) {
             isCertain = false;
-            auto *const heading = new QTreeWidgetItem(m_tree, {tr("Perhaps another patient")});
+            auto *const heading = new QTreeWidgetItem(m_tree, {tr("Possibly a different patient")});
             heading->setFlags(Qt::ItemIsEnabled);
             heading->setFirstColumnSpanned(true);
             heading->setForeground(0, palette().brush(QPalette::Disabled, QPalette::Text));
@@ -167,7 +167,7 @@ void EarlierPanel::activate(const QTreeWidgetItem &item) {
         return;
     }
     ask(window(),
-        {"otherPatientQuestion", tr("Perhaps another patient"),
+        {"otherPatientQuestion", tr("Possibly a different patient"),
          tr("This study may be of another patient:\n%1\n\nOpen it beside?")
              .arg(identityText(chosen.study)),
          tr("Open")},

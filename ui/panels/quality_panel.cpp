@@ -216,7 +216,7 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
                              QString::number(spectrum.bytes() >> 20)));
     const QString reason = translated(plan.reason);
     const bool isSum = shown.prepared.of == plan::SpectrumOf::layer;
-    showReason(isSum ? tr("The layers of the look, summed while their weights change")
+    showReason(isSum ? tr("Preview while weights change")
                : coarse || stage == EngineStage::live
                    ? tr("A coarse picture first; the full one follows")
                : missed ? tr("The error exceeds the tolerance: %1").arg(reason)
@@ -225,7 +225,7 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
 }
 
 void QualityPanel::showReason(const QString &text, bool isWarning) {
-    showText(*m_reason, text, isWarning ? "warning" : "muted");
+    setMessage(*m_reason, text, isWarning ? "warning" : "muted");
 }
 
 void QualityPanel::showError(const error::StatedError &measured) {

@@ -76,8 +76,8 @@ RegionBar::RegionBar(Document &document, QWidget *parent)
     row->addWidget(m_use);
     row->addWidget(m_where);
     m_leak = makeNumber("regionLeakBox", tr("Leak limit"),
-                        tr("The region does not pass through openings narrower than this"), 0.0,
-                        maxLeakMm, &RegionOptions::leakMm);
+                        tr("Narrowest passage the region may grow through"), 0.0, maxLeakMm,
+                        &RegionOptions::leakMm);
     m_ball = makeNumber("regionBallBox", tr("Radius"),
                         tr("Radius of the brush (Shift+wheel over a plane)"),
                         classify::smallestBallMm, classify::largestBallMm, &RegionOptions::ballMm);
@@ -216,7 +216,7 @@ void RegionBar::showMarking() {
         found = tr("Searching...");
     else if (marking.tint())
         found = tr("%1 ml").arg(marking.tint()->volumeMl, 0, 'f', 1);
-    if (marking.tint() && !marking.sought() && selected >= 0)
+    if (marking.tint() && !marking.candidate() && selected >= 0)
         found = selectedName + ": " + found;
     m_found->setText(found);
 }

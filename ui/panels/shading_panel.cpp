@@ -101,7 +101,7 @@ void ShadingPanel::nameControls() {
                         tr("How much of the density itself is visible; double-click sets it to 1"));
     m_curveValues->setObjectName("curveValuesBox");
     m_curveValues->setAccessibleName(tr("Number of curve values"));
-    m_curveValues->setToolTip(tr("Number of curve values; each costs up to two slices"));
+    m_curveValues->setToolTip(tr("Points of the curve; more points render slower"));
     m_curveValues->setRange(int(shading::minCurveValues), int(shading::maxCurveValues));
     m_curveValues->setFixedWidth(44);
     m_follows->setObjectName("followsViewerBox");

@@ -311,7 +311,7 @@ void StudyPanel::showMenu(const QPoint &at) {
     if (volume != nullptr) {
         add(tr("Open"), "openVolumeAction", [this, row] { activate(row); });
         if (m_document.volume())
-            add(tr("Open beside"), "openBesideAction", [this, row] { openBeside(row); });
+            add(tr("Open side by side"), "openBesideAction", [this, row] { openBeside(row); });
         add(tr("Details..."), "volumeDetailsAction", [this, row] { showDetails(row); });
         if (volume->file.isEmpty() && !m_list.files(index).isEmpty())
             add(tr("DICOM header..."), "volumeHeaderAction", [this, row] {

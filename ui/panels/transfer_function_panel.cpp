@@ -276,8 +276,8 @@ void TransferFunctionPanel::showScene() {
         box->setDecimals(width >= 50.0 ? 0 : width >= 1.0 ? 2 : 5);
         box->setSuffix(volume ? unitSuffix(volume->unit()) : QString());
     }
-    m_low->give(shownRange().low);
-    m_high->give(shownRange().high);
+    m_low->setNumber(shownRange().low);
+    m_high->setNumber(shownRange().high);
     m_points->setValue(int(function().weights.size()));
     m_weight->setValue(function().weights[std::size_t(m_editor->selectedPoint())]);
     showHistogram();

@@ -110,7 +110,7 @@ void EarlierStudies::listLibrary() {
 
 void EarlierStudies::searchServers(const std::vector<archive::Server> &servers) {
     m_jobs.start(
-        tr("Looking for earlier studies"),
+        tr("Looking for prior studies"),
         [this, servers, all = termsFor(*m_open)](const Job &job) {
             for (const archive::SearchTerms &terms : all) {
                 archive::SearchObserver observer;
@@ -184,7 +184,7 @@ void EarlierStudies::suggest() {
     for (const EarlierStudy &one : m_studies) {
         const QStringList others = one.study.modalities.split(' ', Qt::SkipEmptyParts);
         const bool isAlike =
-            others.isEmpty() || // not every server tells
+            others.isEmpty() || // not every server says
             std::any_of(modalities.begin(), modalities.end(),
                         [&](const QString &modality) { return others.contains(modality); });
         if (left == 0 || !one.isCertain)

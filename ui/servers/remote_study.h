@@ -14,7 +14,7 @@ namespace pellucid::ui {
 struct RemoteStudy {
     StudyFacts study;
     QStringList servers;
-    int instances = 0; ///< as the server counts them; 0: it does not tell
+    int instances = 0; ///< as the server counts them; 0: unknown
 };
 
 RemoteStudy remoteStudy(const archive::FoundEntry &entry);

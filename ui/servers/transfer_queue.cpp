@@ -30,7 +30,7 @@ bool hasLog() {
     return files::userDataFolder() && std::filesystem::exists(TransferLog::fileOfUser(), unknown);
 }
 
-// The series of a transfer that is shown while it arrives, as objects are told one at a time.
+// The series of a transfer that is shown while it arrives, as objects are announced one at a time.
 class SeriesToShow {
 public:
     ~SeriesToShow() {

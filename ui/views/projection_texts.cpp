@@ -40,9 +40,9 @@ QString qualityText(const DescribedFrame &described) {
                           : described.isPending ? QString()
                                                 : ProjectionTexts::tr("error not known yet");
     if (described.planState == PlanState::cancelled)
-        return ProjectionTexts::tr("cancelled: F5 prepares it");
+        return ProjectionTexts::tr("cancelled (F5 to recompute)");
     if (described.planState == PlanState::failed)
-        return ProjectionTexts::tr("not prepared: F5 tries again");
+        return ProjectionTexts::tr("failed (F5 to try again)");
     if (described.stage == EngineStage::coarse)
         return withError(ProjectionTexts::tr("coarse"), error);
     if (described.stage == EngineStage::live)

@@ -28,7 +28,7 @@ void setRole(QWidget &widget, const char *role) {
     widget.style()->polish(&widget);
 }
 
-void showText(PlainLabel &label, const QString &text, const char *role) {
+void setMessage(PlainLabel &label, const QString &text, const char *role) {
     label.setText(text);
     setRole(label, role);
 }

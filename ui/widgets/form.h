@@ -18,6 +18,6 @@ QPushButton *makeLink(const QString &text, const char *name, const QString &tip)
 /// Gives a widget a role of the style sheet: `muted`, `warning`, `link`, `heading`, ...
 void setRole(QWidget &widget, const char *role);
 /// Shows a text in a role.
-void showText(PlainLabel &label, const QString &text, const char *role);
+void setMessage(PlainLabel &label, const QString &text, const char *role);
 
 } // namespace pellucid::ui

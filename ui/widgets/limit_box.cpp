@@ -21,7 +21,7 @@ LimitBox::LimitBox(const char *name, double low, double high, double scale, QWid
     setSingleStep(std::max(scale, 1e-9) / 200.0);
 }
 
-void LimitBox::give(double value) {
+void LimitBox::setNumber(double value) {
     m_given = value;
     setValue(value);
     m_shown = this->value();

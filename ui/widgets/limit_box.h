@@ -13,7 +13,7 @@ public:
     /// `scale`: a typical range of the values; the decimals resolve a thousandth of it.
     LimitBox(const char *name, double low, double high, double scale, QWidget *parent = nullptr);
 
-    void give(double value);
+    void setNumber(double value);
     /// The value as typed, or as given if it was not edited.
     double exact() const;
 

@@ -137,6 +137,7 @@ void MainWindow::connectBench() {
     m_bench.study.document.whenever(Change::volume | Change::currentSource, this,
                                     &MainWindow::showVolumeState);
     connectProjection(m_bench.study, *m_projection, m_bench.card);
+    connect(m_projection, &ProjectionView::anglesRequested, this, &MainWindow::showAngles);
     connect(&m_bench.card, &GraphicsCard::changed, this, [this] {
         if (!m_bench.study.document.volume())
             m_engine->setText(m_bench.card.description());

@@ -56,7 +56,7 @@ void ServerCommands::connectTransfers() {
                 }
             });
     connect(&m_bench.receiver, &StudyReceiver::arrived, this,
-            [this] { m_bench.notices.say(tr("A study has arrived")); });
+            [this] { m_bench.notices.say(tr("Study received")); });
     // What was asked for is shown, unless another study is open by then.
     connect(&m_bench.transfers, &TransferQueue::completed, this,
             [this](const QString &folder, bool isAwaited, const archive::RetrievalReport &report) {
@@ -88,7 +88,7 @@ void ServerCommands::connectTransfers() {
                 if (isIdle && isAwaited && !isForBeside && uid != m_seen)
                     m_bench.study.opener.openPaths({folder});
                 else
-                    m_bench.notices.say(tr("A study has arrived"));
+                    m_bench.notices.say(tr("Study received"));
             });
 }
 

@@ -27,7 +27,7 @@ StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench)
         makeDock(tr("MEASUREMENTS"), "measurementsDock", m_measurements, m_measurements->corner());
     window.addDockWidget(Qt::LeftDockWidgetArea, m_measured);
     window.resizeDocks({m_study, m_measured}, {700, 180}, Qt::Vertical);
-    m_earlierDock = makeDock(tr("EARLIER STUDIES"), "earlierDock", m_earlier, nullptr);
+    m_earlierDock = makeDock(tr("PRIOR STUDIES"), "earlierDock", m_earlier, nullptr);
     window.addDockWidget(Qt::LeftDockWidgetArea, m_earlierDock);
     m_earlierDock->hide();
     m_transfersPanel = new TransfersPanel(bench.transfers, bench.receiver, bench.servers);

@@ -20,7 +20,7 @@ constexpr int keepingMs = 1500;
 
 Workstation::Workstation(std::optional<EngineChoice> engine)
     : m_preferences(Preferences::load()), m_bench(engine) {
-    speak(m_preferences.language);
+    installTranslations(m_preferences.language);
     Theme::named(m_preferences.theme).apply(*qApp);
     m_window = std::make_unique<MainWindow>(m_bench, m_preferences);
     connect(m_window.get(), &MainWindow::preferencesChanged, this, &Workstation::follow);
@@ -63,7 +63,7 @@ void Workstation::keepWhatIsOpen(bool hasEnded) {
 }
 
 // The texts of the program are English; a text without a translation stays English.
-void Workstation::speak(const QString &language) {
+void Workstation::installTranslations(const QString &language) {
     const QLocale locale = language.isEmpty() ? QLocale() : QLocale(language);
     // English has a file, too, for its plurals.
     if (m_texts.load(locale, "pellucid", "_", ":/i18n"))

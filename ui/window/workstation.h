@@ -27,7 +27,7 @@ public:
 
 private:
     void follow(const Preferences &preferences);
-    void speak(const QString &language);
+    void installTranslations(const QString &language);
     void keepWhatIsOpen(bool hasEnded);
 
     Preferences m_preferences;

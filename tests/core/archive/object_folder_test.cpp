@@ -56,7 +56,7 @@ task::Reason refusal(const ObjectFolder &folder, const std::string &bytes,
 // A helper that has been taken over still has the file open after the object was checked.
 TEST(ObjectFolder, WhatWasCheckedCannotBeWrittenAnyMore) {
     const test::TemporaryFolder folder;
-    const ObjectFolder objects(folder.path(), ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const ObjectFolder objects(folder.path(), ObjectFolder::Durability::cached);
     const std::string object = objectWith(1), other = objectWith(2);
     const auto file = objects.open(announced);
     const int helpers = ::dup(file->descriptor());
@@ -75,7 +75,7 @@ TEST(ObjectFolder, WhatWasCheckedCannotBeWrittenAnyMore) {
 // A server that lists an object of one study and sends one of another is not believed.
 TEST(ObjectFolder, AnObjectOfAnotherPlaceIsRefused) {
     const test::TemporaryFolder folder;
-    const ObjectFolder objects(folder.path(), ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const ObjectFolder objects(folder.path(), ObjectFolder::Durability::cached);
     const std::string object = objectWith(1);
     EXPECT_TRUE(
         refusal(objects, object, {{root + "9", root + "3"}}).is(because::isNotWhatWasAnnounced));
@@ -88,7 +88,7 @@ TEST(ObjectFolder, AnObjectOfAnotherPlaceIsRefused) {
 
 TEST(ObjectFolder, WhatIsThereIsNotReplaced) {
     const test::TemporaryFolder folder;
-    const ObjectFolder objects(folder.path(), ObjectFolder::Keeps::onDisk);
+    const ObjectFolder objects(folder.path(), ObjectFolder::Durability::synced);
     const std::string first = objectWith(1), second = objectWith(2);
     const StoredObject kept = keep(objects, first);
     EXPECT_EQ(keep(objects, first).path, kept.path); // the same once more
@@ -103,7 +103,7 @@ TEST(ObjectFolder, WhatIsDamagedIsNotThereAndIsReplaced) {
          {std::string(), object.substr(0, object.size() / 2), object.substr(0, object.size() - 10),
           std::string("no DICOM file at all")}) {
         const test::TemporaryFolder folder;
-        const ObjectFolder objects(folder.path(), ObjectFolder::Keeps::inMemoryOfTheSystem);
+        const ObjectFolder objects(folder.path(), ObjectFolder::Durability::cached);
         const StoredObject kept = keep(objects, object);
         std::ofstream(kept.path, std::ios::trunc | std::ios::binary) << left;
         EXPECT_FALSE(objects.find(root + "2", root + "3", root + "1.1")) << left.size();
@@ -117,7 +117,7 @@ TEST(ObjectFolder, WhatIsDamagedIsNotThereAndIsReplaced) {
 TEST(ObjectFolder, OnlyTheUserMayRead) {
     const test::TemporaryFolder folder;
     const mode_t before = ::umask(0);
-    const ObjectFolder objects(folder / "new/folder", ObjectFolder::Keeps::inMemoryOfTheSystem);
+    const ObjectFolder objects(folder / "new/folder", ObjectFolder::Durability::cached);
     objects.create();
     const StoredObject kept = keep(objects, objectWith(1));
     ::umask(before);

@@ -202,7 +202,7 @@ TEST_F(TakenOver, itsSamplesAreCounted) {
                               [&](std::span<const std::byte> part) { taken += part.size(); });
             ADD_FAILURE() << word;
         } catch (const task::Error &error) {
-            EXPECT_EQ(error.reason(), task::because::decodedToNonsense) << word;
+            EXPECT_EQ(error.reason(), task::because::implausibleAnswer) << word;
             EXPECT_EQ(error.path(), m_folder / word);
         }
         EXPECT_EQ(taken, believed) << word;

@@ -364,7 +364,7 @@ TEST(Message, bytesThatAreNoReasonAreRefused) {
             ADD_FAILURE() << text;
         } catch (const task::Error &error) {
             EXPECT_EQ(error.code(), task::ErrorCode::unusable);
-            EXPECT_EQ(error.reason(), because::decodedToNonsense);
+            EXPECT_EQ(error.reason(), because::implausibleAnswer);
         }
 }
 

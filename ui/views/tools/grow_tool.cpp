@@ -86,7 +86,7 @@ classify::TissueClass GrowTool::region() const {
 
 void GrowTool::seek() {
     if (!m_document.marking().options().addsPoints)
-        m_document.marking().setSought(region());
+        m_document.marking().setCandidate(region());
 }
 
 bool GrowTool::move(const MouseMove &mouse) {
@@ -106,12 +106,12 @@ void GrowTool::release(const QPointF & /*at*/) {
     else
         useRegion(m_document, region());
     // Afterwards the planes show what the class is now.
-    m_document.marking().setSought(std::nullopt);
+    m_document.marking().setCandidate(std::nullopt);
 }
 
 void GrowTool::cancel() {
     m_isDragging = false;
-    m_document.marking().setSought(std::nullopt);
+    m_document.marking().setCandidate(std::nullopt);
 }
 
 void GrowTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks) const {

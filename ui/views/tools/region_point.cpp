@@ -19,7 +19,7 @@ namespace {
 const volume::Coverage *shownPart(const Document &document) {
     const RegionMarking &marking = document.marking();
     const int selected = document.selectedClass();
-    if (!marking.tint() || marking.isSearching() || marking.sought() || selected < 0)
+    if (!marking.tint() || marking.isSearching() || marking.candidate() || selected < 0)
         return nullptr;
     const classify::TissueClass &tissue = document.scene().look.classes[std::size_t(selected)];
     const bool hides = std::any_of(tissue.steps.begin(), tissue.steps.end(), [](const auto &step) {

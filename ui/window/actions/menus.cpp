@@ -13,6 +13,11 @@ struct MenuTexts {
 
 const MenuEntry separator;
 
+std::vector<MenuEntry> sides() {
+    return {{"frontViewAction"}, {"backViewAction"}, {"leftViewAction"},
+            {"rightViewAction"}, {"topViewAction"},  {"bottomViewAction"}};
+}
+
 MenuEntry fileMenu() {
     return {"",
             MenuTexts::tr("&File"),
@@ -104,8 +109,9 @@ MenuEntry lookMenu() {
 } // namespace
 
 std::vector<MenuEntry> standardViews() {
-    return {{"frontViewAction"}, {"backViewAction"},   {"leftViewAction"}, {"rightViewAction"},
-            {"topViewAction"},   {"bottomViewAction"}, {"anglesAction"}};
+    std::vector<MenuEntry> views = sides();
+    views.push_back({"anglesAction"});
+    return views;
 }
 
 Menus menus() {
@@ -121,7 +127,8 @@ Menus menus() {
                       separator,
                       {"straightenAction"},
                       {"alongScanAction"}},
-            .projection = {{"", MenuTexts::tr("&View"), standardViews()},
+            .projection = {{"", MenuTexts::tr("&View"), sides()},
+                           {"anglesAction"},
                            separator,
                            {"filmAction"},
                            {"automaticToneAction"},
