@@ -25,6 +25,7 @@
 #include "core/files/image_files.h"
 #include "core/files/read_text.h"
 #include "core/scene/projection_matrix.h"
+#include "core/shading/shading_json_nlohmann.h"
 #include "core/task/error.h"
 #include "core/task/reasons.h"
 
@@ -251,7 +252,7 @@ private:
                             {"segmentations", segmentationsJson()},
                             {"registration", registrationJson()},
                             {"window", {m_renderer->window().low, m_renderer->window().high}},
-                            {"shading", json::parse(shading::toJson(m_scene.shading))},
+                            {"shading", shading::jsonOf(m_scene.shading)},
                             {"milliseconds", timesJson()},
                             {"bytes", m_renderer->bytes()},
                             {"card_bytes", m_renderer->cardBytes()},

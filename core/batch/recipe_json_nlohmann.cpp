@@ -13,9 +13,11 @@
 #include "core/files/json_lines_nlohmann.h"
 #include "core/files/read_text.h"
 #include "core/files/reasons.h"
+#include "core/presets/preset_json_nlohmann.h"
 #include "core/presets/preset_library.h"
 #include "core/presets/reasons.h"
 #include "core/scene/reasons.h"
+#include "core/scene/scene_json_nlohmann.h"
 #include "core/scene/view_list_nlohmann.h"
 #include "core/system/content_digest.h"
 #include "core/system/text.h"
@@ -136,7 +138,7 @@ private:
                 const std::string text = textOf(scene);
                 output.scene = scene.checked([&] { return scene::sceneFromJson(text); });
             } else {
-                output.scene = scene.checkedText(scene::sceneFromJson);
+                output.scene = scene::sceneFrom(scene);
             }
             // Measured on the study that the scene is of.
             output.scene->tone.exposure.reset();
@@ -145,7 +147,7 @@ private:
         }
         if (const JsonValue look = in["look"]) {
             output.look = look.isText() ? look.checked([&] { return presetNamed(look); })
-                                        : look.checkedText(presets::presetFromJson);
+                                        : presets::presetFrom(look);
             m_contents += presets::toJson(*output.look);
         }
         if (const JsonValue couch = in["without_couch"])
@@ -353,8 +355,8 @@ std::string recipeOf(const scene::Scene &scene, const presets::Preset &look, For
                 {"format", files::wordFor(format, formats)},
                 {"size", {scene.camera.width, scene.camera.height}},
                 {"fit", files::wordFor(Fit::body, fits)},
-                {"look", json::parse(presets::toJson(look))},
-                {"scene", json::parse(scene::toJson(shown))}};
+                {"look", presets::jsonOf(look)},
+                {"scene", scene::jsonOf(shown)}};
     if (turn > 0)
         output["turntable"] = turn;
     if (isDeidentified && (format == Format::capture || format == Format::captureLoop))

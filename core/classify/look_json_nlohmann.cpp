@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/classify/look_json.h"
+#include "core/classify/look_json_nlohmann.h"
 
 #include <memory>
 #include <string>
@@ -241,19 +241,17 @@ json classJson(const TissueClass &tissue) {
 
 } // namespace
 
-std::string toJson(const Look &look) {
+json jsonOf(const Look &look) {
     json out = json::object();
     // The number of control points is part of the look, even if all weights are 1.
     if (look.transferFunction != TransferFunction())
         out["transfer_function"] = functionJson(look.transferFunction);
     for (const TissueClass &tissue : look.classes)
         out["classes"].push_back(classJson(tissue));
-    return out.dump();
+    return out;
 }
 
-Look lookFromJson(const std::string &source) {
-    const json parsed = json::parse(source, nullptr, false);
-    const JsonValue in(parsed);
+Look lookFrom(const JsonValue &in) {
     if (!in.isObject())
         in.refuse(because::mustBeAnObject);
     Look look;

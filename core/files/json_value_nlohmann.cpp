@@ -144,16 +144,6 @@ void JsonValue::refuse(const task::Reason &what) const {
                       m_pointer.empty() ? what : because::at(m_pointer, what));
 }
 
-void JsonValue::refuseWithin(const task::Reason &what) const {
-    // The line number belongs to the inner text.
-    if (what.is(because::atLine) && !what.arguments()[1].reasons.empty())
-        refuseWithin(what.arguments()[1].reasons.front());
-    if (!what.is(because::at) || what.arguments()[1].reasons.empty())
-        refuse(what);
-    throw task::Error(task::ErrorCode::usage, because::at(m_pointer + what.arguments()[0].text,
-                                                          what.arguments()[1].reasons.front()));
-}
-
 std::string jsonPointer(const task::Reason &reason) {
     return reason.is(because::at) ? reason.arguments()[0].text : std::string();
 }

@@ -96,18 +96,7 @@ public:
         }
     }
 
-    /// The result of a reader of `dumped`: what it refuses is refused at its pointer within this
-    /// value.
-    template <class F> decltype(auto) checkedText(F &&read) const {
-        try {
-            return std::forward<F>(read)(dumped());
-        } catch (const task::Error &error) {
-            refuseWithin(error.reason());
-        }
-    }
-
 private:
-    [[noreturn]] void refuseWithin(const task::Reason &what) const;
     JsonValue(const nlohmann::json *json, std::string pointer)
         : m_json(json), m_pointer(std::move(pointer)) {}
     template <std::size_t N>

@@ -3,12 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/classify/look_json.h"
+#include "core/classify/look_json_nlohmann.h"
 #include "core/classify/reasons.h"
 #include "core/files/json_lines_nlohmann.h"
 #include "core/files/reasons.h"
-#include "core/presets/preset.h"
+#include "core/presets/preset_json_nlohmann.h"
 #include "core/presets/reasons.h"
+#include "core/shading/shading_json_nlohmann.h"
 #include "core/task/error.h"
 
 namespace pellucid::presets {
@@ -32,7 +33,20 @@ std::ptrdiff_t characters(const std::string &text) {
                          [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
 }
 
-Preset parsed(const JsonValue &in, const std::string &source) {
+// Overwrites a class as read from its file with the known keys.
+json joined(const json &former, json known) {
+    if (!former.is_object())
+        return known;
+    json out = former;
+    for (const char *optional : {"transfer_function", "steps"})
+        out.erase(optional);
+    out.update(known);
+    return out;
+}
+
+} // namespace
+
+Preset presetFrom(const JsonValue &in) {
     if (!in.isObject())
         in.refuse(because::mustBeAnObject);
     if (textOrEmpty(in["schema"]) != schema)
@@ -61,30 +75,17 @@ Preset parsed(const JsonValue &in, const std::string &source) {
             window.refuse(because::mustBeTwoRisingNumbers);
         preset.window = classify::FieldWindow{low, high};
     }
-    preset.look = classify::lookFromJson(source);
-    preset.shading = shading::shadingFromJson(source);
-    preset.source = source;
+    preset.look = classify::lookFrom(in);
+    preset.shading = shading::shadingFrom(in);
+    preset.source = in.dumped();
     return preset;
 }
 
-// Overwrites a class as read from its file with the known keys.
-json joined(const json &former, json known) {
-    if (!former.is_object())
-        return known;
-    json out = former;
-    for (const char *optional : {"transfer_function", "steps"})
-        out.erase(optional);
-    out.update(known);
-    return out;
-}
-
-} // namespace
-
 Preset presetFromJson(const std::string &text) {
-    return files::readJson(text, [&](const JsonValue &in) { return parsed(in, text); });
+    return files::readJson(text, presetFrom);
 }
 
-std::string toJson(const Preset &preset) {
+json jsonOf(const Preset &preset) {
     json out = json::parse(preset.source, nullptr, false);
     if (!out.is_object())
         out = json::object();
@@ -109,8 +110,8 @@ std::string toJson(const Preset &preset) {
         out["units"] = "window";
     if (preset.window)
         out["window"] = {preset.window->low, preset.window->high};
-    out.update(json::parse(classify::toJson(preset.look)));
-    out.update(json::parse(shading::toJson(preset.shading)));
+    out.update(classify::jsonOf(preset.look));
+    out.update(shading::jsonOf(preset.shading));
     if (out.contains("classes"))
         for (json &tissue : out["classes"]) {
             const auto former =
@@ -120,7 +121,11 @@ std::string toJson(const Preset &preset) {
             if (former != formerClasses.end())
                 tissue = joined(*former, tissue);
         }
-    return out.dump(2, ' ', false, json::error_handler_t::replace);
+    return out;
+}
+
+std::string toJson(const Preset &preset) {
+    return jsonOf(preset).dump(2, ' ', false, json::error_handler_t::replace);
 }
 
 } // namespace pellucid::presets

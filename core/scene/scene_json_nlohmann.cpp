@@ -3,12 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/classify/look_json.h"
+#include "core/classify/look_json_nlohmann.h"
 #include "core/classify/reasons.h"
 #include "core/files/json_value_nlohmann.h"
 #include "core/files/reasons.h"
 #include "core/scene/reasons.h"
-#include "core/scene/scene.h"
+#include "core/scene/scene_json_nlohmann.h"
+#include "core/shading/shading_json_nlohmann.h"
 #include "core/task/error.h"
 
 namespace pellucid::scene {
@@ -146,7 +147,7 @@ Tone toneFrom(const JsonValue &in) {
     return tone;
 }
 
-Scene parsed(const JsonValue &in, const std::string &text) {
+Scene parsed(const JsonValue &in) {
     const JsonValue version = in.at("schema");
     if (version.text() != schema)
         version.refuse(because::isNot(schema));
@@ -156,8 +157,8 @@ Scene parsed(const JsonValue &in, const std::string &text) {
         const auto [low, high] = window.twoNumbers();
         scene.fieldWindow = classify::FieldWindow{low, high};
     }
-    scene.look = classify::lookFromJson(text);
-    scene.shading = shading::shadingFromJson(text);
+    scene.look = classify::lookFrom(in);
+    scene.shading = shading::shadingFrom(in);
     if (const JsonValue crop = in["crop"])
         scene.crop = cropFrom(crop);
     scene.image = imageFrom(in);
@@ -175,7 +176,7 @@ Scene parsed(const JsonValue &in, const std::string &text) {
 
 } // namespace
 
-std::string toJson(const Scene &scene) {
+json jsonOf(const Scene &scene) {
     const glm::dquat &q = scene.camera.orientation;
     json out = {{"schema", schema},
                 {"camera",
@@ -197,8 +198,8 @@ std::string toJson(const Scene &scene) {
         out["planned_for"] = wordFor(scene.plannedFor, plannedFors);
     if (scene.fieldWindow)
         out["window"] = {scene.fieldWindow->low, scene.fieldWindow->high};
-    out.update(json::parse(classify::toJson(scene.look)));
-    out.update(json::parse(shading::toJson(scene.shading)));
+    out.update(classify::jsonOf(scene.look));
+    out.update(shading::jsonOf(scene.shading));
     const auto list = [](const glm::dvec3 &v) { return json{v.x, v.y, v.z}; };
     if (!scene.crop.isWhole())
         out["crop"] = {{"low", list(scene.crop.low)}, {"high", list(scene.crop.high)}};
@@ -221,7 +222,21 @@ std::string toJson(const Scene &scene) {
         out["storage"] = fourier::storageName(*fixed.storage);
     if (fixed.isUniform)
         out["uniform"] = true;
-    return out.dump(2);
+    return out;
+}
+
+std::string toJson(const Scene &scene) {
+    return jsonOf(scene).dump(2);
+}
+
+Scene sceneFrom(const JsonValue &in) {
+    Scene scene = parsed(in);
+    in.checked([&] { validate(scene); });
+    // An orientation of length 1 is not changed: a saved scene gives the same picture to the bit.
+    constexpr double rounding = 1e-12;
+    if (glm::dquat &q = scene.camera.orientation; std::abs(glm::dot(q, q) - 1.0) > rounding)
+        q = glm::normalize(q);
+    return scene;
 }
 
 Scene sceneFromJson(const std::string &text) {
@@ -232,13 +247,7 @@ Scene sceneFromJson(const std::string &text) {
         throw task::Error(task::ErrorCode::usage,
                           because::sceneIsNotValid(files::jsonFault(error)));
     }
-    Scene scene = parsed(JsonValue(in), text);
-    validate(scene);
-    // An orientation of length 1 is not changed: a saved scene gives the same picture to the bit.
-    constexpr double rounding = 1e-12;
-    if (glm::dquat &q = scene.camera.orientation; std::abs(glm::dot(q, q) - 1.0) > rounding)
-        q = glm::normalize(q);
-    return scene;
+    return sceneFrom(JsonValue(in));
 }
 
 } // namespace pellucid::scene

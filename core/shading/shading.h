@@ -94,10 +94,4 @@ DepthCue cueFromText(const std::string &text);
 /// "u,v,w[:#rrggbb[:S]]", the direction in the viewer's frame. *Throws* Error{usage}.
 Light lightFromText(const std::string &text);
 
-/// A JSON object with `cue`, `ambient` and `lights`, each only if it is not the default.
-std::string toJson(const Shading &shading);
-/// Reads such an object; ignores unknown keys. *Throws* Error{usage} with the JSON pointer of the
-/// error (`because::at`).
-Shading shadingFromJson(const std::string &text);
-
 } // namespace pellucid::shading

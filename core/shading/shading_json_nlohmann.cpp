@@ -5,7 +5,7 @@
 #include "core/files/json_value_nlohmann.h"
 #include "core/files/reasons.h"
 #include "core/shading/reasons.h"
-#include "core/shading/shading.h"
+#include "core/shading/shading_json_nlohmann.h"
 
 namespace pellucid::shading {
 
@@ -63,7 +63,7 @@ Light lightFrom(const JsonValue &in) {
 
 } // namespace
 
-std::string toJson(const Shading &shading) {
+json jsonOf(const Shading &shading) {
     json out = json::object();
     const DepthCue &cue = shading.cue;
     if (cue != DepthCue()) {
@@ -79,12 +79,10 @@ std::string toJson(const Shading &shading) {
              {"color", classify::colorText(light.color)},
              {"strength", light.strength},
              {"follows", wordFor(light.frame, frames)}});
-    return out.dump();
+    return out;
 }
 
-Shading shadingFromJson(const std::string &text) {
-    const json parsed = json::parse(text, nullptr, false);
-    const JsonValue in(parsed);
+Shading shadingFrom(const JsonValue &in) {
     if (!in.isObject())
         in.refuse(because::mustBeAnObject);
     Shading shading;

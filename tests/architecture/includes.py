@@ -98,7 +98,7 @@ for source in sources:
                 continue
             if other is None or not any(room.target in allowed for room in rooms[other]):
                 wrong.append(f"{place}: includes {what}, but {rooms[folder][0].target} does not link {other or what}")
-            if "_nlohmann.h" in what and "_nlohmann." not in path:
+            if "_nlohmann.h" in what and "_nlohmann." not in path and not path.startswith("app/"):
                 wrong.append(f"{place}: {what} is for *_nlohmann.cpp")
             continue
         for pattern, target, ending in THIRD_PARTY:

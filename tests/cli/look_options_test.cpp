@@ -15,6 +15,7 @@
 #include "core/reference/wide_kernel.h"
 #include "core/scene/scene.h"
 #include "tests/support/fields.h"
+#include "tests/support/json_text.h"
 
 namespace pellucid {
 
@@ -244,7 +245,7 @@ TEST_F(Cli, SceneAndPresetCarryCueAndLights) {
     const auto catalogue = dicom::scan({series});
     scene.camera = scene::defaultCamera(
         dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume.lattice());
-    scene.shading = shading::shadingFromJson("{" + shading + "}");
+    scene.shading = test::readShading("{" + shading + "}");
     std::ofstream(folder / "s.json") << scene::toJson(scene);
     EXPECT_EQ(picture(series, "--scene " + quoted(folder / "s.json")), expected);
 }

@@ -9,6 +9,7 @@
 #include "gpu/gpu_engine.h"
 #include "tests/gpu/card.h"
 #include "tests/support/fields.h"
+#include "tests/support/json_text.h"
 
 namespace pellucid {
 
@@ -173,7 +174,7 @@ TEST_F(GpuEngine, CuesAndLights) {
             scene.interpolation.storage = storage;
             EXPECT_LE(difference(scene, fields),
                       storage == Storage::float32 ? withinFloat32 : withinBinary16)
-                << shading::toJson(shading);
+                << shading::jsonOf(shading).dump();
         }
 }
 
@@ -194,7 +195,7 @@ TEST_F(GpuEngine, Colors) {
             scene::Scene scene = sceneOf(fields);
             scene.shading = shading;
             scene.interpolation.storage = Storage::float32;
-            EXPECT_LE(difference(scene, fields), withinFloat32) << shading::toJson(shading);
+            EXPECT_LE(difference(scene, fields), withinFloat32) << shading::jsonOf(shading).dump();
         }
 }
 

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/classify/look_json.h"
 #include "core/classify/region_edits.h"
 #include "core/task/error.h"
+#include "tests/support/json_text.h"
 
 namespace pellucid {
 namespace {
@@ -61,7 +61,7 @@ std::string reasonOf(const Look &look) {
 
 std::string refusalOf(const std::string &json) {
     try {
-        classify::lookFromJson(json);
+        test::readLook(json);
     } catch (const task::Error &error) {
         return error.reason().english();
     }
@@ -155,7 +155,7 @@ TEST(RegionSteps, GoThroughJson) {
     own.operand.own = std::make_shared<const TissueClass>(
         classify::connectedRegion({{1.0, 2.0, 3.0}}, 10.0, 20.0, 0.0));
     look.classes[2].steps = {painted, cutting, connected, {StepKind::fill}, own};
-    EXPECT_EQ(classify::lookFromJson(toJson(look)), look);
+    EXPECT_EQ(test::readLook(classify::jsonOf(look).dump()), look);
     EXPECT_EQ(
         refusalOf(R"({"classes":[{"name":"a","range":[0,1],"steps":[{"kind":"without",
               "class":"b"}]}]})"),

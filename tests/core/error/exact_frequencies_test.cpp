@@ -14,6 +14,7 @@
 #include "core/reference/shaded_field.h"
 #include "core/scene/camera.h"
 #include "tests/support/fields.h"
+#include "tests/support/json_text.h"
 
 namespace pellucid {
 
@@ -82,7 +83,7 @@ TEST(ExactFrequencies, AreThoseOfTheReference) {
                 for (std::size_t n = 0; n < exact.size(); ++n)
                     EXPECT_LT(std::abs(channels[std::size_t(c)][n] - exact[n]),
                               2e-7 * std::abs(exact[0]))
-                        << size.i << " " << toJson(shading) << " " << n;
+                        << size.i << " " << shading::jsonOf(shading).dump() << " " << n;
             }
         }
 }

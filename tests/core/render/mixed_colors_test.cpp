@@ -4,6 +4,7 @@
 #include "core/prepare/prepared_engine.h"
 #include "core/reference/shaded_field.h"
 #include "tests/support/fields.h"
+#include "tests/support/json_text.h"
 
 // Pictures whose colors are mixed from two, so that they need two images.
 namespace pellucid {
@@ -43,12 +44,13 @@ TEST(MixedColors, AreWithinTheToleranceOfTheExactPicture) {
             ASSERT_EQ(picture.channels, 3);
             const auto exact = reference::shadedImage(fields, shading, scene.camera, scene.image);
             const double error = test::relativeL2(picture.samples, exact);
-            EXPECT_LE(error, prepared.plan.predictedError) << width << " " << toJson(shading);
+            EXPECT_LE(error, prepared.plan.predictedError)
+                << width << " " << shading::jsonOf(shading).dump();
             EXPECT_LE(prepared.plan.predictedError, scene.tolerance);
             const auto stated = prepare::measuredError(*prepared.engine, fields, scene.camera,
                                                        scene.image, shading);
-            EXPECT_LE(error, 1.1 * stated.high) << width << " " << toJson(shading);
-            EXPECT_GE(error, stated.low) << width << " " << toJson(shading);
+            EXPECT_LE(error, 1.1 * stated.high) << width << " " << shading::jsonOf(shading).dump();
+            EXPECT_GE(error, stated.low) << width << " " << shading::jsonOf(shading).dump();
         }
 }
 

@@ -13,6 +13,7 @@
 #include "core/shading/slice_shading.h"
 #include "core/task/error.h"
 #include "tests/support/fields.h"
+#include "tests/support/json_text.h"
 
 namespace pellucid {
 
@@ -127,9 +128,9 @@ TEST(Shading, GoesThroughJson) {
                     .ambient = 0.3,
                     .lights = {{{1, -2, 0.5}, {1.0, 0.2, 0.0}, 0.25}, {}}};
     shading.lights[1].frame = LightFrame::patient;
-    EXPECT_EQ(shading::shadingFromJson(shading::toJson(shading)), shading);
-    EXPECT_EQ(shading::toJson(Shading()), "{}");
-    EXPECT_EQ(shading::shadingFromJson("{}"), Shading());
+    EXPECT_EQ(test::readShading(shading::jsonOf(shading).dump()), shading);
+    EXPECT_EQ(shading::jsonOf(Shading()).dump(), "{}");
+    EXPECT_EQ(test::readShading("{}"), Shading());
 }
 
 TEST(Shading, NumbersAreReadAsTheyAreTyped) {
@@ -145,7 +146,7 @@ TEST(Shading, NumbersAreReadAsTheyAreTyped) {
 TEST(Shading, BadJsonIsRefusedWithItsPlace) {
     const auto refuse = [](const std::string &text, const std::string &reason) {
         try {
-            shading::shadingFromJson(text);
+            test::readShading(text);
             ADD_FAILURE() << text;
         } catch (const task::Error &error) {
             const std::string found = error.reason().english();
