@@ -88,7 +88,7 @@ void warnOfObjects(const archive::RetrievalReport &report) {
     if (report.corrected > 0)
         warn(task::Reason(because::replaceTheCorrected(report.corrected)).english());
     std::vector<Named> lacking;
-    for (const archive::RefusedObject &object : report.lacking)
+    for (const archive::RefusedObject &object : report.missing)
         lacking.push_back({object.sopInstanceUid, object.reason});
     for (const std::string &line : linesByReason(lacking, "not received"))
         warn(line);
@@ -98,7 +98,7 @@ void requireComplete(const archive::RetrievalReport &report, const std::string &
     if (!report.isComplete())
         throw task::Error(
             task::ErrorCode::incomplete,
-            because::objectsMissing(report.lacking.size(), report.lacking.front().reason), server);
+            because::objectsMissing(report.missing.size(), report.missing.front().reason), server);
 }
 
 } // namespace pellucid::cli

@@ -195,8 +195,9 @@ InstanceHeader Decoder::header(const fs::path &path, const task::Progress &progr
     return naming(path, [&] {
         auto child =
             ask({Message::Kind::header, 0, file.bytes, 0}, file.descriptor.get(), progress);
-        InstanceHeader header = answerOf(
-            child, progress, [](const Child::Answer &answer) { return unpackHeader(answer.body); });
+        InstanceHeader header = answerOf(child, progress, [](const Child::Answer &answer) {
+            return unpack<InstanceHeader>(answer.body);
+        });
         release(std::move(child));
         file.requireUnchanged();
         return header;
@@ -209,7 +210,7 @@ DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress)
         auto child = ask({Message::Kind::image, 0, file.bytes, 0}, file.descriptor.get(), progress);
         std::span<const std::uint16_t> samples;
         InstanceHeader header = answerOf(child, progress, [&](const Child::Answer &answer) {
-            InstanceHeader h = unpackHeader(answer.body);
+            InstanceHeader h = unpack<InstanceHeader>(answer.body);
             const std::uint64_t count = sampleCount(h);
             if (whyUnusable(h) || answer.data.size() != 2 * count)
                 throw Error(ErrorCode::unusable, because::implausibleAnswer);
@@ -229,7 +230,7 @@ DecodedSegmentation Decoder::segmentation(const fs::path &path, const task::Prog
             ask({Message::Kind::segmentation, 0, file.bytes, 0}, file.descriptor.get(), progress);
         std::span<const std::byte> pixels;
         SegmentationHeader header = answerOf(child, progress, [&](const Child::Answer &answer) {
-            SegmentationHeader h = unpackSegmentation(answer.body);
+            SegmentationHeader h = unpack<SegmentationHeader>(answer.body);
             const std::uint64_t count = sampleCount(h.instance);
             const std::uint64_t bytes =
                 h.kind == SegmentationKind::binary ? (count + 7) / 8 : 2 * count;
@@ -269,7 +270,7 @@ DecodedStructureSet Decoder::structureSet(const fs::path &path, const task::Prog
         auto child =
             ask({Message::Kind::structureSet, 0, file.bytes, 0}, file.descriptor.get(), progress);
         DecodedStructureSet set = answerOf(child, progress, [&](const Child::Answer &answer) {
-            DecodedStructureSet read{unpackStructureSet(answer.body), {}};
+            DecodedStructureSet read{unpack<StructureSetHeader>(answer.body), {}};
             const std::uint64_t points = pointCount(read.header);
             if (answer.data.size() != points * sizeof(glm::dvec3))
                 throw Error(ErrorCode::unusable, because::implausibleAnswer);
@@ -293,7 +294,7 @@ AttributeList Decoder::attributes(const fs::path &path, const task::Progress &pr
         auto child =
             ask({Message::Kind::attributes, 0, file.bytes, 0}, file.descriptor.get(), progress);
         AttributeList list = answerOf(child, progress, [](const Child::Answer &answer) {
-            return unpackAttributes(answer.body);
+            return unpack<AttributeList>(answer.body);
         });
         release(std::move(child));
         file.requireUnchanged();
@@ -307,7 +308,7 @@ DirectoryFile Decoder::directory(const fs::path &path, const task::Progress &pro
         auto child =
             ask({Message::Kind::directory, 0, file.bytes, 0}, file.descriptor.get(), progress);
         DirectoryFile directory = answerOf(child, progress, [](const Child::Answer &answer) {
-            return unpackDirectory(answer.body);
+            return unpack<DirectoryFile>(answer.body);
         });
         release(std::move(child));
         return directory;
@@ -330,7 +331,7 @@ void Decoder::archive(const fs::path &path,
                 isDone = answer.message.kind == Message::Kind::done;
                 if (isDone)
                     return;
-                const auto files = unpackArchiveFiles(answer.body);
+                const auto files = unpack<std::vector<ArchiveFile>>(answer.body);
                 const int flags = answer.message.code;
                 const bool isFirst = (flags & firstPart) != 0, isLast = (flags & lastPart) != 0;
                 const bool isDamaged = (flags & damagedPart) != 0;
@@ -360,8 +361,9 @@ VolumeLayout Decoder::layout(const fs::path &path, const task::Progress &progres
     return naming(path, [&] {
         auto child =
             ask({Message::Kind::layout, 0, file.bytes, 0}, file.descriptor.get(), progress);
-        VolumeLayout layout = answerOf(
-            child, progress, [](const Child::Answer &answer) { return unpackLayout(answer.body); });
+        VolumeLayout layout = answerOf(child, progress, [](const Child::Answer &answer) {
+            return unpack<VolumeLayout>(answer.body);
+        });
         release(std::move(child));
         return layout;
     });

@@ -23,10 +23,7 @@ template <class A, glm::length_t N> void pass(A &archive, glm::vec<N, double> &v
 }
 
 template <class A> void pass(A &archive, volume::ValueWindow &window) {
-    pass(archive, window.center);
-    pass(archive, window.width);
-    pass(archive, window.name);
-    pass(archive, window.function);
+    passAll(archive, window.center, window.width, window.name, window.isInverted, window.function);
     std::vector<float> curve;
     if (!A::isReading && window.curve)
         curve = *window.curve;
@@ -36,84 +33,47 @@ template <class A> void pass(A &archive, volume::ValueWindow &window) {
 }
 
 template <class A> void pass(A &archive, PetHeader &pet) {
-    for (std::string *const text :
-         {&pet.units, &pet.uptakeType, &pet.decayCorrection, &pet.seriesDate, &pet.seriesTime,
-          &pet.acquisitionDate, &pet.acquisitionTime, &pet.injectionTime, &pet.injectionDateTime,
-          &pet.timezone, &pet.radionuclide, &pet.corrections})
-        pass(archive, *text);
-    for (double *const number : {&pet.weightKg, &pet.injectedBq, &pet.halfLifeS,
-                                 &pet.uptakePerCount, &pet.frameReferenceS, &pet.frameDurationS})
-        pass(archive, *number);
-    pass(archive, pet.injections);
-    pass(archive, pet.isDynamic);
+    passAll(archive, pet.units, pet.uptakeType, pet.decayCorrection, pet.seriesDate, pet.seriesTime,
+            pet.acquisitionDate, pet.acquisitionTime, pet.injectionTime, pet.injectionDateTime,
+            pet.timezone, pet.radionuclide, pet.corrections, pet.weightKg, pet.injectedBq,
+            pet.halfLifeS, pet.uptakePerCount, pet.frameReferenceS, pet.frameDurationS,
+            pet.injections, pet.isDynamic);
 }
 
 template <class A> void pass(A &archive, FrameHeader &frame) {
-    pass(archive, frame.positionMm);
-    pass(archive, frame.rowAxis);
-    pass(archive, frame.columnAxis);
-    pass(archive, frame.spacingMm);
-    pass(archive, frame.sliceThicknessMm);
-    pass(archive, frame.rescale.slope);
-    pass(archive, frame.rescale.intercept);
-    pass(archive, frame.rescale.isSlopeZero);
-    pass(archive, frame.rescale.isSlopeReadable);
-    pass(archive, frame.rescale.isInterceptReadable);
-    pass(archive, frame.rescale.isSlopeStated);
-    pass(archive, frame.rescale.isInterceptStated);
-    pass(archive, frame.segment);
-    pass(archive, frame.dimensions);
+    passAll(archive, frame.positionMm, frame.rowAxis, frame.columnAxis, frame.spacingMm,
+            frame.sliceThicknessMm, frame.rescale.slope, frame.rescale.intercept,
+            frame.rescale.isSlopeZero, frame.rescale.isSlopeReadable,
+            frame.rescale.isInterceptReadable, frame.rescale.isSlopeStated,
+            frame.rescale.isInterceptStated, frame.segment, frame.dimensions);
 }
 
 template <class A> void pass(A &archive, InstanceHeader &h) {
-    for (std::string *const text :
-         {&h.sopClassUid, &h.sopClassName, &h.sopInstanceUid, &h.transferSyntax, &h.patientId,
-          &h.patientName, &h.birthDate, &h.sex, &h.studyUid, &h.studyDate, &h.studyDescription,
-          &h.seriesUid, &h.seriesDescription, &h.modality, &h.bodyPart, &h.photometric,
-          &h.rescaleType, &h.frameOfReferenceUid, &h.unsupportedSyntax})
-        pass(archive, *text);
-    for (int *const number :
-         {&h.seriesNumber, &h.instanceNumber, &h.rows, &h.columns, &h.samplesPerPixel,
-          &h.declaredFrames, &h.bitsAllocated, &h.bitsStored, &h.highBit, &h.pixelRepresentation,
-          &h.modalityTableFirst, &h.mosaicSide})
-        pass(archive, *number);
-    pass(archive, h.pixelBytes);
-    pass(archive, h.oddities);
-    for (bool *const flag : {&h.hasPixels, &h.floatPixels, &h.lossy, &h.hasDamagedPixels})
-        pass(archive, *flag);
-    pass(archive, h.paddingValue);
-    pass(archive, h.paddingLimit);
-    pass(archive, h.pet);
-    pass(archive, h.isInverse);
-    pass(archive, h.spacingPlace);
-    pass(archive, h.windows);
-    pass(archive, h.modalityTable);
-    pass(archive, h.frames);
+    passAll(archive, h.sopClassUid, h.sopClassName, h.sopInstanceUid, h.transferSyntax, h.patientId,
+            h.patientName, h.birthDate, h.sex, h.studyUid, h.studyDate, h.studyDescription,
+            h.seriesUid, h.seriesDescription, h.modality, h.bodyPart, h.photometric, h.rescaleType,
+            h.frameOfReferenceUid, h.unsupportedSyntax, h.seriesNumber, h.instanceNumber, h.rows,
+            h.columns, h.samplesPerPixel, h.declaredFrames, h.bitsAllocated, h.bitsStored,
+            h.highBit, h.pixelRepresentation, h.modalityTableFirst, h.mosaicSide, h.pixelBytes,
+            h.oddities, h.hasPixels, h.floatPixels, h.lossy, h.hasDamagedPixels, h.paddingValue,
+            h.paddingLimit, h.pet, h.isInverse, h.spacingPlace, h.windows, h.modalityTable,
+            h.frames);
 }
 
 template <class A> void pass(A &archive, DirectoryFile &directory) {
-    pass(archive, directory.isDirectory);
-    pass(archive, directory.files);
+    passAll(archive, directory.isDirectory, directory.files);
 }
 
 template <class A> void pass(A &archive, Attribute &attribute) {
-    pass(archive, attribute.depth);
-    pass(archive, attribute.tag);
-    pass(archive, attribute.vr);
-    pass(archive, attribute.name);
-    pass(archive, attribute.value);
+    passAll(archive, attribute.depth, attribute.tag, attribute.vr, attribute.name, attribute.value);
 }
 
 template <class A> void pass(A &archive, AttributeList &list) {
-    pass(archive, list.attributes);
-    pass(archive, list.isComplete);
+    passAll(archive, list.attributes, list.isComplete);
 }
 
 template <class A> void pass(A &archive, ArchiveFile &file) {
-    pass(archive, file.name);
-    pass(archive, file.bytes);
-    pass(archive, file.isEncrypted);
-    pass(archive, file.isLink);
+    passAll(archive, file.name, file.bytes, file.isEncrypted, file.isLink);
 }
 
 template <class A> void pass(A &archive, VolumeLayout &layout) {
@@ -137,16 +97,11 @@ template <class A> void pass(A &archive, VolumeLayout &layout) {
 }
 
 template <class A> void pass(A &archive, CodedConcept &code) {
-    for (std::string *const text : {&code.value, &code.scheme, &code.meaning})
-        pass(archive, *text);
+    passAll(archive, code.value, code.scheme, code.meaning);
 }
 
 template <class A> void pass(A &archive, SegmentDescription &segment) {
-    pass(archive, segment.number);
-    pass(archive, segment.label);
-    pass(archive, segment.color);
-    pass(archive, segment.category);
-    pass(archive, segment.type);
+    passAll(archive, segment.number, segment.label, segment.color, segment.category, segment.type);
 }
 
 template <class A> void pass(A &archive, SegmentationHeader &header) {
@@ -159,17 +114,12 @@ template <class A> void pass(A &archive, SegmentationHeader &header) {
 }
 
 template <class A> void pass(A &archive, Structure &structure) {
-    pass(archive, structure.number);
-    pass(archive, structure.name);
-    pass(archive, structure.color);
-    pass(archive, structure.type);
-    pass(archive, structure.contourSizes);
-    pass(archive, structure.ignoredContours);
+    passAll(archive, structure.number, structure.name, structure.color, structure.type,
+            structure.contourSizes, structure.ignoredContours);
 }
 
 template <class A> void pass(A &archive, StructureSetHeader &header) {
-    pass(archive, header.instance);
-    pass(archive, header.structures);
+    passAll(archive, header.instance, header.structures);
 }
 
 } // namespace pellucid::helper
@@ -178,14 +128,8 @@ namespace pellucid::decoder {
 
 namespace {
 
-using helper::packed;
-
 [[noreturn]] void fail() {
     throw task::Error(task::ErrorCode::unusable, task::because::implausibleAnswer);
-}
-
-template <class T> T unpacked(std::span<const std::byte> body) {
-    return helper::unpacked<T>(body, task::because::implausibleAnswer);
 }
 
 void requireValid(const volume::ValueWindow &window) {
@@ -250,24 +194,7 @@ std::set<int> numbersOf(const std::vector<SegmentDescription> &segments) {
     return numbers;
 }
 
-} // namespace
-
-std::string pack(const InstanceHeader &header) {
-    return packed(header);
-}
-
-InstanceHeader unpackHeader(std::span<const std::byte> body) {
-    auto header = unpacked<InstanceHeader>(body);
-    requireValid(header);
-    return header;
-}
-
-std::string pack(const SegmentationHeader &header) {
-    return packed(header);
-}
-
-SegmentationHeader unpackSegmentation(std::span<const std::byte> body) {
-    auto header = unpacked<SegmentationHeader>(body);
+void requireValid(const SegmentationHeader &header) {
     requireValid(header.instance);
     if (header.kind < SegmentationKind::binary || header.kind > SegmentationKind::labelMap ||
         header.largestFraction < 1 || header.largestFraction > 65535 || header.segments.empty())
@@ -277,15 +204,9 @@ SegmentationHeader unpackSegmentation(std::span<const std::byte> body) {
         if (!frame.positionMm || !frame.rowAxis || !frame.columnAxis || !frame.spacingMm ||
             (header.kind != SegmentationKind::labelMap && !numbers.contains(frame.segment)))
             fail();
-    return header;
 }
 
-std::string pack(const StructureSetHeader &header) {
-    return packed(header);
-}
-
-StructureSetHeader unpackStructureSet(std::span<const std::byte> body) {
-    auto header = unpacked<StructureSetHeader>(body);
+void requireValid(const StructureSetHeader &header) {
     requireValid(header.instance);
     if (header.structures.empty() || header.structures.size() > maxSegments)
         fail();
@@ -299,15 +220,10 @@ StructureSetHeader unpackStructureSet(std::span<const std::byte> body) {
     }
     if (pointCount(header) > maxContourPoints)
         fail();
-    return header;
 }
 
-std::string pack(const AttributeList &list) {
-    return packed(list);
-}
-
-AttributeList unpackAttributes(std::span<const std::byte> body) {
-    auto list = unpacked<AttributeList>(body);
+// Also makes its texts one line.
+void requireValid(AttributeList &list) {
     if (list.attributes.size() > maxAttributes)
         fail();
     int above = -1; // the depth of the attribute before
@@ -319,31 +235,9 @@ AttributeList unpackAttributes(std::span<const std::byte> body) {
         for (std::string *const text : {&attribute.vr, &attribute.name, &attribute.value})
             helper::makeOneLine(*text);
     }
-    return list;
 }
 
-std::string pack(const DirectoryFile &directory) {
-    return packed(directory);
-}
-
-DirectoryFile unpackDirectory(std::span<const std::byte> body) {
-    return unpacked<DirectoryFile>(body);
-}
-
-std::string pack(const std::vector<ArchiveFile> &files) {
-    return packed(files);
-}
-
-std::vector<ArchiveFile> unpackArchiveFiles(std::span<const std::byte> body) {
-    return unpacked<std::vector<ArchiveFile>>(body);
-}
-
-std::string pack(const VolumeLayout &layout) {
-    return packed(layout);
-}
-
-VolumeLayout unpackLayout(std::span<const std::byte> body) {
-    const auto layout = unpacked<VolumeLayout>(body);
+void requireValid(const VolumeLayout &layout) {
     const volume::GridSize n = layout.size;
     constexpr std::uint64_t maxSkipped = std::uint64_t(1) << 40;
     if (std::min({n.i, n.j, n.k}) < 1 || layout.volumes < 1 || layout.volumes > maxVolumes ||
@@ -362,8 +256,37 @@ VolumeLayout unpackLayout(std::span<const std::byte> body) {
     if (std::uint64_t(n.i) >
         std::uint64_t(volume::maxSamples) / std::uint64_t(n.j) / std::uint64_t(n.k))
         fail();
-    return layout;
 }
+
+void requireValid(const DirectoryFile & /*directory*/) {}
+void requireValid(const std::vector<ArchiveFile> & /*files*/) {}
+
+} // namespace
+
+template <class T> std::string pack(const T &value) {
+    return helper::packed(value);
+}
+
+template <class T> T unpack(std::span<const std::byte> body) {
+    auto value = helper::unpacked<T>(body, task::because::implausibleAnswer);
+    requireValid(value);
+    return value;
+}
+
+template std::string pack(const InstanceHeader &);
+template std::string pack(const DirectoryFile &);
+template std::string pack(const std::vector<ArchiveFile> &);
+template std::string pack(const VolumeLayout &);
+template std::string pack(const SegmentationHeader &);
+template std::string pack(const StructureSetHeader &);
+template std::string pack(const AttributeList &);
+template InstanceHeader unpack(std::span<const std::byte>);
+template DirectoryFile unpack(std::span<const std::byte>);
+template std::vector<ArchiveFile> unpack(std::span<const std::byte>);
+template VolumeLayout unpack(std::span<const std::byte>);
+template SegmentationHeader unpack(std::span<const std::byte>);
+template StructureSetHeader unpack(std::span<const std::byte>);
+template AttributeList unpack(std::span<const std::byte>);
 
 task::Reason unpackReason(std::span<const std::byte> body) {
     return helper::unpackedReason(body, task::because::implausibleAnswer);

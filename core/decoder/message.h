@@ -69,23 +69,12 @@ constexpr std::uint64_t dataOffset(std::uint64_t bodyBytes) {
     return (bodyBytes + 4095U) / 4096U * 4096U;
 }
 
-/// Packing of message bodies. Unpacking *throws* Error{unusable} if the bytes are not such a body,
-/// whatever they are: a compromised decoder may send anything.
-std::string pack(const InstanceHeader &header);
-InstanceHeader unpackHeader(std::span<const std::byte> body);
-std::string pack(const DirectoryFile &directory);
-DirectoryFile unpackDirectory(std::span<const std::byte> body);
-std::string pack(const std::vector<ArchiveFile> &files);
-std::vector<ArchiveFile> unpackArchiveFiles(std::span<const std::byte> body);
-std::string pack(const VolumeLayout &layout);
-VolumeLayout unpackLayout(std::span<const std::byte> body);
-std::string pack(const SegmentationHeader &header);
-SegmentationHeader unpackSegmentation(std::span<const std::byte> body);
-std::string pack(const StructureSetHeader &header);
-StructureSetHeader unpackStructureSet(std::span<const std::byte> body);
-std::string pack(const AttributeList &list);
-/// Texts are made one printable line.
-AttributeList unpackAttributes(std::span<const std::byte> body);
+/// Packing of message bodies: InstanceHeader, DirectoryFile, lists of ArchiveFile, VolumeLayout,
+/// SegmentationHeader, StructureSetHeader, AttributeList. Unpacking *throws* Error{unusable} if the
+/// bytes are not such a body, whatever they are: a compromised decoder may send anything. It makes
+/// the texts of attributes one printable line.
+template <class T> std::string pack(const T &value);
+template <class T> T unpack(std::span<const std::byte> body);
 /// Reads the format of `task::Reason::encoded`, with a limit on its length. Texts are made one
 /// printable line.
 task::Reason unpackReason(std::span<const std::byte> body);

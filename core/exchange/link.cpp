@@ -139,7 +139,7 @@ QueryEnd Link::find(const Query &query, const std::function<void(Attributes)> &m
         Query rest = query;
         rest.skip = count;
         send({Kind::find, 0, 0, pack(rest)});
-        end = unpackQueryEnd(converse(progress, nullptr, counted, {}, Kind::done).body);
+        end = unpack<QueryEnd>(converse(progress, nullptr, counted, {}, Kind::done).body);
     });
     return end;
 }
@@ -159,7 +159,7 @@ RetrievalEnd Link::retrieve(const Retrieval &retrieval, Receiver &receiver,
             send({Kind::uids, 0, 0, pack(std::vector(from, from + std::ptrdiff_t(count)))});
         }
         send({Kind::retrieve, 0, 0, pack(wanted)});
-        end = unpackRetrievalEnd(converse(progress, &receiver, {}, {}, Kind::done).body);
+        end = unpack<RetrievalEnd>(converse(progress, &receiver, {}, {}, Kind::done).body);
     });
     return end;
 }
@@ -177,12 +177,12 @@ std::optional<task::Reason> Link::store(int file, std::uint64_t bytes,
 
 Endpoints Link::discover(const task::Progress &progress) {
     send({Kind::discover, 0, 0, {}});
-    return unpackEndpoints(converse(progress, nullptr, {}, {}, Kind::done).body);
+    return unpack<Endpoints>(converse(progress, nullptr, {}, {}, Kind::done).body);
 }
 
 Tokens Link::requestTokens(const TokenRequest &request, const task::Progress &progress) {
     send({Kind::tokens, 0, 0, pack(request)});
-    return unpackTokens(converse(progress, nullptr, {}, {}, Kind::done).body);
+    return unpack<Tokens>(converse(progress, nullptr, {}, {}, Kind::done).body);
 }
 
 void Link::send(const Message &message, int descriptor) {
@@ -221,7 +221,7 @@ Message Link::converse(const task::Progress &progress, Receiver *receiver,
             break;
         case Kind::match:
             if (match)
-                match(unpackAttributes(message.body));
+                match(unpack<Attributes>(message.body));
             break;
         case Kind::ready: // of a server, whose requests end with `done`
             m_confinement = message.code;
@@ -248,7 +248,7 @@ Message Link::converse(const task::Progress &progress, Receiver *receiver,
 void Link::take(const Packet &packet, Receiver &receiver) {
     const Message &message = packet.message;
     if (message.kind == Kind::arrival) {
-        m_arrival = unpackArrival(message.body);
+        m_arrival = unpack<Arrival>(message.body);
         const auto answer = receiver.open(m_arrival);
         const int *const file = std::get_if<int>(&answer);
         m_isArriving = file != nullptr;

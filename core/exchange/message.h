@@ -89,36 +89,12 @@ struct Acceptance {
     double silenceSeconds = 60.0;
 };
 
-std::string pack(const Connection &connection);
-std::string pack(const Acceptance &acceptance);
-std::string pack(const Query &query);
-std::string pack(const QueryEnd &end);
-std::string pack(const Retrieval &retrieval);
-std::string pack(const RetrievalEnd &end);
-std::string pack(const Arrival &arrival);
-std::string pack(const Attributes &attributes);
-std::string pack(const std::vector<std::string> &uids);
-std::string pack(const Redirection &redirection);
-std::string pack(const Endpoints &endpoints);
-std::string pack(const TokenRequest &request);
-std::string pack(const Tokens &tokens);
-
-/// All *throw* Error{unusable} if the bytes are not such a value: a compromised helper may send
-/// anything. Texts are made one line; UIDs, URLs, tokens and codes are checked.
-Connection unpackConnection(const std::string &body);
-Acceptance unpackAcceptance(const std::string &body);
-Query unpackQuery(const std::string &body);
-QueryEnd unpackQueryEnd(const std::string &body);
-Retrieval unpackRetrieval(const std::string &body);
-RetrievalEnd unpackRetrievalEnd(const std::string &body);
-Arrival unpackArrival(const std::string &body);
-Attributes unpackAttributes(const std::string &body);
-std::vector<std::string> unpackUids(const std::string &body);
+/// Packing of bodies: of all types that `Message::Kind` names. Unpacking *throws* Error{unusable}
+/// if the bytes are not such a value: a compromised process may send anything. Texts are made one
+/// line; UIDs, URLs, tokens and codes are checked.
+template <class T> std::string pack(const T &value);
+template <class T> T unpack(const std::string &body);
 task::Reason unpackReason(const std::string &body);
-Redirection unpackRedirection(const std::string &body);
-Endpoints unpackEndpoints(const std::string &body);
-TokenRequest unpackTokenRequest(const std::string &body);
-Tokens unpackTokens(const std::string &body);
 std::string unpackCode(const std::string &body);
 
 } // namespace pellucid::exchange

@@ -158,6 +158,11 @@ template <class A, class K, class V> void pass(A &archive, std::map<K, V> &value
     }
 }
 
+/// Several values, in this order.
+template <class A, class... T> void passAll(A &archive, T &...values) {
+    (pass(archive, values), ...);
+}
+
 template <class T> std::string packed(const T &value) {
     Writer writer;
     T copy = value; // a reader assigns to the fields

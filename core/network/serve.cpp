@@ -53,13 +53,14 @@ public:
             if (first.message.kind == Kind::redirect) {
                 guardedRequest([&] {
                     awaitRedirect(first.descriptor.get(),
-                                  exchange::unpackRedirection(first.message.body), m_control);
+                                  exchange::unpack<exchange::Redirection>(first.message.body),
+                                  m_control);
                 });
                 return;
             }
             if (first.message.kind != Kind::connect)
                 throw Disconnected();
-            const auto connection = exchange::unpackConnection(first.message.body);
+            const auto connection = exchange::unpack<exchange::Connection>(first.message.body);
             if (connection.purpose == Purpose::login) {
                 LoginClient client(connection.peer, m_control);
                 m_control.send({Kind::ready, client.confinement(), 0, {}});
@@ -84,7 +85,7 @@ public:
 
 private:
     void accept(const exchange::Packet &packet) {
-        Association association(exchange::unpackAcceptance(packet.message.body),
+        Association association(exchange::unpack<exchange::Acceptance>(packet.message.body),
                                 packet.descriptor.get(), m_control);
         m_control.send({Kind::ready, association.confinement(), 0, {}});
         provide(association, m_control);
@@ -104,8 +105,8 @@ private:
                 m_control.done();
                 break;
             case Kind::find:
-                m_control.done(
-                    exchange::pack(client.find(exchange::unpackQuery(message.body), m_control)));
+                m_control.done(exchange::pack(
+                    client.find(exchange::unpack<exchange::Query>(message.body), m_control)));
                 break;
             case Kind::uids:
                 takeUids(message);
@@ -140,7 +141,7 @@ private:
                 break;
             case Kind::tokens:
                 m_control.done(exchange::pack(
-                    client.requestTokens(exchange::unpackTokenRequest(message.body))));
+                    client.requestTokens(exchange::unpack<exchange::TokenRequest>(message.body))));
                 break;
             case Kind::cancel: // came after the request had ended
                 break;
@@ -152,12 +153,12 @@ private:
     }
 
     void takeUids(const Message &message) {
-        for (std::string &uid : exchange::unpackUids(message.body))
+        for (std::string &uid : exchange::unpack<std::vector<std::string>>(message.body))
             m_uids.push_back(std::move(uid));
     }
     // With the instances that came before.
     exchange::Retrieval retrievalOf(const Message &message) {
-        auto retrieval = exchange::unpackRetrieval(message.body);
+        auto retrieval = exchange::unpack<exchange::Retrieval>(message.body);
         retrieval.instanceUids = std::move(m_uids);
         m_uids.clear();
         return retrieval;

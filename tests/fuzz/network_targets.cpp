@@ -136,20 +136,20 @@ void exchangeMessage(Bytes bytes) {
     unpackTwice(body, exchange::unpackUids);
     // What becomes a file name, or is shown, is plain.
     refusing([&] {
-        const exchange::Arrival arrival = exchange::unpackArrival(body);
+        const exchange::Arrival arrival = exchange::unpack<exchange::Arrival>(body);
         check(exchange::isUid(arrival.sopClassUid) && exchange::isUid(arrival.sopInstanceUid) &&
               exchange::isUid(arrival.transferSyntax) && isOneLine(arrival.callingAe));
     });
     refusing([&] {
-        for (const auto &[tag, value] : exchange::unpackAttributes(body))
+        for (const auto &[tag, value] : exchange::unpack<exchange::Attributes>(body))
             check(isOneLine(value));
     });
     refusing([&] {
-        for (const std::string &warning : exchange::unpackQueryEnd(body).warnings)
+        for (const std::string &warning : exchange::unpack<exchange::QueryEnd>(body).warnings)
             check(isOneLine(warning));
     });
     refusing([&] {
-        const exchange::RetrievalEnd end = exchange::unpackRetrievalEnd(body);
+        const exchange::RetrievalEnd end = exchange::unpack<exchange::RetrievalEnd>(body);
         for (const std::string &uid : end.failedInstances)
             check(exchange::isUid(uid));
         check(isOneLine(end.reason));

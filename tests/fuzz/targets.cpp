@@ -67,7 +67,8 @@ void dicom(Bytes bytes) {
     refusing([&] {
         const auto header = parse::parseHeader(bytes);
         const std::string packed = decoder::pack(header);
-        const auto received = decoder::unpackHeader(std::as_bytes(std::span(packed)));
+        const auto received =
+            decoder::unpack<decoder::InstanceHeader>(std::as_bytes(std::span(packed)));
         check(decoder::pack(received) == packed);
         if (decoder::whyUnusable(received))
             return;
@@ -89,7 +90,8 @@ void dicom(Bytes bytes) {
     });
     refusing([&] {
         const std::string packed = decoder::pack(parse::listAttributes(bytes));
-        const auto received = decoder::unpackAttributes(std::as_bytes(std::span(packed)));
+        const auto received =
+            decoder::unpack<decoder::AttributeList>(std::as_bytes(std::span(packed)));
         check(decoder::pack(received) == packed);
     });
     refusing([&] {
@@ -120,13 +122,13 @@ void archive(Bytes bytes) {
 
 void message(Bytes bytes) {
     refusing([&] {
-        const auto header = decoder::unpackHeader(bytes);
+        const auto header = decoder::unpack<decoder::InstanceHeader>(bytes);
         check(!header.frames.empty());
     });
-    refusing([&] { decoder::unpackDirectory(bytes); });
-    refusing([&] { decoder::unpackAttributes(bytes); });
-    refusing([&] { decoder::unpackArchiveFiles(bytes); });
-    refusing([&] { decoder::unpackLayout(bytes); });
+    refusing([&] { decoder::unpack<decoder::DirectoryFile>(bytes); });
+    refusing([&] { decoder::unpack<decoder::AttributeList>(bytes); });
+    refusing([&] { decoder::unpack<std::vector<decoder::ArchiveFile>>(bytes); });
+    refusing([&] { decoder::unpack<decoder::VolumeLayout>(bytes); });
     refusing([&] {
         const task::Reason reason = decoder::unpackReason(bytes);
         const std::string again = reason.encoded();
@@ -139,7 +141,8 @@ void nrrd(Bytes bytes) {
     refusing([&] {
         const auto layout = parse::parseVolumeLayout(bytes);
         const std::string packed = decoder::pack(layout);
-        const auto received = decoder::unpackLayout(std::as_bytes(std::span(packed)));
+        const auto received =
+            decoder::unpack<decoder::VolumeLayout>(std::as_bytes(std::span(packed)));
         check(decoder::pack(received) == packed);
         (void)volume::Lattice::make(received.size, {received.originMm}, received.stepsMm);
         const std::size_t each = decoder::bytesOf(layout.scalar);

@@ -66,7 +66,7 @@ struct StudyReceiver::Running {
     Running(const archive::ListenerOptions &given, archive::ReceivingObserver observer,
             archive::ListenerObserver connections)
         : options(given),
-          folder(archive::libraryObjectFolder(), archive::ObjectFolder::Keeps::onDisk),
+          folder(archive::libraryObjectFolder(), archive::ObjectFolder::Durability::synced),
           log(archive::TransferLog::fileOfUser()), receiving(folder, &log, std::move(observer)),
           listener(
               given, [this] { return receiving.receiver(); }, std::move(connections)) {}

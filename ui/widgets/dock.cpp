@@ -8,19 +8,28 @@
 
 namespace pellucid::ui {
 
+namespace {
+
+// The title of a dock, whose heading may be hidden while a tab names the dock.
+struct DockTitle : QWidget {
+    QToolButton *heading = new QToolButton;
+};
+
+} // namespace
+
 QDockWidget *makeDock(const QString &title, const char *name, QWidget *panel, QWidget *corner) {
     auto *dock = new QDockWidget(title);
     dock->setObjectName(name);
     dock->setWidget(panel);
     // A click on the heading collapses or expands the panel.
-    auto *heading = new QToolButton;
+    auto *bar = new DockTitle;
+    QToolButton *const heading = bar->heading;
     heading->setObjectName(QString(name) + "Heading");
     heading->setText(title);
     heading->setToolTip(QCoreApplication::translate("Dock", "Collapse or expand"));
     heading->setProperty("role", "heading");
     QObject::connect(heading, &QToolButton::clicked, panel,
                      [panel] { panel->setVisible(!panel->isVisible()); });
-    auto *bar = new QWidget;
     bar->setAttribute(Qt::WA_StyledBackground);
     bar->setProperty("role", "dockTitle");
     auto *row = new QHBoxLayout(bar);
@@ -34,8 +43,7 @@ QDockWidget *makeDock(const QString &title, const char *name, QWidget *panel, QW
 }
 
 void showHeading(QDockWidget &dock, bool isShown) {
-    if (auto *heading = dock.findChild<QToolButton *>(dock.objectName() + "Heading"))
-        heading->setVisible(isShown);
+    static_cast<DockTitle *>(dock.titleBarWidget())->heading->setVisible(isShown);
 }
 
 } // namespace pellucid::ui

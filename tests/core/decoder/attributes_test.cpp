@@ -83,7 +83,7 @@ TEST(Attributes, AMessageIsNotBelieved) {
     const AttributeList good{
         {{0, 1, "SQ", "a\nb", "\x1B[2J"}, {1, 0, "", "1", ""}, {2, 5, "LO", "c", "d"}}, false};
     const std::string packed = decoder::pack(good);
-    const AttributeList got = decoder::unpackAttributes(bytes(packed));
+    const AttributeList got = decoder::unpack<decoder::AttributeList>(bytes(packed));
     EXPECT_EQ(got.attributes[0].name, "a b");
     EXPECT_EQ(got.attributes[0].value, " [2J");
     EXPECT_EQ(got.attributes[2], good.attributes[2]);
@@ -92,11 +92,11 @@ TEST(Attributes, AMessageIsNotBelieved) {
         AttributeList bad = good;
         bad.attributes[2].depth = depth;
         const std::string text = decoder::pack(bad);
-        EXPECT_THROW(decoder::unpackAttributes(bytes(text)), task::Error) << depth;
+        EXPECT_THROW(decoder::unpack<decoder::AttributeList>(bytes(text)), task::Error) << depth;
     }
     AttributeList many{std::vector<Attribute>(decoder::maxAttributes + 1), true};
     const std::string text = decoder::pack(many);
-    EXPECT_THROW(decoder::unpackAttributes(bytes(text)), task::Error);
+    EXPECT_THROW(decoder::unpack<decoder::AttributeList>(bytes(text)), task::Error);
 }
 
 } // namespace

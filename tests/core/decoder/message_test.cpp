@@ -210,12 +210,12 @@ TEST(Message, everyFieldOfAHeaderComesThrough) {
     InstanceHeader plain; // without optional values
     plain.frames.resize(1);
     for (const InstanceHeader &sent : {filled<InstanceHeader>(), plain})
-        expectSameFields(unpackHeader(bytesOf(pack(sent))), sent);
+        expectSameFields(unpack<InstanceHeader>(bytesOf(pack(sent))), sent);
 }
 
 TEST(Message, everyFieldOfAnArchivesListComesThrough) {
     const std::vector<ArchiveFile> sent{filled<ArchiveFile>(), ArchiveFile()};
-    const auto got = unpackArchiveFiles(bytesOf(pack(sent)));
+    const auto got = unpack<std::vector<ArchiveFile>>(bytesOf(pack(sent)));
     ASSERT_EQ(got.size(), sent.size());
     for (std::size_t n = 0; n < got.size(); ++n)
         expectSameFields(got[n], sent[n]);
@@ -223,7 +223,7 @@ TEST(Message, everyFieldOfAnArchivesListComesThrough) {
 
 TEST(Message, aDirectoryComesThrough) {
     const DirectoryFile sent{true, {{"DICOM", "IM1"}, {}, {"IM2"}}};
-    const DirectoryFile got = unpackDirectory(bytesOf(pack(sent)));
+    const DirectoryFile got = unpack<DirectoryFile>(bytesOf(pack(sent)));
     EXPECT_TRUE(got.isDirectory);
     EXPECT_EQ(got.files, sent.files);
 }
@@ -233,8 +233,8 @@ TEST(Message, aDirectoryComesThrough) {
 TEST(Message, nonsenseIsRefused) {
     const std::string good = pack(someHeader());
     for (std::size_t size = 0; size < good.size(); ++size)
-        EXPECT_THROW(unpackHeader(bytesOf(good).first(size)), task::Error) << size;
-    EXPECT_THROW(unpackHeader(bytesOf(good + "x")), task::Error);
+        EXPECT_THROW(unpack<InstanceHeader>(bytesOf(good).first(size)), task::Error) << size;
+    EXPECT_THROW(unpack<InstanceHeader>(bytesOf(good + "x")), task::Error);
     std::mt19937 random(7);
     int taken = 0, refused = 0;
     for (int round = 0; round < 20000; ++round) {
@@ -242,7 +242,7 @@ TEST(Message, nonsenseIsRefused) {
         for (int n = 0; n < 3; ++n)
             bad[random() % bad.size()] = char(random() % 4 == 0 ? 0xFF : random());
         try {
-            for (const FrameHeader &frame : unpackHeader(bytesOf(bad)).frames)
+            for (const FrameHeader &frame : unpack<InstanceHeader>(bytesOf(bad)).frames)
                 if (frame.positionMm) {
                     EXPECT_TRUE(std::isfinite(frame.positionMm->x));
                 }
@@ -255,19 +255,19 @@ TEST(Message, nonsenseIsRefused) {
     EXPECT_GT(refused, 0);
     InstanceHeader endless = someHeader();
     endless.frames[0].rescale.slope = std::numeric_limits<double>::infinity();
-    EXPECT_THROW(unpackHeader(bytesOf(pack(endless))), task::Error);
+    EXPECT_THROW(unpack<InstanceHeader>(bytesOf(pack(endless))), task::Error);
     InstanceHeader without = someHeader();
     without.frames.clear();
-    EXPECT_THROW(unpackHeader(bytesOf(pack(without))), task::Error);
+    EXPECT_THROW(unpack<InstanceHeader>(bytesOf(pack(without))), task::Error);
 }
 
 TEST(Message, everyFieldOfALayoutComesThroughOrIsRefused) {
     const auto sent = filled<VolumeLayout>();
-    expectSameFields(unpackLayout(bytesOf(pack(sent))), sent);
+    expectSameFields(unpack<VolumeLayout>(bytesOf(pack(sent))), sent);
     const auto refused = [&](auto change) {
         VolumeLayout bad = sent;
         change(bad);
-        EXPECT_THROW(unpackLayout(bytesOf(pack(bad))), task::Error);
+        EXPECT_THROW(unpack<VolumeLayout>(bytesOf(pack(bad))), task::Error);
     };
     refused([](VolumeLayout &l) { l.size.j = 0; });
     refused([](VolumeLayout &l) { l.size.k = -2; });
@@ -290,7 +290,7 @@ SegmentationHeader someSegmentation() {
 
 TEST(Message, everyFieldOfASegmentationComesThroughOrIsRefused) {
     const SegmentationHeader sent = someSegmentation();
-    const SegmentationHeader got = unpackSegmentation(bytesOf(pack(sent)));
+    const SegmentationHeader got = unpack<SegmentationHeader>(bytesOf(pack(sent)));
     expectSameFields(got.instance, sent.instance);
     EXPECT_EQ(got.kind, sent.kind);
     EXPECT_EQ(got.largestFraction, sent.largestFraction);
@@ -300,7 +300,7 @@ TEST(Message, everyFieldOfASegmentationComesThroughOrIsRefused) {
     const auto refused = [&](auto change) {
         SegmentationHeader bad = sent;
         change(bad);
-        EXPECT_THROW(unpackSegmentation(bytesOf(pack(bad))), task::Error);
+        EXPECT_THROW(unpack<SegmentationHeader>(bytesOf(pack(bad))), task::Error);
     };
     refused([](SegmentationHeader &h) { h.kind = SegmentationKind(3); });
     refused([](SegmentationHeader &h) { h.kind = SegmentationKind(-1); });
@@ -320,7 +320,7 @@ TEST(Message, everyFieldOfAStructureSetComesThroughOrIsRefused) {
     structure.color = glm::dvec3(1.0, 0.5, 0.0);
     structure.contourSizes = {3, 4000};
     const StructureSetHeader sent{filled<InstanceHeader>(), {structure}};
-    const StructureSetHeader got = unpackStructureSet(bytesOf(pack(sent)));
+    const StructureSetHeader got = unpack<StructureSetHeader>(bytesOf(pack(sent)));
     expectSameFields(got.instance, sent.instance);
     ASSERT_EQ(got.structures.size(), 1U);
     expectSameFields(got.structures[0], structure);
@@ -328,7 +328,7 @@ TEST(Message, everyFieldOfAStructureSetComesThroughOrIsRefused) {
     const auto refused = [&](auto change) {
         StructureSetHeader bad = sent;
         change(bad);
-        EXPECT_THROW(unpackStructureSet(bytesOf(pack(bad))), task::Error);
+        EXPECT_THROW(unpack<StructureSetHeader>(bytesOf(pack(bad))), task::Error);
     };
     refused([](StructureSetHeader &h) { h.structures.clear(); });
     refused([](StructureSetHeader &h) { h.structures[0].contourSizes[0] = 2; });

@@ -28,29 +28,29 @@ Connection fullConnection() {
 } // namespace
 
 TEST(ExchangeMessage, ValuesSurviveTheJourney) {
-    const Connection connection = fullConnection(), back = unpackConnection(pack(connection));
+    const Connection connection = fullConnection(), back = unpack<Connection>(pack(connection));
     EXPECT_EQ(back.peer, connection.peer);
     EXPECT_EQ(back.purpose, connection.purpose);
     EXPECT_EQ(back.sopClasses, connection.sopClasses);
     EXPECT_EQ(back.encodings, connection.encodings);
     const Acceptance acceptance{"US",      {"A"},     {"host"}, true, "ca.pem",
                                 "our.pem", "our.key", "",       3.0};
-    EXPECT_EQ(unpackAcceptance(pack(acceptance)).clientHosts, acceptance.clientHosts);
-    EXPECT_EQ(pack(unpackAcceptance(pack(acceptance))), pack(acceptance));
+    EXPECT_EQ(unpack<Acceptance>(pack(acceptance)).clientHosts, acceptance.clientHosts);
+    EXPECT_EQ(pack(unpack<Acceptance>(pack(acceptance))), pack(acceptance));
     const Attributes attributes{{tag::patientName, "M\xC3\xBCller^Eva"}, {tag::studyUid, "1.2.3"}};
-    EXPECT_EQ(unpackAttributes(pack(attributes)), attributes);
+    EXPECT_EQ(unpack<Attributes>(pack(attributes)), attributes);
     const RetrievalEnd end{3, 2, 1, {"1.2.3", "1.2.4"}};
-    EXPECT_EQ(unpackRetrievalEnd(pack(end)), end);
+    EXPECT_EQ(unpack<RetrievalEnd>(pack(end)), end);
     const Arrival arrival{"1.2", "1.2.3", "1.2.840.10008.1.2", "SENDER"};
-    EXPECT_EQ(unpackArrival(pack(arrival)).callingAe, "SENDER");
+    EXPECT_EQ(unpack<Arrival>(pack(arrival)).callingAe, "SENDER");
     const Tokens tokens{"access", "refresh", 300};
-    EXPECT_EQ(unpackTokens(pack(tokens)), tokens);
+    EXPECT_EQ(unpack<Tokens>(pack(tokens)), tokens);
     const Endpoints endpoints{"https://h", "https://h/a", "https://h/t"};
-    EXPECT_EQ(unpackEndpoints(pack(endpoints)), endpoints);
+    EXPECT_EQ(unpack<Endpoints>(pack(endpoints)), endpoints);
     const TokenRequest request{{"code", "a&b"}, {"grant_type", "authorization_code"}};
-    EXPECT_EQ(unpackTokenRequest(pack(request)), request);
+    EXPECT_EQ(unpack<TokenRequest>(pack(request)), request);
     EXPECT_EQ(formEncoded(request), "code=a%26b&grant_type=authorization_code");
-    EXPECT_EQ(unpackRedirection(pack(Redirection{"state", "yes", "no", 5.0})).failureText, "no");
+    EXPECT_EQ(unpack<Redirection>(pack(Redirection{"state", "yes", "no", 5.0})).failureText, "no");
 }
 
 // A token becomes part of a header, a code part of a form.
@@ -58,11 +58,11 @@ TEST(ExchangeMessage, TokensAndCodesAreVisibleAndNotTooLong) {
     for (const std::string &bad :
          {std::string(), std::string("a b"), std::string("a\r\nX: y"), std::string("a\0b", 3),
           std::string("\xc3\xa4"), std::string(longestToken + 1, 'a')}) {
-        EXPECT_THROW(unpackTokens(pack(Tokens{bad, "r", 0})), task::Error) << bad;
+        EXPECT_THROW(unpack<Tokens>(pack(Tokens{bad, "r", 0})), task::Error) << bad;
         EXPECT_THROW(unpackCode(bad), task::Error) << bad;
-        EXPECT_THROW(unpackEndpoints(pack(Endpoints{"", bad, "t"})), task::Error) << bad;
+        EXPECT_THROW(unpack<Endpoints>(pack(Endpoints{"", bad, "t"})), task::Error) << bad;
         if (!bad.empty())
-            EXPECT_THROW(unpackTokens(pack(Tokens{"a", bad, 0})), task::Error) << bad;
+            EXPECT_THROW(unpack<Tokens>(pack(Tokens{"a", bad, 0})), task::Error) << bad;
     }
     EXPECT_EQ(unpackCode("4/P7q7W91a-oMsCeLvIaQm6bTrgtp7"), "4/P7q7W91a-oMsCeLvIaQm6bTrgtp7");
 }
@@ -74,11 +74,11 @@ TEST(ExchangeMessage, IdentifiersArePlain) {
           "1.2.3.4.5.6.7.8.9.10.11.12.13.14.15.16.17.18.19.20.21.22.23.24.25."
           "26.27"}) {
         EXPECT_FALSE(isUid(bad)) << bad;
-        EXPECT_THROW(unpackArrival(pack(Arrival{"1.2", bad, "1.2.3", ""})), task::Error) << bad;
-        EXPECT_THROW(unpackRetrievalEnd(pack(RetrievalEnd{0, 1, 0, {bad}})), task::Error) << bad;
+        EXPECT_THROW(unpack<Arrival>(pack(Arrival{"1.2", bad, "1.2.3", ""})), task::Error) << bad;
+        EXPECT_THROW(unpack<RetrievalEnd>(pack(RetrievalEnd{0, 1, 0, {bad}})), task::Error) << bad;
     }
     EXPECT_TRUE(isUid("1.2.840.10008.5.1.4.1.1.2"));
-    EXPECT_EQ(unpackAttributes(pack(Attributes{{1, "a\nb\x1b[31m"}})).at(1), "a b [31m");
+    EXPECT_EQ(unpack<Attributes>(pack(Attributes{{1, "a\nb\x1b[31m"}})).at(1), "a b [31m");
 }
 
 // A compromised helper may send anything: it is refused or taken, but nothing else happens.
