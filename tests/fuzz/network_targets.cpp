@@ -125,15 +125,15 @@ void packing(Bytes bytes) {
 
 void exchangeMessage(Bytes bytes) {
     const std::string body = textOf(bytes);
-    unpackTwice(body, exchange::unpackConnection);
-    unpackTwice(body, exchange::unpackAcceptance);
-    unpackTwice(body, exchange::unpackQuery);
-    unpackTwice(body, exchange::unpackRetrieval);
-    unpackTwice(body, exchange::unpackQueryEnd);
-    unpackTwice(body, exchange::unpackRetrievalEnd);
-    unpackTwice(body, exchange::unpackArrival);
-    unpackTwice(body, exchange::unpackAttributes);
-    unpackTwice(body, exchange::unpackUids);
+    unpackTwice(body, exchange::unpack<exchange::Connection>);
+    unpackTwice(body, exchange::unpack<exchange::Acceptance>);
+    unpackTwice(body, exchange::unpack<exchange::Query>);
+    unpackTwice(body, exchange::unpack<exchange::Retrieval>);
+    unpackTwice(body, exchange::unpack<exchange::QueryEnd>);
+    unpackTwice(body, exchange::unpack<exchange::RetrievalEnd>);
+    unpackTwice(body, exchange::unpack<exchange::Arrival>);
+    unpackTwice(body, exchange::unpack<exchange::Attributes>);
+    unpackTwice(body, exchange::unpack<std::vector<std::string>>);
     // What becomes a file name, or is shown, is plain.
     refusing([&] {
         const exchange::Arrival arrival = exchange::unpack<exchange::Arrival>(body);

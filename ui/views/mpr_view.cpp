@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
-#include <QApplication>
-#include <QContextMenuEvent>
-#include <QHelpEvent>
 #include <QKeyEvent>
-#include <QLineF>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QToolTip>
 #include <QWheelEvent>
 
 #include <glm/geometric.hpp>
@@ -20,11 +17,12 @@
 #include "ui/document/document.h"
 #include "ui/language/shown_text.h"
 #include "ui/theme/theme.h"
-#include "ui/views/crosshair.h"
 #include "ui/views/overlay.h"
 #include "ui/views/plane_texts.h"
 #include "ui/views/slice_picture.h"
-#include "ui/views/tools/text_field.h"
+#include "ui/views/tools/crop_tool.h"
+#include "ui/views/tools/crosshair_tool.h"
+#include "ui/views/tools/window_tool.h"
 
 namespace pellucid::ui {
 
@@ -52,14 +50,16 @@ QImage pictureOf(const volume::Volume &volume, const mpr::Plane &plane,
 } // namespace
 
 MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *parent)
-    : QWidget(parent), m_document(document), m_orientation(orientation),
-      m_tools(document, orientation, *this) {
+    : VolumePane(document, PaneView::plane, parent), m_orientation(orientation) {
+    auto crosshair = std::make_unique<CrosshairTool>(document, *this, orientation);
+    m_crosshair = crosshair.get();
+    m_tools.add(Tool::window, std::make_unique<WindowTool>(document));
+    m_tools.add(Tool::crosshair, std::move(crosshair));
+    m_tools.add(Tool::crop, std::make_unique<CropTool>(document, *this));
+    m_tools.choose(Tool::window);
     setObjectName(QString("%1View").arg(colorRole(orientation)));
     setAccessibleName(planeTitle(orientation));
-    setFocusPolicy(Qt::StrongFocus);
-    setMouseTracking(true);
     setMinimumSize(120, 100);
-    setCursor(m_tools.cursor());
     m_rest.setSingleShot(true);
     m_rest.setInterval(restMs);
     connect(&m_rest, &QTimer::timeout, this, [this] {
@@ -69,7 +69,6 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
     document.whenever(Change::volume, this, [this] {
         const auto &volume = m_document.volume();
         const bool isSameBox = volume && m_lattice.fillsSameBox(volume->lattice());
-        dropTextFields(*this); // their texts belong to the former volume
         // A volume that replaces its own preview does not interrupt a drag.
         if (!isSameBox || !m_wasPreview)
             m_tools.cancel();
@@ -103,20 +102,8 @@ void MprView::refreshTints() {
     refresh();
 }
 
-void MprView::setTool(Tool tool) {
-    m_tools.choose(tool);
-    setCursor(m_tools.cursor());
-    update();
-}
-
-void MprView::setOverlays(const Overlays &overlays) {
-    m_overlays = overlays;
-    m_tools.setMeasurementsShown(overlays.texts);
-    update();
-}
-
 // Images without positions are shown in the axial pane only.
-bool MprView::showsVolume() const {
+bool MprView::showsPicture() const {
     return m_document.volume() &&
            (m_document.volume()->notes().placed || m_orientation == mpr::Orientation::axial);
 }
@@ -191,13 +178,13 @@ void MprView::paintEvent(QPaintEvent *) {
     QPainter painter(this);
     painter.fillRect(rect(), QColor(pictureBackground));
     const OverlayColors colors = overlayColors(colorRole(m_orientation));
-    if (showsVolume()) {
+    if (showsPicture()) {
         if (!m_imageValid)
             updateImage();
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
         painter.drawImage(QPoint(0, 0), m_image);
         painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
-        m_tools.paint(painter, surface(), m_overlays);
+        m_tools.paint(painter, surface(), Marks::shown, m_overlays);
         if (m_overlays.texts)
             paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, TextsFor::pane);
     } else if (m_document.volume()) {
@@ -229,7 +216,7 @@ std::function<QImage()> MprView::pictureMaker(int scale) const {
 }
 
 void MprView::paintOver(QPainter &painter, Names names) const {
-    m_tools.paintPlain(painter, surface(), names);
+    m_tools.paint(painter, surface(), names == Names::shown ? Marks::plain : Marks::nameless, {});
     paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, TextsFor::picture,
                     names);
     const OverlayColors colors = overlayColors(colorRole(m_orientation));
@@ -243,29 +230,15 @@ void MprView::resizeEvent(QResizeEvent *) {
     emit resized();
 }
 
-void MprView::mousePressEvent(QMouseEvent *event) {
-    setFocus();
-    m_menuPress.reset();
-    if (event->button() == Qt::RightButton && !m_tools.isBusy())
-        m_menuPress = event->position();
-    if (!showsVolume())
-        return;
-    if (event->button() == Qt::RightButton && m_tools.finishFigure())
-        update();
-    m_tools.press(event->button(), event->position());
-    update();
+void MprView::mouseMoveEvent(QMouseEvent *event) {
+    VolumePane::mouseMoveEvent(event);
+    if (showsPicture())
+        showReadout(event->position());
 }
 
-void MprView::mouseMoveEvent(QMouseEvent *event) {
-    if (!showsVolume())
-        return;
-    if (m_tools.move(event->position()))
-        update();
-    else if ((event->modifiers() & Qt::ShiftModifier) != 0)
-        m_tools.moveCrosshair(event->position());
-    else
-        setCursor(m_tools.cursorAt(event->position()));
-    showReadout(event->position());
+void MprView::hover(const QMouseEvent &event) {
+    if ((event.modifiers() & Qt::ShiftModifier) != 0)
+        m_crosshair->moveTo(event.position().toPoint());
 }
 
 void MprView::showReadout(const QPointF &position) {
@@ -273,41 +246,8 @@ void MprView::showReadout(const QPointF &position) {
                                   m_document.cut().options.interpolation));
 }
 
-void MprView::mouseReleaseEvent(QMouseEvent *event) {
-    if (showsVolume())
-        m_tools.release(event->button(), event->position());
-    else
-        m_tools.cancel();
-    update();
-    // A drag with the right button opens no menu.
-    if (event->button() == Qt::RightButton && m_menuPress &&
-        QLineF(*m_menuPress, event->position()).length() < QApplication::startDragDistance())
-        emit menuRequested(this, event->globalPosition().toPoint(),
-                           showsVolume() ? m_tools.measurementAt(event->position()) : -1);
-}
-
-void MprView::contextMenuEvent(QContextMenuEvent *event) {
-    if (event->reason() == QContextMenuEvent::Keyboard)
-        emit menuRequested(this, mapToGlobal(rect().center()), -1);
-    event->accept();
-}
-
-void MprView::mouseDoubleClickEvent(QMouseEvent *event) {
-    if (event->button() == Qt::LeftButton && showsVolume() &&
-        m_tools.doublePress(event->position())) {
-        update();
-        return;
-    }
-    // A fast click for an angle's third point may arrive as a double-click.
-    const bool marksRegions = m_document.marking().tool() != RegionTool::none;
-    if (event->button() == Qt::LeftButton && !m_tools.isMeasuring() && !marksRegions)
-        emit maximizeRequested(this);
-    else
-        mousePressEvent(event);
-}
-
 void MprView::scroll(int steps) {
-    if (!showsVolume())
+    if (!showsPicture())
         return;
     const glm::dvec3 axis = scrollAxis(), at = m_document.crosshair().mm;
     const double depth = glm::dot(at, axis);
@@ -319,7 +259,7 @@ void MprView::scrollToEnd(bool last) {
 }
 
 bool MprView::isAtEnd() const {
-    if (!showsVolume())
+    if (!showsPicture())
         return true;
     const mpr::ScrollRange range = scrollRange();
     return glm::dot(m_document.crosshair().mm, scrollAxis()) > range.highMm - 0.5 * range.stepMm;
@@ -332,11 +272,6 @@ void MprView::panBy(const QPoint &delta) {
 
 void MprView::zoomBy(double factor) {
     moveView({std::clamp(m_view.zoom * factor, 0.2, 40.0), m_view.panMm});
-}
-
-void MprView::askForText(const QPointF &at, const QString &text,
-                         const std::function<void(const QString &)> &take) {
-    new TextField(*this, at, text, take);
 }
 
 void MprView::moveView(const View &view) {
@@ -353,7 +288,7 @@ void MprView::resetView() {
 
 // Both panes show a mm at the same size, and the crosshair at the same place.
 void MprView::adoptScale(const MprView &other) {
-    if (!showsVolume() || !other.showsVolume())
+    if (!showsPicture() || !other.showsPicture())
         return;
     const mpr::Plane theirs = other.plane(), own = plane();
     const auto offset = [](const mpr::Plane &plane, const Document &document) {
@@ -366,22 +301,13 @@ void MprView::adoptScale(const MprView &other) {
               m_view.panMm + offset(own, m_document) - offset(theirs, other.m_document)});
 }
 
-// The warning mark has no room for text; its tooltip has it.
-bool MprView::event(QEvent *event) {
-    if (event->type() == QEvent::ToolTip && m_document.volume()) {
-        const auto *const help = static_cast<QHelpEvent *>(event);
-        const volume::VolumeNotes &notes = m_document.volume()->notes();
-        if (m_overlays.texts &&
-            warningMarkRect(rect()).adjusted(0, -20, 0, 0).contains(help->pos()) &&
-            !notes.warnings.empty()) {
-            QToolTip::showText(
-                help->globalPos(),
-                plainToolTip(warningLines(notes, Names::shown, notes.warnings.size()).join('\n')),
-                this);
-            return true;
-        }
-    }
-    return QWidget::event(event);
+// The warning mark has no room for text.
+QString MprView::helpAt(const QPoint &at) const {
+    const volume::VolumeNotes &notes = m_document.volume()->notes();
+    const bool isOnMark =
+        m_overlays.texts && warningMarkRect(rect()).adjusted(0, -20, 0, 0).contains(at);
+    return isOnMark ? warningLines(notes, Names::shown, notes.warnings.size()).join('\n')
+                    : QString();
 }
 
 void MprView::wheelEvent(QWheelEvent *event) {
@@ -422,29 +348,13 @@ void MprView::keyPressEvent(QKeyEvent *event) {
     case Qt::Key_R:
         resetView();
         break;
-    case Qt::Key_Return:
-    case Qt::Key_Enter:
-        if (m_tools.finishFigure())
-            update();
-        else
-            QWidget::keyPressEvent(event);
-        break;
-    case Qt::Key_Escape:
-        if (!m_tools.isBusy()) {
-            QWidget::keyPressEvent(event);
-            break;
-        }
-        m_tools.cancel();
-        update();
-        break;
     default:
-        QWidget::keyPressEvent(event);
+        VolumePane::keyPressEvent(event);
     }
 }
 
-void MprView::leaveEvent(QEvent *) {
-    m_tools.leave();
-    update();
+void MprView::leaveEvent(QEvent *event) {
+    VolumePane::leaveEvent(event);
     emit readoutChanged({});
 }
 

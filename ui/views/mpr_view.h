@@ -10,23 +10,20 @@
 #include <QWidget>
 
 #include "core/mpr/plane.h"
-#include "ui/views/overlay.h"
-#include "ui/views/pane_mapping.h"
 #include "ui/views/segment_tints.h"
-#include "ui/views/tools/plane_tools.h"
+#include "ui/views/volume_pane.h"
 
 namespace pellucid::ui {
 
-class Document;
+class CrosshairTool;
 
 /// A pane with one of the three planes of the open volume: scrolling, window, pan, zoom, crosshair,
 /// turning, measurements, orientation letters, scale bar.
-class MprView : public QWidget, private ToolPane {
+class MprView : public VolumePane {
     Q_OBJECT
 public:
     MprView(Document &document, mpr::Orientation orientation, QWidget *parent = nullptr);
 
-    void setTool(Tool tool);
     mpr::Orientation orientation() const { return m_orientation; }
     /// The plane that is shown, in device pixels of this widget.
     mpr::Plane plane() const;
@@ -54,33 +51,26 @@ public:
     /// Adopts the scale of a different pane of the same plane, with the crosshair at its place
     /// there.
     void adoptScale(const MprView &other);
-    void setOverlays(const Overlays &overlays);
 
 signals:
     /// Zoomed or panned.
     void viewMoved();
     void resized();
-    /// `measurement`: the one under the mouse, or -1.
-    void menuRequested(QWidget *pane, const QPoint &globalAt, int measurement);
-    void maximizeRequested(QWidget *pane);
     /// The position and value under the cursor; an empty text when there is none.
     void readoutChanged(const QString &text);
 
 protected:
     void paintEvent(QPaintEvent *event) override;
     void resizeEvent(QResizeEvent *event) override;
-    void mousePressEvent(QMouseEvent *event) override;
     void mouseMoveEvent(QMouseEvent *event) override;
-    void mouseReleaseEvent(QMouseEvent *event) override;
-    void mouseDoubleClickEvent(QMouseEvent *event) override;
     void wheelEvent(QWheelEvent *event) override;
     void keyPressEvent(QKeyEvent *event) override;
     void leaveEvent(QEvent *event) override;
-    void contextMenuEvent(QContextMenuEvent *event) override;
-    bool event(QEvent *event) override;
 
 private:
-    bool showsVolume() const;
+    bool showsPicture() const override;
+    QString helpAt(const QPoint &at) const override;
+    void hover(const QMouseEvent &event) override;
     void refresh();
     /// Draws again if other segments are tinted.
     void refreshTints();
@@ -89,19 +79,13 @@ private:
     void showReadout(const QPointF &position);
     glm::dvec3 scrollAxis() const;
     mpr::ScrollRange scrollRange() const;
-    QSize paneSize() const override { return size(); }
     double reachMm() const override;
     void panBy(const QPoint &delta) override;
     void zoomBy(double factor) override;
-    void askForText(const QPointF &at, const QString &text,
-                    const std::function<void(const QString &)> &take) override;
 
-    Document &m_document;
     const mpr::Orientation m_orientation;
-    PlaneTools m_tools;
+    CrosshairTool *m_crosshair; ///< one of the tools
     View m_view;
-    Overlays m_overlays;
-    std::optional<QPointF> m_menuPress; ///< of the right button
     /// The lattice of the last volume, which may have been a preview.
     volume::Lattice m_lattice;
     bool m_wasPreview = false;

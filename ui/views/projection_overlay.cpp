@@ -9,7 +9,7 @@
 #include "ui/document/document.h"
 #include "ui/views/overlay.h"
 #include "ui/views/projection_texts.h"
-#include "ui/views/tools/projection_tools.h"
+#include "ui/views/tools/pane_tools.h"
 
 namespace pellucid::ui {
 
@@ -23,7 +23,7 @@ QString anglesOf(const glm::dmat3 &axes) {
 
 } // namespace
 
-ProjectionOverlay::ProjectionOverlay(const Document &document, const ProjectionTools &tools,
+ProjectionOverlay::ProjectionOverlay(const Document &document, const PaneTools &tools,
                                      QWidget *parent)
     : QWidget(parent), m_document(document), m_tools(tools) {
     setObjectName("projectionOverlay");
@@ -209,7 +209,7 @@ void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mappi
         return; // two pictures have no common positions
     if (m_showsCrosshair && m_overlays.crosshair && marks > Marks::plain)
         paintCrosshair(painter, mapping);
-    m_tools.paint(painter, {mapping, rect(), colors}, marks);
+    m_tools.paint(painter, {mapping, rect(), colors}, marks, m_overlays);
 }
 
 } // namespace pellucid::ui

@@ -13,7 +13,7 @@
 namespace pellucid::ui {
 
 class Document;
-class ProjectionTools;
+class PaneTools;
 
 /// The annotations over the projection: names, figures of the picture, letters, cube, scale,
 /// measurements. The mouse goes through to the pane below. The canvas below may be an OpenGL
@@ -25,7 +25,7 @@ public:
         QString figures; ///< engine, time and error of the picture; empty while there is none
     };
 
-    ProjectionOverlay(const Document &document, const ProjectionTools &tools, QWidget *parent);
+    ProjectionOverlay(const Document &document, const PaneTools &tools, QWidget *parent);
 
     void setTexts(const Texts &texts);
     void setMapping(const PaneMapping &mapping);
@@ -57,7 +57,7 @@ private:
     void paintCrosshair(QPainter &painter, const PaneMapping &mapping) const;
 
     const Document &m_document;
-    const ProjectionTools &m_tools;
+    const PaneTools &m_tools;
     Texts m_texts;
     QImage m_comparison;
     QString m_comparedName;

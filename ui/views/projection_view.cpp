@@ -13,6 +13,8 @@
 #include "ui/views/camera_moves.h"
 #include "ui/views/projection_overlay.h"
 #include "ui/views/projection_texts.h"
+#include "ui/views/tools/orbit_tool.h"
+#include "ui/views/tools/tone_tool.h"
 
 namespace pellucid::ui {
 
@@ -33,13 +35,13 @@ constexpr double pixelsPerVoxel = 4.0, pixelsAcross = 4096.0;
 } // namespace
 
 ProjectionView::ProjectionView(Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_canvas(makeProjectionCanvas(this)),
-      m_tools(document, *this), m_overlay(new ProjectionOverlay(document, m_tools, this)),
-      m_comparison(document) {
+    : VolumePane(document, PaneView::projection, parent), m_canvas(makeProjectionCanvas(this)),
+      m_overlay(new ProjectionOverlay(document, m_tools, this)), m_comparison(document) {
+    m_tools.addTurning(std::make_unique<OrbitTool>(*this));
+    m_tools.addRight(std::make_unique<ToneTool>(document, *this));
+    m_tools.choose(Tool::window);
     setObjectName("projectionView");
     setAccessibleName(tr("Projection"));
-    setFocusPolicy(Qt::StrongFocus);
-    setMouseTracking(true); // the brush is shown where it would paint
     setMinimumSize(200, 160);
     m_document.setProjectionSize(sizeInPixels());
     m_canvas->widget()->setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -87,8 +89,8 @@ void ProjectionView::follow(Changes changes) {
         return;
     }
     // The points of a figure belong to one view.
-    if ((changes & Change::pose) && m_tools.isMeasuring() &&
-        m_document.scene().camera.orientation != m_measuredFrom)
+    const glm::dquat seenFrom = m_document.scene().camera.orientation;
+    if (std::exchange(m_seenFrom, seenFrom) != seenFrom && m_tools.isMeasuring())
         m_tools.cancel();
     if (changes & Change::scene)
         updateTone();

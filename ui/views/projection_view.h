@@ -17,20 +17,17 @@
 #include "ui/engine/render_worker.h"
 #include "ui/engine/shown_engine.h"
 #include "ui/views/look_comparison.h"
-#include "ui/views/overlay.h"
-#include "ui/views/pane_mapping.h"
 #include "ui/views/projection_canvas.h"
-#include "ui/views/tools/projection_tools.h"
+#include "ui/views/volume_pane.h"
 
 namespace pellucid::ui {
 
-class Document;
 class ProjectionOverlay;
 
 /// The pane of the Fourier projection of the open volume: orbit, pan, zoom, brightness. It reports
 /// its size to the document, and shows what the scene's camera sees. While the view moves it draws
 /// drafts if full frames would lag, and a full frame when the view rests.
-class ProjectionView : public QWidget, private ProjectionPane {
+class ProjectionView : public VolumePane, private ProjectionPane {
     Q_OBJECT
 public:
     explicit ProjectionView(Document &document, QWidget *parent = nullptr);
@@ -65,8 +62,6 @@ public:
     void fitOrResetView();
     /// The front, fitted to the body, with automatic brightness.
     void resetView();
-    /// The left button measures distances with that tool; with every other one it orbits.
-    void setTool(Tool tool);
     /// Turns about the crosshair, or about the middle of the body.
     void setOrbitsCrosshair(bool isAboutCrosshair);
     bool orbitsCrosshair() const { return m_orbitsCrosshair; }
@@ -74,7 +69,7 @@ public:
     /// upright.
     void setTurnsFreely(bool isFree) { m_turnsFreely = isFree; }
     bool turnsFreely() const { return m_turnsFreely; }
-    void setOverlays(const Overlays &overlays);
+    void setOverlays(const Overlays &overlays) override;
     /// Shows the look before the last edit beside the present one.
     void setComparing(bool isComparing);
     bool isComparing() const { return m_isComparing; }
@@ -103,9 +98,6 @@ public:
     bool showsFinalImage() const { return m_frame && !m_frame->draft && isFinal() && !m_pending; }
 
 signals:
-    void maximizeRequested(QWidget *pane);
-    /// `measurement`: the one under the mouse, or -1.
-    void menuRequested(QWidget *pane, const QPoint &globalAt, int measurement);
     /// The angles beside the cube were clicked.
     void anglesRequested();
     /// Engine and reason for the status bar.
@@ -121,14 +113,8 @@ signals:
 
 protected:
     void resizeEvent(QResizeEvent *event) override;
-    void mousePressEvent(QMouseEvent *event) override;
-    void mouseMoveEvent(QMouseEvent *event) override;
-    void mouseReleaseEvent(QMouseEvent *event) override;
-    void mouseDoubleClickEvent(QMouseEvent *event) override;
     void wheelEvent(QWheelEvent *event) override;
     void keyPressEvent(QKeyEvent *event) override;
-    void leaveEvent(QEvent *event) override;
-    void contextMenuEvent(QContextMenuEvent *event) override;
     bool event(QEvent *event) override;
 
 private:
@@ -140,23 +126,20 @@ private:
     void updateTone();
     /// The pose that fits the body's shadow into the pane.
     Pose fittedToBody(const Pose &pose) const;
-    /// Cube and angles, which take clicks.
-    bool pressOnCube(const QPointF &at);
     QSizeF sizeInPixels() const;
     PaneMapping mappingOf(const scene::Camera &camera) const;
     void showComparison();
     void showTexts();
-    void showCursor();
 
+    bool showsPicture() const override { return m_frame != nullptr; }
+    void updateMarks() override;
+    /// Cube and angles.
+    std::function<void()> controlAt(const QPointF &at) override;
+    QString helpAt(const QPoint &at) const override;
     PaneMapping mapping() const override;
-    QSize paneSize() const override { return size(); }
     double reachMm() const override { return 0.0; } // a picture has no depth
     void panBy(const QPoint &delta) override;
     void zoomBy(double factor) override;
-    void askForText(const QPointF &at, const QString &text,
-                    const std::function<void(const QString &)> &take) override;
-    bool showsPicture() const override { return m_frame != nullptr; }
-    bool canMove() const override { return m_prepared.has_value(); }
     void orbitBy(const QPoint &delta) override;
     void rollBy(double radians) override;
     picture::ToneRange automaticRange() const override;
@@ -165,9 +148,7 @@ private:
     /// Of the frame on the screen.
     picture::Display shownDisplay() const;
 
-    Document &m_document;
     std::unique_ptr<ProjectionCanvas> m_canvas;
-    ProjectionTools m_tools;
     ProjectionOverlay *m_overlay;
     ErrorMeter m_meter; ///< outlives the worker, which makes its pictures
     RenderWorker m_worker;
@@ -197,8 +178,7 @@ private:
     scene::Exposure m_body;
     bool m_pending = false;
     bool m_isComparing = false;
-    glm::dquat m_measuredFrom{1.0, 0.0, 0.0, 0.0}; ///< the view of an unfinished figure
-    std::optional<QPointF> m_menuPress;            ///< of the right button
+    glm::dquat m_seenFrom{1.0, 0.0, 0.0, 0.0}; ///< the present view
     PlanState m_planState = PlanState::holds;
     std::uint64_t m_requested = 0, m_generation = 0;
 };

@@ -102,16 +102,16 @@ TEST(ExchangeMessage, AnyBytesAreRefusedOrTaken) {
             } catch (const task::Error &) {
             }
         };
-        attempt(unpackConnection);
-        attempt(unpackQuery);
-        attempt(unpackQueryEnd);
-        attempt(unpackRetrievalEnd);
-        attempt(unpackArrival);
-        attempt(unpackAttributes);
-        attempt(unpackUids);
+        attempt(unpack<Connection>);
+        attempt(unpack<Query>);
+        attempt(unpack<QueryEnd>);
+        attempt(unpack<RetrievalEnd>);
+        attempt(unpack<Arrival>);
+        attempt(unpack<Attributes>);
+        attempt(unpack<std::vector<std::string>>);
         attempt(unpackReason);
-        attempt(unpackTokens);
-        attempt(unpackEndpoints);
+        attempt(unpack<Tokens>);
+        attempt(unpack<Endpoints>);
         attempt(unpackCode);
     }
 }

@@ -11,7 +11,8 @@ class OrbitTool : public PaneTool {
 public:
     explicit OrbitTool(ProjectionPane &pane) : m_pane(pane) {}
 
-    Qt::CursorShape cursor() const override { return Qt::ClosedHandCursor; }
+    Qt::CursorShape cursor() const override { return Qt::ArrowCursor; }
+    Qt::CursorShape heldCursor() const override { return Qt::ClosedHandCursor; }
     bool press(const QPointF & /*at*/) override { return true; }
     bool move(const MouseMove &mouse) override;
 

@@ -9,15 +9,15 @@ namespace pellucid::ui {
 /// Pans the picture.
 class PanTool : public PaneTool {
 public:
-    PanTool(ToolPane &pane, Qt::CursorShape cursor) : m_pane(pane), m_cursor(cursor) {}
+    explicit PanTool(ToolPane &pane) : m_pane(pane) {}
 
-    Qt::CursorShape cursor() const override { return m_cursor; }
+    Qt::CursorShape cursor() const override { return Qt::OpenHandCursor; }
+    Qt::CursorShape heldCursor() const override { return Qt::ClosedHandCursor; }
     bool press(const QPointF & /*at*/) override { return true; }
     bool move(const MouseMove &mouse) override;
 
 private:
     ToolPane &m_pane;
-    const Qt::CursorShape m_cursor;
 };
 
 } // namespace pellucid::ui

@@ -43,6 +43,8 @@ public:
 
     /// The cursor while the tool is selected.
     virtual Qt::CursorShape cursor() const = 0;
+    /// The cursor during its drag.
+    virtual Qt::CursorShape heldCursor() const { return cursor(); }
     /// The cursor over something that this tool can drag; none elsewhere.
     virtual std::optional<Qt::CursorShape> gripCursor(const QPointF & /*at*/) const {
         return std::nullopt;

@@ -36,13 +36,9 @@ protected:
     ~ToolPane() = default;
 };
 
-/// The interface of the projection to its tools.
-class ProjectionPane : public ToolPane {
+/// The interface of the projection to the tools that only it has.
+class ProjectionPane {
 public:
-    /// Whether a picture is shown.
-    virtual bool showsPicture() const = 0;
-    /// Whether there is an engine, so that the view can be moved.
-    virtual bool canMove() const = 0;
     /// Rotates the view so that the near side follows the mouse. *Units*: logical pixels.
     virtual void orbitBy(const QPoint &delta) = 0;
     /// Rolls the picture clockwise.
