@@ -37,7 +37,7 @@ constexpr double pixelsPerVoxel = 4.0, pixelsAcross = 4096.0;
 ProjectionView::ProjectionView(Document &document, QWidget *parent)
     : VolumePane(document, PaneView::projection, parent), m_canvas(makeProjectionCanvas(this)),
       m_overlay(new ProjectionOverlay(document, m_tools, this)), m_comparison(document) {
-    m_tools.addTurning(std::make_unique<OrbitTool>(*this));
+    m_tools.addTurning(std::make_unique<OrbitTool>(*this, *this));
     m_tools.addRight(std::make_unique<ToneTool>(document, *this));
     m_tools.choose(Tool::window);
     setObjectName("projectionView");

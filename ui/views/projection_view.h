@@ -27,7 +27,7 @@ class ProjectionOverlay;
 /// The pane of the Fourier projection of the open volume: orbit, pan, zoom, brightness. It reports
 /// its size to the document, and shows what the scene's camera sees. While the view moves it draws
 /// drafts if full frames would lag, and a full frame when the view rests.
-class ProjectionView : public VolumePane, private ProjectionPane {
+class ProjectionView : public VolumePane, public ProjectionPane {
     Q_OBJECT
 public:
     explicit ProjectionView(Document &document, QWidget *parent = nullptr);

@@ -13,7 +13,7 @@ namespace pellucid::ui {
 
 /// A pane that shows the open volume: it gives mouse and keys to its tools, opens its menu with the
 /// right button, and is maximized by a double-click.
-class VolumePane : public QWidget, protected ToolPane {
+class VolumePane : public QWidget, public ToolPane {
     Q_OBJECT
 public:
     void setTool(Tool tool);

@@ -46,56 +46,44 @@ ServerCommands::ServerCommands(QMainWindow &window, Workbench &bench, StudyDocks
 }
 
 void ServerCommands::connectTransfers() {
-    m_bench.study.document.whenever(Change::currentSource, this, [this] { m_awaited.reset(); });
+    m_bench.study.document.whenever(Change::currentSource, this,
+                                    [this] { m_awaited.forgetStudy(); });
     connect(&m_bench.transfers, &TransferQueue::arriving, this,
             [this](const QString &uid, const std::shared_ptr<dicom::ArrivingSeries> &series) {
-                if (m_awaited && m_awaited->study.uid == uid) {
-                    const RemoteStudy study = *m_awaited;
-                    m_seen = uid;
-                    m_bench.study.opener.openArriving(study.study, series);
-                }
+                if (const auto study = m_awaited.arriving(uid))
+                    m_bench.study.opener.openArriving(*study, series);
             });
     connect(&m_bench.receiver, &StudyReceiver::arrived, this,
             [this] { m_bench.notices.say(tr("Study received")); });
-    // What was asked for is shown, unless another study is open by then.
-    connect(&m_bench.transfers, &TransferQueue::completed, this,
-            [this](const QString &folder, bool isAwaited, const archive::RetrievalReport &report) {
-                const QString uid = QFileInfo(folder).fileName();
-                const auto askForOther = [this, folder, report] {
-                    if (report.ofAnotherPatient > 0)
-                        askForAnotherPatient(report.listed, report.named, [this, folder] {
-                            m_bench.study.opener.openPaths({folder});
-                        });
-                };
-                const bool isCorrected =
-                    isAwaited && report.corrected > 0 && !m_askedToReplace.contains(uid);
-                if (isCorrected)
-                    askToReplace(uid, report, askForOther);
-                if (report.ofAnotherPatient > 0) {
-                    if (m_besideAwaited && m_besideAwaited->study.uid == uid)
-                        m_besideAwaited.reset();
-                    if (isAwaited && !isCorrected)
-                        askForOther();
-                    return;
-                }
-                const bool isIdle =
-                    m_bench.study.document.currentSource() < 0 && !m_bench.study.jobs.isRunning();
-                const bool isForBeside = m_besideAwaited && m_besideAwaited->study.uid == uid;
-                if (isForBeside) {
-                    m_besideAwaited->isHere = true;
-                    openAwaitedBeside();
-                }
-                if (isIdle && isAwaited && !isForBeside && uid != m_seen)
-                    m_bench.study.opener.openPaths({folder});
-                else
-                    m_bench.notices.say(tr("Study received"));
-            });
+    connect(&m_bench.transfers, &TransferQueue::completed, this, &ServerCommands::completed);
+}
+
+void ServerCommands::completed(const QString &folder, bool isAskedFor,
+                               const archive::RetrievalReport &report) {
+    using Then = AwaitedStudies::Then;
+    const QString uid = QFileInfo(folder).fileName();
+    const bool isIdle =
+        m_bench.study.document.currentSource() < 0 && !m_bench.study.jobs.isRunning();
+    const auto arrival = m_awaited.completed(uid, report, isAskedFor, isIdle);
+    const auto open = [this, folder] { m_bench.study.opener.openPaths({folder}); };
+    const auto askForOther = [this, report, open] {
+        askForAnotherPatient(report.listed, report.named, open);
+    };
+    const bool isOfAnother = arrival.then == Then::askAboutPatient;
+    if (arrival.asksToReplace)
+        askToReplace(uid, report, isOfAnother ? askForOther : std::function<void()>());
+    else if (isOfAnother)
+        askForOther();
+    if (arrival.then == Then::openBeside)
+        openAwaitedBeside();
+    if (arrival.then == Then::open)
+        open();
+    else if (arrival.then == Then::say || arrival.then == Then::openBeside)
+        m_bench.notices.say(tr("Study received"));
 }
 
 void ServerCommands::askToReplace(const QString &studyUid, const archive::RetrievalReport &report,
                                   const std::function<void()> &cancelled) {
-    // Some archives correct their lists alone.
-    m_askedToReplace.insert(studyUid);
     QStringList corrections;
     for (const archive::Correction &correction : report.corrections)
         corrections << translated(archive::reasonOf(correction));
@@ -137,9 +125,7 @@ void ServerCommands::connectEarlier() {
         if (source >= 0)
             study = document.sources()[std::size_t(source)].study;
         m_bench.earlier.setOpenStudy(study);
-        // What is awaited belongs beside the study that was open.
-        if (m_besideAwaited && (!study || study->key() != m_besideAwaited->openStudy))
-            m_besideAwaited.reset();
+        m_awaited.setOpen(study ? study->key() : QString());
     };
     m_bench.study.document.whenever(Change::currentSource | Change::sources, this, follow);
     connect(&m_bench.earlier, &EarlierStudies::retrievalSuggested, this,
@@ -155,26 +141,26 @@ void ServerCommands::connectEarlier() {
 void ServerCommands::retrieve(const RemoteStudy &study) {
     m_docks.transfers().show();
     m_docks.transfers().raise();
-    m_awaited = study;
+    m_awaited.await(study.study);
     m_bench.transfers.add(study, &m_window);
 }
 
 void ServerCommands::openBeside(const EarlierStudy &study) {
-    m_besideAwaited.reset();
+    m_awaited.forgetBeside();
     if (m_bench.study.document.currentSource() < 0 || openHere(study.study) ||
         study.servers.isEmpty())
         return;
     const Document &document = m_bench.study.document;
-    m_besideAwaited = {
-        study.study, document.sources()[std::size_t(document.currentSource())].study.key(), false};
+    m_awaited.awaitBeside(study.study,
+                          document.sources()[std::size_t(document.currentSource())].study.key());
     m_docks.transfers().show();
     m_docks.transfers().raise();
     m_bench.transfers.add(study.remote(), &m_window);
 }
 
 void ServerCommands::openAwaitedBeside() {
-    if (m_besideAwaited && m_besideAwaited->isHere && openHere(m_besideAwaited->study))
-        m_besideAwaited.reset();
+    if (const auto study = m_awaited.readyForBeside(); study && openHere(*study))
+        m_awaited.forgetBeside();
 }
 
 bool ServerCommands::openHere(const StudyFacts &wanted) {

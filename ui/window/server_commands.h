@@ -2,15 +2,14 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 
 #include <QObject>
-#include <QSet>
 #include <QStringList>
 
 #include "core/archive/retrieval.h"
 #include "core/task/reason.h"
 #include "ui/jobs/job_runner.h"
+#include "ui/servers/awaited_studies.h"
 #include "ui/servers/earlier_studies.h"
 #include "ui/servers/open_request.h"
 #include "ui/servers/remote_study.h"
@@ -38,7 +37,8 @@ public:
 
 private:
     void connectTransfers();
-    /// Offers to replace what the archive has corrected, once for each study.
+    void completed(const QString &folder, bool isAskedFor, const archive::RetrievalReport &report);
+    /// Offers to replace what the archive has corrected.
     void askToReplace(const QString &studyUid, const archive::RetrievalReport &report,
                       const std::function<void()> &cancelled);
     /// A server may send anybody's images: they are not shown as those of the patient listed.
@@ -58,18 +58,7 @@ private:
     Workbench &m_bench;
     StudyDocks &m_docks;
     StudyPair &m_pair;
-    /// The study that was asked for last, unless another one has been opened since.
-    QSet<QString> m_askedToReplace; ///< studies, by UID
-    std::optional<RemoteStudy> m_awaited;
-    /// The study that was opened last while it arrived: it is not opened again at its end.
-    QString m_seen;
-    /// A study of a server that is wanted beside the open one.
-    struct Beside {
-        StudyFacts study;
-        QString openStudy;   ///< the key of the open one
-        bool isHere = false; ///< all of it has arrived
-    };
-    std::optional<Beside> m_besideAwaited;
+    AwaitedStudies m_awaited;
     JobRunner m_finding; ///< looks for what a link names
 };
 

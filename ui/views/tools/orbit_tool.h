@@ -9,7 +9,8 @@ namespace pellucid::ui {
 /// Turns the projection; with Alt or Shift, rolls it.
 class OrbitTool : public PaneTool {
 public:
-    explicit OrbitTool(ProjectionPane &pane) : m_pane(pane) {}
+    OrbitTool(const ToolPane &pane, ProjectionPane &projection)
+        : m_pane(pane), m_projection(projection) {}
 
     Qt::CursorShape cursor() const override { return Qt::ArrowCursor; }
     Qt::CursorShape heldCursor() const override { return Qt::ClosedHandCursor; }
@@ -17,7 +18,8 @@ public:
     bool move(const MouseMove &mouse) override;
 
 private:
-    ProjectionPane &m_pane;
+    const ToolPane &m_pane;
+    ProjectionPane &m_projection;
 };
 
 } // namespace pellucid::ui
