@@ -75,4 +75,9 @@ enum class Change {
 Q_DECLARE_FLAGS(Changes, Change)
 Q_DECLARE_OPERATORS_FOR_FLAGS(Changes)
 
+/// What changes a `StudyView`.
+inline constexpr Changes viewChanges =
+    Changes(Change::volume) | Change::scene | Change::pose | Change::paneSize |
+    Change::displayWindow | Change::crosshair | Change::cut | Change::segments | Change::exposure;
+
 } // namespace pellucid::ui

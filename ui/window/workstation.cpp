@@ -28,13 +28,10 @@ Workstation::Workstation(std::optional<EngineChoice> engine)
     m_keeping.setSingleShot(true);
     m_keeping.setInterval(keepingMs);
     connect(&m_keeping, &QTimer::timeout, this, [this] { keepWhatIsOpen(false); });
-    m_bench.study.document.whenever(
-        Change::volume | Change::scene | Change::pose | Change::paneSize | Change::displayWindow |
-            Change::exposure | Change::crosshair | Change::cut | Change::segments,
-        this, [this] {
-            if (!m_keeping.isActive()) // a long drag does not postpone it
-                m_keeping.start();
-        });
+    m_bench.study.document.whenever(viewChanges, this, [this] {
+        if (!m_keeping.isActive()) // a long drag does not postpone it
+            m_keeping.start();
+    });
 }
 
 Workstation::~Workstation() {

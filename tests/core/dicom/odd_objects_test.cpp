@@ -268,7 +268,7 @@ TEST(OddObjects, MisspeltNumbersAreRead) {
 
 // One image without the intercept is no slice of a stack of HU.
 TEST(OddObjects, AnImageThatStatesLessOfItsRescaleStandsAlone) {
-    for (const DicomWriter::Tag tag :
+    for (const DicomWriter::Tag &tag :
          {DicomWriter::Tag{0x0028, 0x1052}, DicomWriter::Tag{0x0028, 0x1053}}) {
         const auto volumes = volumesOf([&](DicomWriter &w, int k) {
             w.putNumbers({0x0028, 0x1052}, {-1024.0});

@@ -42,7 +42,9 @@ PaneTool *PaneTools::find(Tool tool) const {
         return m_measure;
     const auto found = std::find_if(m_tools.begin(), m_tools.end(),
                                     [&](const auto &entry) { return entry.first == tool; });
-    return found == m_tools.end() ? m_turning.get() : found->second.get();
+    if (found != m_tools.end())
+        return found->second.get();
+    return m_turning ? m_turning.get() : find(Tool::pan); // the pane has no use for this tool
 }
 
 void PaneTools::choose(Tool tool) {
