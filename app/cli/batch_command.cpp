@@ -60,8 +60,10 @@ archive::SearchTerms termsFrom(const std::vector<std::string> &texts) {
     }
     if (!terms.seriesUid.empty()) { // of one study, as servers need it
         if (texts.size() != 2 || terms.studyUid.empty())
-            throw Error(ErrorCode::usage,
-                        because::inWords("--find: 'series' goes with 'study', and with no other"));
+            throw Error(
+                ErrorCode::usage,
+                because::inWords(
+                    "--find: 'series' needs 'study', and cannot be combined with any other term"));
         terms.level = exchange::Level::series;
     }
     archive::queryOf(terms, 0); // checks the values
@@ -85,8 +87,9 @@ void addBatchCommand(CLI::App &app, const Context &context) {
             ->check(notEmpty())
             ->excludes(paths);
     c->add_option("--find", *terms,
-                  "TERM=VALUE: which studies of the server: name, id, date, modality, study, "
-                  "accession; or, with study, the UID of one series of it: series; default: all")
+                  "TERM=VALUE: retrieve only the studies that match; TERM is name, id, date, "
+                  "modality, study or accession; with study, also series (the UID of one of its "
+                  "series); default: all studies")
         ->needs(from);
     c->add_option("--out", o->out,
                   "Folder for the results; each study gets a folder of its own there")
@@ -97,9 +100,11 @@ void addBatchCommand(CLI::App &app, const Context &context) {
                   "Studies at the same time; default 2: one is loaded while "
                   "another is rendered")
         ->check(CLI::Range(1, 256));
-    c->add_option("--shard", *shard, "I/N: only part I, from 0, of the studies in N parts");
-    c->add_flag("--resume", o->resumes,
-                "Skip the studies whose results are there, made by this recipe of the same files");
+    c->add_option("--shard", *shard,
+                  "I/N: divide the studies into N parts and render only part I, counted from 0");
+    c->add_flag(
+        "--resume", o->resumes,
+        "Skip studies whose results already exist, if the recipe and the files have not changed");
     c->add_option("--threads", o->threads, "Maximum number of threads; default: all processors")
         ->check(CLI::Range(1, 1024));
     c->add_option("--memory", o->memory,

@@ -85,7 +85,7 @@ void BatchReport::wasDoneBefore() {
 void BatchReport::passedOver(const std::string &key) {
     const std::lock_guard lock(m_mutex);
     m_passedOver.push_back(key);
-    printLine(key + ": no series is one that the recipe asks for");
+    printLine(key + ": no series matches the recipe");
 }
 
 void BatchReport::failed(const std::string &key, const std::string &reason) {

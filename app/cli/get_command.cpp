@@ -147,9 +147,9 @@ Transfer known(TransferLog &log, std::int64_t id) {
 
 void addGetCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
-    CLI::App *c = app.add_subcommand(
-        "get",
-        "Retrieve a study from a server; a second time into the same place: only what is missing");
+    CLI::App *c =
+        app.add_subcommand("get", "Retrieve a study from a server; if it is repeated with the same "
+                                  "destination, retrieve only what is missing");
     c->add_option("NAME", o->name, "Name of the server")->required();
     c->add_option("--study", o->wanted.studyUid, "UID of the study")->required();
     c->add_option("--series", o->wanted.seriesUids, "UIDs of series; default: all of the study");
@@ -159,12 +159,11 @@ void addGetCommand(CLI::App &app, const Context &context) {
         ->excludes(to);
     c->add_option("--port", o->destination.port, "Local port for C-MOVE; default 11112")
         ->check(CLI::Range(1, 65535));
-    c->add_option(
-        "--ae", o->destination.ae,
-        "AE title of this program if the server only sends; default: that of the list of servers");
+    c->add_option("--ae", o->destination.ae,
+                  "AE title of this program for C-MOVE; default: the one in the list of servers");
     c->add_flag("--replace", o->replaces,
-                "Retrieve again what is here and of which the server lists corrected data: another "
-                "name, ID, birth date or study date");
+                "Retrieve received objects again if the server has since corrected the name, ID, "
+                "birth date or study date");
     c->add_flag("--json", o->json, "Print a report as one JSON object");
     c->callback([o, context] { get(*o, context); });
 

@@ -333,7 +333,7 @@ void addSubtractionOptions(CLI::App &command, InputOptions &options) {
     CLI::Option *subtract =
         command
             .add_option("--subtract", options.subtract,
-                        "A study whose volume is subtracted, such as the phase before the contrast")
+                        "A study whose volume is subtracted, such as the pre-contrast phase")
             ->check(notEmpty());
     command
         .add_option("--subtract-series", options.subtractSeries,

@@ -109,8 +109,8 @@ void addPoints(classify::Look &look, const std::vector<std::string> &points,
 void addPointOption(CLI::App &command, std::vector<std::string> &points) {
     command
         .add_option("--point", points,
-                    "NAME=x,y,z: a point in patient space (LPS, mm) of a class that shows what is "
-                    "connected with points; may be repeated")
+                    "NAME=x,y,z: a point in patient space (LPS, mm) from which the class NAME "
+                    "grows; may be repeated")
         ->allow_extra_args(false);
 }
 

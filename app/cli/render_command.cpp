@@ -99,12 +99,15 @@ private:
         for (const char *const option :
              {"--view", "--azimuth", "--elevation", "--roll", "--orientation", "--carm"})
             if (m_command.count(option) > 0)
-                throw Error(ErrorCode::usage,
-                            because::inWords(std::string(option) +
-                                             ": --matrix says where the volume is seen from"));
+                throw Error(
+                    ErrorCode::usage,
+                    because::inWords(std::string(option) +
+                                     ": cannot be combined with --matrix, which sets the views"));
         if (out.extension() != ".npy")
-            throw Error(ErrorCode::usage,
-                        because::inWords("-o: the pictures of --matrix are one array, .npy"));
+            throw Error(
+                ErrorCode::usage,
+                because::inWords(
+                    "-o: --matrix writes all pictures as one array; the name must end in .npy"));
         std::error_code unknown;
         if (fs::equivalent(geometryPath(out), m_options.views, unknown))
             throw Error(ErrorCode::usage,
@@ -351,9 +354,9 @@ void addRenderCommand(CLI::App &app, const Context &context) {
          "Engine that renders the images; default: auto, which uses the GPU for turntables")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     c->add_option("--check", o->check,
-                  "Whose errors are measured, by exact sums at some frequencies: 'none', 'all', or "
-                  "'rest' (default), each single picture, and of a series the first, the last and "
-                  "six others")
+                  "Pictures whose error is measured, by exact sums at selected frequencies: "
+                  "'none', 'all', or 'rest' (default): every single picture and, of a series, the "
+                  "first, the last and six others")
         ->transform(CLI::CheckedTransformer(
             std::map<std::string, error::CheckedPictures>{{"none", error::CheckedPictures::none},
                                                           {"rest", error::CheckedPictures::rest},

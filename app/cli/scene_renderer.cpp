@@ -23,7 +23,8 @@ using task::ErrorCode;
 
 namespace {
 
-constexpr const char *whyExact = "no engine meets the tolerance: the exact reference does";
+constexpr const char *whyExact =
+    "no approximate engine meets the tolerance, so the exact reference is used";
 
 } // namespace
 

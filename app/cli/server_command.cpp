@@ -216,7 +216,8 @@ void addServerCommand(CLI::App &app, const Context &context) {
         put->add_option("--web", o->web, "URL of a DICOMweb service")->excludes(dicom);
     dicom->excludes(web);
     put->add_option("--tls", o->tls,
-                    "TLS for a DICOM server; default off. The URL of a DICOMweb service tells it")
+                    "TLS for a DICOM server; default off. For a DICOMweb service, the URL decides "
+                    "(http or https)")
         ->check(CLI::IsMember({"off", "on"}))
         ->excludes(web);
     put->add_option("--authorities", o->authorities,
@@ -224,8 +225,7 @@ void addServerCommand(CLI::App &app, const Context &context) {
                     "those of the system")
         ->check(CLI::ExistingFile);
     CLI::Option *certificate =
-        put->add_option("--certificate", o->certificate,
-                        "Client certificate, in PEM format")
+        put->add_option("--certificate", o->certificate, "Client certificate, in PEM format")
             ->check(CLI::ExistingFile);
     CLI::Option *key =
         put->add_option("--key", o->key, "Private key of the certificate, in PEM format")
@@ -255,14 +255,12 @@ void addServerCommand(CLI::App &app, const Context &context) {
     put->add_option("--authorization-url", o->login.authorizationUrl,
                     "Authorization endpoint, if there is no issuer")
         ->excludes(dicom);
-    put->add_option("--token-url", o->login.tokenUrl,
-                    "URL where the login server gives tokens, if there is no issuer")
+    put->add_option("--token-url", o->login.tokenUrl, "Token endpoint, if there is no issuer")
         ->excludes(dicom);
     put->add_option("--client-id", o->login.clientId,
                     "ID that the login server has for this program")
         ->excludes(dicom);
-    put->add_option("--scope", o->login.scope,
-                    "Scopes to request, such as 'openid offline_access'")
+    put->add_option("--scope", o->login.scope, "Scopes to request, such as 'openid offline_access'")
         ->excludes(dicom);
     put->add_option("--user", o->user, "User name for basic authentication");
     put->add_flag("--allow-insecure-login", o->allowsInsecureLogin,

@@ -22,7 +22,7 @@ PELLUCID_REASON(deidentifyIsForDicom, "is for the formats dicom and dicom-loop: 
 PELLUCID_REASON(holdsOtherThanResults, "contains '%1', which is not a result; choose an empty folder")
 PELLUCID_REASON(holdsNoResults, "is not a folder of results, and would be replaced")
 PELLUCID_REASON(matrixBelongsToViews, "is a matrix, which belongs to 'views'")
-PELLUCID_REASON(noSeriesIsChosen, "no series of the study is one that the recipe asks for")
+PELLUCID_REASON(noSeriesIsChosen, "no series of the study matches the recipe")
 
 // Export
 PELLUCID_REASON(colorsHaveNoGreyValues, "A picture in color has no grey values: export it as it looks, or as NumPy values")

@@ -27,7 +27,7 @@ PELLUCID_REASON(serverHasNothingThere, "the server has nothing at this address; 
 PELLUCID_REASON(serverAnswersHttp, "the server answers with HTTP status %1")
 PELLUCID_REASON(loginCanBeRead, "without TLS, others on the network can read the password or token: use https or TLS, or allow it for this server (in the window: save it again; on the command line: server add with --allow-insecure-login)")
 PELLUCID_REASON(loginHasExpired, "the login has expired; log in again")
-PELLUCID_REASON(receiverNeedsAuthorities, "to receive with TLS, this program needs the CA certificates that issue the senders' certificates (on the command line: --authorities)")
+PELLUCID_REASON(receiverNeedsAuthorities, "to receive with TLS, this program needs the certificates of the CAs that issued the senders' certificates (on the command line: --authorities)")
 PELLUCID_REASON(serverListsTooMuch, "the server lists more than %1 entries")
 PELLUCID_REASON(serverSays, "%1; the server reports: %2")
 PELLUCID_REASON(wasCancelled, "was cancelled")

@@ -285,12 +285,12 @@
         <translation>銳利（頻帶限制）(&amp;S)</translation>
     </message>
     <message>
-        <source>&amp;Film (inverted)</source>
-        <translation>底片（反相）(&amp;F)</translation>
+        <source>In&amp;verted grey (bone dark)</source>
+        <translation>反相灰階（骨骼為黑）(&amp;V)</translation>
     </message>
     <message>
-        <source>Film</source>
-        <translation>底片</translation>
+        <source>Inverted</source>
+        <translation>反相</translation>
     </message>
     <message>
         <source>&amp;Automatic brightness</source>
@@ -1786,7 +1786,7 @@
         <translation>第 %1 張，共 %2 張：%4 與 %5 之間有 %3 mm 的空隙</translation>
     </message>
     <message>
-        <source>files labelled explicit VR but encoded as implicit VR: %1</source>
+        <source>files labeled explicit VR but encoded as implicit VR: %1</source>
         <translation>標示為顯式、實際為隱式編碼的檔案：%1</translation>
     </message>
     <message>
@@ -1890,11 +1890,11 @@
         <translation>體積過大</translation>
     </message>
     <message>
-        <source>the origin is more than a kilometre away</source>
+        <source>the origin is more than a kilometer away</source>
         <translation>原點距離超過一公里</translation>
     </message>
     <message>
-        <source>the sample spacing is less than a nanometre or more than ten metres</source>
+        <source>the sample spacing is less than a nanometer or more than ten metres</source>
         <translation>取樣間距小於一奈米或大於十公尺</translation>
     </message>
     <message>
@@ -2926,7 +2926,7 @@
         <translation>檔案以單位「%1」記錄</translation>
     </message>
     <message>
-        <source>they are normalised by &apos;%1&apos;, not by body weight</source>
+        <source>they are normalized by &apos;%1&apos;, not by body weight</source>
         <translation>數值以「%1」標準化，而非體重</translation>
     </message>
     <message>
@@ -3034,7 +3034,7 @@
         <translation>伺服器不認得本程式；請在伺服器登錄其 AE 名稱</translation>
     </message>
     <message>
-        <source>the server has another AE title</source>
+        <source>the server does not accept this AE title as its own; check the AE title of the server</source>
         <translation>伺服器的 AE 名稱不同</translation>
     </message>
     <message>
@@ -3070,7 +3070,7 @@
         <translation>不認得傳送端 %1</translation>
     </message>
     <message>
-        <source>the sender %1 wants to reach %2</source>
+        <source>the sender %1 called the AE title %2, which is not this program&apos;s</source>
         <translation>傳送端 %1 要連至 %2</translation>
     </message>
     <message>
@@ -3102,11 +3102,11 @@
         <translation>伺服器資源不足</translation>
     </message>
     <message>
-        <source>the server is out of resources to count the objects</source>
+        <source>the server does not have enough resources to count the objects</source>
         <translation>伺服器資源不足，無法計算物件數</translation>
     </message>
     <message>
-        <source>the server is out of resources to send the objects</source>
+        <source>the server does not have enough resources to send the objects</source>
         <translation>伺服器資源不足，無法傳送物件</translation>
     </message>
     <message>
@@ -3326,7 +3326,7 @@
         <translation>在瀏覽器中登入的伺服器須使用 https 網址，以免權杖在途中被讀取</translation>
     </message>
     <message>
-        <source>a login in the browser needs the address of the issuer, or those of authorization and of tokens</source>
+        <source>a login in the browser needs the issuer URL, or the authorization URL and the token URL</source>
         <translation>在瀏覽器中登入需要發行者的網址，或授權與權杖的網址</translation>
     </message>
     <message>
@@ -3342,7 +3342,7 @@
         <translation>「%1」不是範圍；請使用以空格分隔的 ASCII 字詞</translation>
     </message>
     <message>
-        <source>the login server does not describe its addresses; enter those of authorization and of tokens</source>
+        <source>the login server does not publish its endpoints; enter the authorization URL and the token URL</source>
         <translation>登入伺服器未說明其網址；請輸入授權與權杖的網址</translation>
     </message>
     <message>
@@ -3482,7 +3482,7 @@
         <translation>配方尚不能相減體積</translation>
     </message>
     <message>
-        <source>no series of the study is one that the recipe asks for</source>
+        <source>no series of the study matches the recipe</source>
         <translation>檢查中沒有配方所要求的序列</translation>
     </message>
     <message>
@@ -3574,7 +3574,7 @@
         <translation>伺服器僅能傳送至其他電腦（C-MOVE）：若要以 TLS 接收，本程式需要憑證、其私密金鑰與憑證機構的憑證</translation>
     </message>
     <message>
-        <source>to receive with TLS, this program needs the CA certificates that issue the senders&apos; certificates (on the command line: --authorities)</source>
+        <source>to receive with TLS, this program needs the certificates of the CAs that issued the senders&apos; certificates (on the command line: --authorities)</source>
         <translation>若要以 TLS 接收，本程式需要簽發傳送端憑證之憑證機構的憑證（命令列：--authorities）</translation>
     </message>
     <message>
@@ -3956,7 +3956,7 @@
         <translation>標準差</translation>
     </message>
     <message>
-        <source>Half the side of the neighbourhood</source>
+        <source>Half the side of the neighborhood</source>
         <translation>鄰域邊長的一半</translation>
     </message>
     <message>
@@ -4052,7 +4052,7 @@
         <translation>邊緣</translation>
     </message>
     <message>
-        <source>One density above a value</source>
+        <source>Uniform density above a value</source>
         <translation>高於某值則密度為一</translation>
     </message>
     <message>
@@ -4208,7 +4208,7 @@
         <translation>與待點按的點相連</translation>
     </message>
     <message numerus="yes">
-        <source>connected to %n point(s), not through less than %1 mm</source>
+        <source>connected to %n point(s), not through openings narrower than %1 mm</source>
         <translation>
             <numerusform>與 %n 個點相連，不穿過窄於 %1 mm 處</numerusform>
         </translation>
@@ -4244,7 +4244,7 @@
         <translation>高於 %1 的邊緣</translation>
     </message>
     <message>
-        <source>one density from %1</source>
+        <source>uniform density from %1</source>
         <translation>自 %1 起密度為一</translation>
     </message>
 </context>
@@ -4500,7 +4500,7 @@
         <translation>箭頭</translation>
     </message>
     <message>
-        <source>drag from what it shows to where its text is</source>
+        <source>drag from the structure it points to, to where the text goes</source>
         <translation>由所指之處拖曳至文字處</translation>
     </message>
     <message>
@@ -5296,7 +5296,7 @@
         <translation>最近三個</translation>
     </message>
     <message>
-        <source>Click to open it beside</source>
+        <source>Click to open it side by side</source>
         <translation>按一下以並排開啟</translation>
     </message>
     <message>
@@ -5308,10 +5308,10 @@
         <translation>沒有此病人的其他檢查。</translation>
     </message>
     <message>
-        <source>This study may be of another patient:
+        <source>This study may belong to a different patient:
 %1
 
-Open it beside?</source>
+Open it side by side?</source>
         <translation>此檢查可能屬於其他病人：
 %1
 
@@ -5464,7 +5464,7 @@ Open it beside?</source>
         <translation>不含病患身分</translation>
     </message>
     <message>
-        <source>No name, number, dates or study of the patient, and a new study UID (DICOM PS3.15, basic profile)</source>
+        <source>Removes the patient&apos;s name, ID, dates and study, and sets a new study UID (DICOM PS3.15, basic profile)</source>
         <translation>不含病患的姓名、編號、日期與檢查資料，並使用新的檢查 UID（DICOM PS3.15 基本設定檔）</translation>
     </message>
     <message>
@@ -6459,7 +6459,7 @@ Open it beside?</source>
         <translation>樣條</translation>
     </message>
     <message>
-        <source>Predicted relative error of a picture of the whole from any side; the error of the picture shown is beside it</source>
+        <source>Predicted relative error of a picture of the whole volume from any direction; the projection shows the error of the current picture</source>
         <translation>預測的整體影像於任何方向的相對誤差；目前影像的誤差顯示於其旁</translation>
     </message>
     <message>
@@ -6599,7 +6599,7 @@ Open it beside?</source>
         <translation>接收位址</translation>
     </message>
     <message>
-        <source>CA certificates that issue the senders&apos; certificates (PEM); each of these must name its sender&apos;s host or address</source>
+        <source>Certificates of the CAs that issued the senders&apos; certificates (PEM). Each sender&apos;s certificate must name its host or address</source>
         <translation>簽發傳送端憑證之憑證機構的憑證（PEM）；每份傳送端憑證須載明該傳送端的主機或位址</translation>
     </message>
     <message>
@@ -6690,7 +6690,7 @@ Open it beside?</source>
         <translation>在切面或投影中點按骨骼</translation>
     </message>
     <message>
-        <source>Click in a plane or the projection; drag up for more values</source>
+        <source>Click in a plane or the projection; drag up to include more values</source>
         <translation>在切面或投影中點按；向上拖曳接受更多數值</translation>
     </message>
     <message>
@@ -7384,7 +7384,7 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>關閉</translation>
     </message>
     <message>
-        <source>Close the study beside</source>
+        <source>Close the second study</source>
         <translation>關閉並排的檢查</translation>
     </message>
     <message>
@@ -7628,7 +7628,7 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>減去體積</translation>
     </message>
     <message>
-        <source>Subtract from %1, such as the phase before the contrast:</source>
+        <source>Subtract from %1, for example the pre-contrast phase:</source>
         <translation>從 %1 減去，例如注射顯影劑之前的時相：</translation>
     </message>
     <message>
@@ -7792,7 +7792,7 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>傳輸</translation>
     </message>
     <message>
-        <source>Remove what has ended from the list; the images stay</source>
+        <source>Remove finished transfers from the list; the images stay</source>
         <translation>從清單中移除已結束者；影像仍保留</translation>
     </message>
     <message>

@@ -147,7 +147,7 @@ std::vector<Row> associating(Task task, const char *outcome) {
         {task,
          "reject",
          {.negotiation = {.rejection = std::array{1, 1, 7}}},
-         fails("0 sent: the server has another AE title", "the server has another AE title")},
+         fails("0 sent: the server does not accept this AE title as its own; check the AE title of the server", "the server does not accept this AE title as its own; check the AE title of the server")},
         {task, "maxassoc=2", {.maxAssociations = 2}, outcome},
         {task, "maxassoc=1", {.maxAssociations = 1}, outcome},
         {task, "bind", {.address = "127.0.0.2"}, outcome},
@@ -338,12 +338,12 @@ std::vector<Row> retrieving() {
         {task,
          "getstatus=A702, comment",
          {.comment = "the archive is offline", .getStatus = 0xa702},
-         "0 of 8 incomplete: the server is out of resources to send the objects"
+         "0 of 8 incomplete: the server does not have enough resources to send the objects"
          " (0xA702: the archive is offline)"},
         {task,
          "getstatus=A702, noget",
          {.offersGet = false, .getStatus = 0xa702},
-         "0 of 8 incomplete: the server is out of resources to send the objects (0xA702)"},
+         "0 of 8 incomplete: the server does not have enough resources to send the objects (0xA702)"},
         {task,
          "getstatus=C000",
          {.getStatus = 0xc000},

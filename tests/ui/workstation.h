@@ -118,13 +118,12 @@ protected:
         endProgram();
         m_program = std::make_unique<ui::Workstation>();
         mainWindow().resize(size);
-        mainWindow().activateWindow();
-        QVERIFY(QTest::qWaitForWindowExposed(&mainWindow()));
+        mainWindow().activateWindow(); // keys go to the active window
+        QVERIFY(QTest::qWaitForWindowActive(&mainWindow()));
     }
     void endProgram() { m_program.reset(); }
 
     ui::Workbench &bench() const { return m_program->bench(); }
-    /// Another window after a change of language or theme.
     ui::MainWindow &mainWindow() const { return m_program->window(); }
     ui::Document &document() const { return mainWindow().document(); }
     ui::JobRunner &jobs() const { return mainWindow().jobs(); }

@@ -162,7 +162,7 @@ QWidget *StudyBeside::makeHeading() {
     auto *close = new QToolButton;
     close->setObjectName("closeBesideButton");
     close->setText(tr("Close"));
-    close->setToolTip(tr("Close the study beside"));
+    close->setToolTip(tr("Close the second study"));
     auto *row = new QHBoxLayout(heading);
     row->setContentsMargins(10, 2, 6, 2);
     row->addWidget(m_name, 1);

@@ -67,15 +67,14 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     setAttribute(Qt::WA_DeleteOnClose);
     m_pane->setCurrentIndex(int(Pane::projection));
     if (!files::VideoFile::isAvailable())
-        m_format->setItemText(int(PictureFormat::video),
-                              tr("Turntable video (MP4), needs ffmpeg"));
+        m_format->setItemText(int(PictureFormat::video), tr("Turntable video (MP4), needs ffmpeg"));
     m_annotated->setObjectName("exportAnnotatedBox");
     m_annotated->setChecked(true);
     m_annotated->setToolTip(tr("Names, letters, scale and measurements; without them the picture "
                                "does not mark the patient's sides"));
     m_deidentified->setObjectName("exportDeidentifiedBox");
-    m_deidentified->setToolTip(tr("No name, number, dates or study of the patient, and a new study "
-                                  "UID (DICOM PS3.15, basic profile)"));
+    m_deidentified->setToolTip(tr("Removes the patient's name, ID, dates and study, and sets a new "
+                                  "study UID (DICOM PS3.15, basic profile)"));
     m_patient->setObjectName("exportPatientBox");
     m_patient->setToolTip(tr("The patient's name in annotations: choose one or type a pseudonym"));
     m_patient->setEditable(true);

@@ -56,8 +56,8 @@ ReceiverForm::ReceiverForm(StudyReceiver &receiver, QWidget *parent)
     m_key->setText(now.key);
     m_authorities =
         addFileRow(*m_form, tr("CA certificates"), "receiverAuthoritiesEdit",
-                   tr("CA certificates that issue the senders' certificates (PEM); each of these "
-                      "must name its sender's host or address"));
+                   tr("Certificates of the CAs that issued the senders' certificates (PEM). Each "
+                      "sender's certificate must name its host or address"));
     m_authorities->setText(now.authorities);
     m_state->setObjectName("receiverState");
     m_state->setWordWrap(true);

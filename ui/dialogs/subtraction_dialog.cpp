@@ -60,7 +60,7 @@ SubtractionDialog::SubtractionDialog(const StudySource &minuend,
     setWindowTitle(tr("Subtract a volume"));
     setAttribute(Qt::WA_DeleteOnClose);
     setMinimumWidth(460);
-    auto *what = new PlainLabel(tr("Subtract from %1, such as the phase before the contrast:")
+    auto *what = new PlainLabel(tr("Subtract from %1, for example the pre-contrast phase:")
                                     .arg(seriesText(minuend.volume)));
     what->setWordWrap(true);
     m_list->setObjectName("subtrahendList");

@@ -22,7 +22,7 @@ struct StepTexts {
 // Listed here for lupdate: the meanings and units of parameters.
 [[maybe_unused]] constexpr const char *parameters[] = {
     QT_TRANSLATE_NOOP("StepTexts", "Standard deviation"),
-    QT_TRANSLATE_NOOP("StepTexts", "Half the side of the neighbourhood"),
+    QT_TRANSLATE_NOOP("StepTexts", "Half the side of the neighborhood"),
     QT_TRANSLATE_NOOP("StepTexts", "Number of iterations"),
     QT_TRANSLATE_NOOP("StepTexts", "Lower values preserve more edges"),
     QT_TRANSLATE_NOOP("StepTexts", "Standard deviation of prior smoothing"),
@@ -72,7 +72,8 @@ QString pointsText(const Step &step) {
     const int count = int(step.points.size());
     const double leak = step.at("leak_mm");
     return leak > 0.0
-               ? StepTexts::tr("connected to %n point(s), not through less than %1 mm", "", count)
+               ? StepTexts::tr("connected to %n point(s), not through openings narrower than %1 mm",
+                               "", count)
                      .arg(number(leak))
                : StepTexts::tr("connected to %n point(s)", "", count);
 }
@@ -96,7 +97,7 @@ QString stepName(StepKind kind) {
     case StepKind::edges:
         return StepTexts::tr("Edges");
     case StepKind::binarise:
-        return StepTexts::tr("One density above a value");
+        return StepTexts::tr("Uniform density above a value");
     case StepKind::opening:
         return StepTexts::tr("Remove what is thin");
     case StepKind::closing:
@@ -178,7 +179,7 @@ QString stepWords(const Step &step) {
     case StepKind::edges:
         return StepTexts::tr("edges above %1").arg(mm("high"));
     case StepKind::binarise:
-        return StepTexts::tr("one density from %1").arg(mm("from"));
+        return StepTexts::tr("uniform density from %1").arg(mm("from"));
     }
     return {};
 }

@@ -131,8 +131,8 @@ void EarlierPanel::list() {
         item->setData(0, uidRole, one.study.uid);
         if (!current.isEmpty() && one.study.uid == current)
             m_tree->setCurrentItem(item);
-        const QString tip = tr("Click to open it beside") + "\n" + identityText(one.study) + "\n" +
-                            one.servers.join(", ");
+        const QString tip = tr("Click to open it side by side") + "\n" + identityText(one.study) +
+                            "\n" + one.servers.join(", ");
         for (const int column : {0, 1})
             item->setToolTip(column, plainToolTip(tip));
     }
@@ -168,7 +168,7 @@ void EarlierPanel::activate(const QTreeWidgetItem &item) {
     }
     ask(window(),
         {"otherPatientQuestion", tr("Possibly a different patient"),
-         tr("This study may be of another patient:\n%1\n\nOpen it beside?")
+         tr("This study may belong to a different patient:\n%1\n\nOpen it side by side?")
              .arg(identityText(chosen.study)),
          tr("Open")},
         [this, chosen] { emit besideRequested(chosen); });

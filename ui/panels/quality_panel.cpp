@@ -107,8 +107,8 @@ void QualityPanel::addChoices(QFormLayout *form) {
 void QualityPanel::addFigures(QFormLayout *form) {
     m_time = addFigure(form, tr("Frame"), "frameTimeLabel", tr("Time of the last frame"));
     m_error = addFigure(form, tr("Error"), "predictedErrorLabel",
-                        tr("Predicted relative error of a picture of the whole from any side; the "
-                           "error of the picture shown is beside it"));
+                        tr("Predicted relative error of a picture of the whole volume from any "
+                           "direction; the projection shows the error of the current picture"));
     m_plan = addFigure(form, tr("Plan"), "planLabel", tr("Kernel, storage and memory in use"));
     m_reason = new PlainLabel;
     m_reason->setObjectName("planReasonLabel");

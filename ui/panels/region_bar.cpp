@@ -204,9 +204,10 @@ void RegionBar::showMarking() {
     if (addsPoints && selected >= 0)
         m_text->setText(tr("Click a point of %1 in a plane or the projection").arg(selectedName));
     else if (grows)
-        m_text->setText(options.isBone
-                            ? tr("Click bone in a plane or the projection")
-                            : tr("Click in a plane or the projection; drag up for more values"));
+        m_text->setText(
+            options.isBone
+                ? tr("Click bone in a plane or the projection")
+                : tr("Click in a plane or the projection; drag up to include more values"));
     else if (paints)
         m_text->setText(tr("Drag in a plane or the projection"));
     else

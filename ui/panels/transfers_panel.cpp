@@ -59,7 +59,7 @@ TransfersPanel::TransfersPanel(TransferQueue &queue, StudyReceiver &receiver, Se
     m_empty->setWordWrap(true);
     m_corner->setObjectName("clearTransfersButton");
     m_corner->setProperty("role", "link");
-    m_corner->setToolTip(tr("Remove what has ended from the list; the images stay"));
+    m_corner->setToolTip(tr("Remove finished transfers from the list; the images stay"));
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(14, 4, 10, 12);
     layout->addWidget(m_receiving);

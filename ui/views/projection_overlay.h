@@ -41,7 +41,6 @@ public:
     bool isOnFigures(const QPointF &at) const;
     /// Whether a position is on the mark of the warnings.
     bool isOnWarnings(const QPoint &at) const;
-    bool isClickable(const QPointF &at) const { return isOnAngles(at) || cubeSideAt(at); }
     /// Paints the annotations over any picture of the pane's size.
     void paint(QPainter &painter, const PaneMapping &mapping, Marks marks, Names names) const;
 

@@ -88,11 +88,11 @@ std::vector<Command> lookCommands(const Scope &scope) {
         reconstruction(document, "bandLimitedAction", LookCommands::tr("&Sharp (band-limited)"),
                        Reconstruction::bandLimited),
         {.id = "filmAction",
-         .text = LookCommands::tr("&Film (inverted)"),
+         .text = LookCommands::tr("In&verted grey (bone dark)"),
          .key = "I",
          .run =
              [&document] {
-                 editScene(document, LookCommands::tr("Film"), noDrag,
+                 editScene(document, LookCommands::tr("Inverted"), noDrag,
                            [](scene::Scene &scene) { scene.tone.inverted = !scene.tone.inverted; });
              },
          .isChecked = [&document] { return document.scene().tone.inverted; }},
