@@ -205,7 +205,8 @@ void addSegmentCommand(CLI::App &app, const Context &context) {
                       "and has values within --between; may be repeated")
             ->allow_extra_args(false);
     CLI::Option *between =
-        c->add_option("--between", o->between, "LO,HI: value range in which --grow spreads")->needs(grow);
+        c->add_option("--between", o->between, "LO,HI: value range in which --grow spreads")
+            ->needs(grow);
     grow->needs(between);
     c->add_option("--leak-mm", o->leakMm,
                   "Do not grow through openings narrower than this; default 0")

@@ -16,7 +16,7 @@ PELLUCID_REASON(viewsAreGivenTwice, "has more than one of view, views and turnta
 PELLUCID_REASON(nameIsTaken, "the name '%1' is that of another output")
 PELLUCID_REASON(needsANameOfItsOwn, "needs a name: its default, '%1', is the name of another output")
 PELLUCID_REASON(nameIsReserved, "the name '%1' is reserved for the record of the results")
-PELLUCID_REASON(fitHasNoChoice, "pixel_mm and size contradict 'fit'; remove one")
+PELLUCID_REASON(fitHasNoChoice, "cannot be met with both pixel_mm and size; remove one")
 PELLUCID_REASON(matricesDecideTheFit, "cannot be met: the matrices determine what a picture contains")
 PELLUCID_REASON(deidentifyIsForDicom, "is for the formats dicom and dicom-loop: other formats contain no identity")
 PELLUCID_REASON(holdsOtherThanResults, "contains '%1', which is not a result; choose an empty folder")

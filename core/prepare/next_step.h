@@ -35,7 +35,7 @@ struct Have {
     std::optional<Underway> underway;
     std::optional<PreparedFor> givenUp;       ///< a full engine that was cancelled or failed
     std::optional<PreparedFor> layersGivenUp; ///< layers that were cancelled or failed
-    bool isHeld = false; ///< studies are being scanned: nothing is prepared now
+    bool isHeld = false; ///< a job that changes the scene is running: nothing is prepared now
 };
 
 /// What has just happened.

@@ -38,17 +38,17 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>connected to %n point(s), not through less than %1 mm</source>
-        <translation>
-            <numerusform>connected to %n point, not through less than %1 mm</numerusform>
-            <numerusform>connected to %n points, not through less than %1 mm</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>connected to %n point(s)</source>
         <translation>
             <numerusform>connected to %n point</numerusform>
             <numerusform>connected to %n points</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>connected to %n point(s), not through openings narrower than %1 mm</source>
+        <translation>
+            <numerusform>connected to %n point, not through openings narrower than %1 mm</numerusform>
+            <numerusform>connected to %n points, not through openings narrower than %1 mm</numerusform>
         </translation>
     </message>
 </context>

@@ -285,8 +285,8 @@
         <translation>銳利（頻帶限制）(&amp;S)</translation>
     </message>
     <message>
-        <source>In&amp;verted grey (bone dark)</source>
-        <translation>反相灰階（骨骼為黑）(&amp;V)</translation>
+        <source>In&amp;verted projection (bone dark)</source>
+        <translation>反相投影（骨骼為黑）(&amp;V)</translation>
     </message>
     <message>
         <source>Inverted</source>
@@ -962,6 +962,10 @@
     <message>
         <source>Cropped</source>
         <translation>已裁切</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
     </message>
 </context>
 <context>
@@ -3886,7 +3890,7 @@
         <translation>%1；它可能接受未壓縮的檔案：請為此伺服器勾選「不接受該編碼時解壓縮」（命令列：server add 加上 --uncompress）</translation>
     </message>
     <message>
-        <source>pixel_mm and size contradict &apos;fit&apos;; remove one</source>
+        <source>cannot be met with both pixel_mm and size; remove one</source>
         <translation>pixel_mm 與 size 和「fit」矛盾；請移除其一</translation>
     </message>
     <message>
@@ -3904,6 +3908,10 @@
     <message>
         <source>the other side&apos;s certificate is not accepted: %1; if you trust it, add its CA certificates (in the window: CA certificates; on the command line: server add with --authorities)</source>
         <translation>不接受對方的憑證：%1；若您信任此伺服器，請加入其憑證機構的憑證（視窗中：CA 憑證；命令列：server add 加上 --authorities）</translation>
+    </message>
+    <message>
+        <source>the manual is not installed</source>
+        <translation>未安裝使用手冊</translation>
     </message>
 </context>
 <context>
@@ -6322,10 +6330,6 @@ Open it side by side?</source>
     <message>
         <source>Reset window</source>
         <translation>重設窗</translation>
-    </message>
-    <message>
-        <source>%1: %2</source>
-        <translation>%1：%2</translation>
     </message>
 </context>
 <context>

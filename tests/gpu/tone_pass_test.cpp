@@ -5,6 +5,7 @@
 #include <functional>
 #include <random>
 #include <span>
+#include <stdexcept>
 
 #include <epoxy/gl.h>
 
@@ -156,7 +157,7 @@ TEST_F(TonePass, ABrokenShaderIsNamed) {
         EXPECT_NE(std::string(error.what()).find("lib/tone.glsl"), std::string::npos)
             << error.what();
     }
-    EXPECT_THROW(gpu::Program("absent.vert", "tone.frag"), task::Error);
+    EXPECT_THROW(gpu::Program("absent.vert", "tone.frag"), std::logic_error);
 }
 
 TEST(Shaders, IncludesAreReplacedAndNumbered) {

@@ -147,7 +147,10 @@ std::vector<Row> associating(Task task, const char *outcome) {
         {task,
          "reject",
          {.negotiation = {.rejection = std::array{1, 1, 7}}},
-         fails("0 sent: the server does not accept this AE title as its own; check the AE title of the server", "the server does not accept this AE title as its own; check the AE title of the server")},
+         fails("0 sent: the server does not accept this AE title as its own; check the AE title of "
+               "the server",
+               "the server does not accept this AE title as its own; check the AE title of the "
+               "server")},
         {task, "maxassoc=2", {.maxAssociations = 2}, outcome},
         {task, "maxassoc=1", {.maxAssociations = 1}, outcome},
         {task, "bind", {.address = "127.0.0.2"}, outcome},
@@ -343,7 +346,8 @@ std::vector<Row> retrieving() {
         {task,
          "getstatus=A702, noget",
          {.offersGet = false, .getStatus = 0xa702},
-         "0 of 8 incomplete: the server does not have enough resources to send the objects (0xA702)"},
+         "0 of 8 incomplete: the server does not have enough resources to send the objects "
+         "(0xA702)"},
         {task,
          "getstatus=C000",
          {.getStatus = 0xc000},

@@ -230,7 +230,7 @@ TEST_F(Pacs, HelpersThatAreKilledWhileTheyReceiveKeepWhatWasConfirmed) {
         const std::string crashed = task::Reason(because::helperCrashed).english();
         const auto named = std::count(ends.begin(), ends.end(), crashed),
                    inOrder = std::count(ends.begin(), ends.end(), "");
-        EXPECT_EQ(named + inOrder, 2) << ends.front();
+        EXPECT_EQ(named + inOrder, 2) << ends.front() << "; " << ends.back();
         EXPECT_TRUE(first.exitCode == 0 || named == 1) << ends.front();
         fs::remove_all(folder.folder());
     }

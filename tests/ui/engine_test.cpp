@@ -70,12 +70,12 @@ private slots:
         useSmallWindow();
         open(headPath());
         const auto isMeasured = [&] {
-            const auto &error = projection()->frameError();
+            const auto &error = projection()->frames().error();
             return error && error->isMeasured();
         };
         const auto measure = [&] {
             QTRY_VERIFY_WITH_TIMEOUT(isMeasured(), patienceMs);
-            const error::StatedError error = *projection()->frameError();
+            const error::StatedError error = *projection()->frames().error();
             QVERIFY(error.relative > 0.0 && error.relative < 1.1e-3);
             QVERIFY(error.low <= error.relative && error.relative <= error.high);
             QVERIFY(error.frequencies > 0);
@@ -96,7 +96,7 @@ private slots:
         useSmallWindow();
         open(headPath());
         const auto measured = [&] {
-            const auto &error = projection()->frameError();
+            const auto &error = projection()->frames().error();
             return error && error->isMeasured() ? error->relative : 0.0;
         };
         // Estimates follow each other until one is good enough.
@@ -170,7 +170,7 @@ private slots:
         find<QAction>("depthCueAction")->trigger();
         settle();
         const QImage byProcessor = byCommandLine("cpu");
-        QCOMPARE(largestDifference(byProcessor, composed(projection()->pictureRenderer()(
+        QCOMPARE(largestDifference(byProcessor, composed(projection()->frames().renderer()(
                                                     projection()->sceneOfPicture().camera))),
                  0);
         QCOMPARE(largestDifference(byProcessor, projection()->picture()), 0);
@@ -202,10 +202,10 @@ private slots:
         chooseCard();
         const QImage before = projection()->picture();
         // A failure of the former passes does not concern the card that was chosen since.
-        emit projection()->cardFailed(task::because::cardWasLost, nullptr);
+        emit projection()->frames().cardFailed(task::because::cardWasLost, nullptr);
         QTRY_VERIFY_WITH_TIMEOUT(isOnCard(), patienceMs);
-        emit projection()->cardFailed(task::because::cardWasReset,
-                                      mainWindow().graphicsCard().passes());
+        emit projection()->frames().cardFailed(task::because::cardWasReset,
+                                               mainWindow().graphicsCard().passes());
         settle();
         QVERIFY2(engineText().startsWith("CPU engine, "), qPrintable(engineText()));
         QVERIFY(engineText().contains("its driver was reset"));
@@ -280,7 +280,7 @@ private slots:
         view->resize(place.size());
         view->show();
         QVERIFY(QTest::qWaitForWindowExposed(view));
-        QTRY_VERIFY_WITH_TIMEOUT(view->showsFinalImage(), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(view->frames().showsFinalImage(), patienceMs);
         const QImage moved = canvasWidget->grabFramebuffer();
         view->setParent(home);
         view->show();
@@ -373,8 +373,9 @@ private slots:
             QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !jobs().isRunning(), patienceMs);
             // The check renders a grid of its own: without it, a study may need fewer tables than
             // the next one.
-            QTRY_VERIFY_WITH_TIMEOUT(
-                projection()->frameError() && projection()->frameError()->isMeasured(), patienceMs);
+            QTRY_VERIFY_WITH_TIMEOUT(projection()->frames().error() &&
+                                         projection()->frames().error()->isMeasured(),
+                                     patienceMs);
             QVERIFY(sharedGlObjects() > closed);
         };
         // The first studies on the card leave what the next ones use again: pictures and tables, of
@@ -439,7 +440,7 @@ private:
     void awaitCard() {
         jobs().join();
         // The worker drops the card first, then it answers: without a study there is no picture.
-        QVERIFY_EXCEPTION_THROWN(projection()->pictureRenderer()(document().scene().camera),
+        QVERIFY_EXCEPTION_THROWN(projection()->frames().renderer()(document().scene().camera),
                                  task::Error);
         QCoreApplication::processEvents();
         mainWindow().graphicsCard().passes()->device().run([] {});

@@ -62,7 +62,7 @@ private slots:
         exported("Projection", 3, 1, false);
         const volume::Volume values = decoder::readVolumeFile(m_folder / "out.nrrd");
         const picture::ProjectionImage image =
-            projection()->pictureRenderer()(projection()->sceneOfPicture().camera);
+            projection()->frames().renderer()(projection()->sceneOfPicture().camera);
         QCOMPARE(values.lattice().size(), (volume::GridSize{image.width, image.height, 1}));
         QCOMPARE(float(values.value({100, 200, 0})),
                  image.samples[200 * std::size_t(image.width) + 100]);

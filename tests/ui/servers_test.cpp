@@ -174,7 +174,9 @@ private slots:
         QVERIFY(bench().receiver.failure()->is(task::because::receiverNeedsAuthorities));
         find<QAction>("serversAction")->trigger();
         auto *const dialog = find<QDialog>("serversDialog");
-        QVERIFY(dialog->findChild<QLabel *>("receiverState")->text().contains("CA certificates"));
+        QVERIFY(dialog->findChild<QLabel *>("receiverState")
+                    ->text()
+                    .contains("certificates of the CAs"));
         // It listens where it is told to.
         settings.usesTls = false;
         settings.address = "192.0.2.1";
@@ -426,8 +428,8 @@ private slots:
             send("archive", format);
             press();
             // It says so, and does not send the same twice.
-            QTRY_VERIFY_WITH_TIMEOUT(
-                find<QLabel>("exportMessage")->text().contains("has received it"), patienceMs);
+            QTRY_VERIFY_WITH_TIMEOUT(find<QLabel>("exportMessage")->text().contains("Sent to"),
+                                     patienceMs);
             QVERIFY(!find<QPushButton>("exportWriteButton")->isEnabled());
         }
         archive::SearchTerms terms;
@@ -527,7 +529,7 @@ private slots:
         open(QString::fromStdString((m_folder / "now").string()));
         // One of the same patient, and one under the heading of the uncertain.
         QTRY_COMPARE_WITH_TIMEOUT(earlier->topLevelItemCount(), 3, patienceMs);
-        QVERIFY(earlier->topLevelItem(1)->text(0).contains("another patient"));
+        QVERIFY(earlier->topLevelItem(1)->text(0).contains("different patient"));
         save("earlier");
         const auto click = [&](int row) {
             QTest::mouseClick(earlier->viewport(), Qt::LeftButton, {},

@@ -256,7 +256,7 @@ private:
                           [&](scene::Scene &scene) { scene = *m_picturedScene; });
             settleDown();
             QTRY_VERIFY_WITH_TIMEOUT(view->showsWhatIsAskedFor(), patienceMs);
-            samples = view->pictureRenderer()(m_picturedScene->camera).samples;
+            samples = view->frames().renderer()(m_picturedScene->camera).samples;
             m_program->bench().study.opener.closeSource(document().currentSource());
             settleDown();
         }();

@@ -118,8 +118,8 @@ protected:
         endProgram();
         m_program = std::make_unique<ui::Workstation>();
         mainWindow().resize(size);
-        mainWindow().activateWindow(); // keys go to the active window
-        QVERIFY(QTest::qWaitForWindowActive(&mainWindow()));
+        QVERIFY(QTest::qWaitForWindowExposed(&mainWindow()));
+        QVERIFY(activate(mainWindow())); // keys go to the active window
     }
     void endProgram() { m_program.reset(); }
 

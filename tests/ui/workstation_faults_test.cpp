@@ -129,13 +129,13 @@ private slots:
             ui::editScene(document(), "Tolerance", ui::noDrag,
                           [](scene::Scene &scene) { scene.tolerance = 1e-5; });
             QTRY_VERIFY(!jobs().isRunning());
-            QCOMPARE(projection()->planState(), ui::PlanState::failed);
+            QCOMPARE(projection()->frames().planState(), ui::PlanState::failed);
             QCOMPARE(document().problems().size(), 1U);
         }
         QTest::keyClick(&mainWindow(), Qt::Key_F5);
-        QCOMPARE(projection()->planState(), ui::PlanState::underway);
+        QCOMPARE(projection()->frames().planState(), ui::PlanState::underway);
         settle();
-        QCOMPARE(projection()->planState(), ui::PlanState::holds);
+        QCOMPARE(projection()->frames().planState(), ui::PlanState::holds);
     }
 
     // A limit too low to start with is reported before libraries that need more crash.
@@ -184,8 +184,8 @@ private slots:
             program.window().openPaths({QString::fromStdString(large.string())});
             const bool isOver = QTest::qWaitFor(rests, patienceMs);
             // Frames, too.
-            (void)QTest::qWaitFor([&] { return view->showsFinalImage() || !failures.isEmpty(); },
-                                  2000);
+            (void)QTest::qWaitFor(
+                [&] { return view->frames().showsFinalImage() || !failures.isEmpty(); }, 2000);
             little.reset();
             QVERIFY(isOver);
             const bool isOpen = slices() == 128;

@@ -247,11 +247,11 @@ private slots:
             document().volume() && !document().isPreview() && jobs().isRunning(), patienceMs);
         QTest::keyClick(&mainWindow(), Qt::Key_Escape);
         QVERIFY(!jobs().isRunning());
-        QCOMPARE(projection()->planState(), ui::PlanState::cancelled);
+        QCOMPARE(projection()->frames().planState(), ui::PlanState::cancelled);
         QTest::keyClick(&mainWindow(), Qt::Key_F5);
-        QCOMPARE(projection()->planState(), ui::PlanState::underway);
+        QCOMPARE(projection()->frames().planState(), ui::PlanState::underway);
         settle();
-        QCOMPARE(projection()->planState(), ui::PlanState::holds);
+        QCOMPARE(projection()->frames().planState(), ui::PlanState::holds);
     }
 
     // The picture, its name and the scene return together, and the cancel can be undone.
@@ -263,12 +263,12 @@ private slots:
         QVERIFY(jobs().isRunning());
         QTest::keyClick(&mainWindow(), Qt::Key_Escape);
         QVERIFY(!jobs().isRunning());
-        QCOMPARE(projection()->planState(), ui::PlanState::holds);
+        QCOMPARE(projection()->frames().planState(), ui::PlanState::holds);
         QCOMPARE(document().scene().tolerance, tolerance);
         document().undoStack()->undo();
         settle();
         QCOMPARE(document().scene().tolerance, 1e-5);
-        QCOMPARE(projection()->planState(), ui::PlanState::holds);
+        QCOMPARE(projection()->frames().planState(), ui::PlanState::holds);
         QVERIFY(find<QLabel>("predictedErrorLabel")->text().section(' ', -2, -2).toDouble() <=
                 1e-3);
     }
@@ -282,11 +282,11 @@ private slots:
         ui::editScene(document(), "Bone", ui::noDrag, [](scene::Scene &scene) {
             scene.look.classes.push_back({.name = "Bone", .low = 200.0, .high = 3000.0});
         });
-        QTRY_VERIFY_WITH_TIMEOUT(!projection()->isFinal(), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(!projection()->frames().isFinal(), patienceMs);
         QTest::keyClick(&mainWindow(), Qt::Key_Escape);
         QVERIFY(document().scene().look == look);
-        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
-        QCOMPARE(projection()->planState(), ui::PlanState::holds);
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->frames().showsFinalImage(), patienceMs);
+        QCOMPARE(projection()->frames().planState(), ui::PlanState::holds);
         QVERIFY(changed(former, projection()->picture()) < 0.001);
         document().undoStack()->undo();
         settle();

@@ -87,8 +87,8 @@ StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *pare
             beginLink();
             return;
         }
-        // A kept study restores its view after its volume: linked earlier, it would move the
-        // leader.
+        // Linked now, the view of the leader would change this scene before the preparer knows that
+        // the engine of a kept study comes back.
         m_link->hold();
         QMetaObject::invokeMethod(this, &StudyBeside::beginLink, Qt::QueuedConnection);
     });

@@ -110,7 +110,7 @@ void StudyPair::setTool(Tool tool) {
     m_open.document.marking().setTool(regionToolOf(tool));
     // What is drawn is seen.
     if (measuredBy(tool) && !m_overlays.texts)
-        setOverlays({true, m_overlays.crosshair});
+        setOverlays({.texts = true, .crosshair = m_overlays.crosshair});
     if (m_beside != nullptr)
         m_beside->setTool(tool);
 }

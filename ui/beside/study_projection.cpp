@@ -13,11 +13,13 @@ void connectProjection(OpenStudy &study, ProjectionView &projection, GraphicsCar
     };
     deliver(study.copier, &CardCopier::engineReady, &ProjectionView::setEngine);
     deliver(study.preparer, &LookPreparer::planChanged, &ProjectionView::setPlanState);
-    deliver(study.opener, &StudyOpener::phaseLeft, &ProjectionView::holdExposure);
     deliver(study.opener, &StudyOpener::notProjectable, &ProjectionView::setMessage);
     deliver(study.jobs, &JobRunner::started, &ProjectionView::jobStarted);
     deliver(study.jobs, &JobRunner::finished, &ProjectionView::jobEnded);
-    QObject::connect(&projection, &ProjectionView::cardFailed, &card, &GraphicsCard::giveUp);
+    ProjectionFrames &frames = projection.frames();
+    QObject::connect(&study.opener, &StudyOpener::phaseLeft, &frames,
+                     &ProjectionFrames::holdExposure);
+    QObject::connect(&frames, &ProjectionFrames::cardFailed, &card, &GraphicsCard::giveUp);
 }
 
 } // namespace pellucid::ui

@@ -56,6 +56,9 @@ ClassSteps::ClassSteps(const classify::TissueClass &tissue, const classify::Look
     m_list->setWordWrap(true);
     QPushButton *const add =
         makeButton(tr("Add step"), "addStepButton", tr("Add a step after the others"));
+    // Enter belongs to the dialog's own buttons.
+    for (QPushButton *button : {m_remove, m_up, m_down, add})
+        button->setAutoDefault(false);
     auto *menu = new QMenu(add);
     menu->setObjectName("stepMenu");
     menu->setToolTipsVisible(true);

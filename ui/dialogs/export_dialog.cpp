@@ -126,7 +126,8 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
         connect(choice, &QComboBox::currentIndexChanged, this, &ExportDialog::showChosen);
     for (QCheckBox *choice : {m_annotated, m_deidentified})
         connect(choice, &QCheckBox::toggled, this, &ExportDialog::showChosen);
-    connect(m_panes.projection, &ProjectionView::finalImageShown, this, &ExportDialog::showChosen);
+    connect(&m_panes.projection->frames(), &ProjectionFrames::finalShown, this,
+            &ExportDialog::showChosen);
     document.whenever(Change::volume, this, [this] {
         offerPatient();
         showChosen();

@@ -24,7 +24,8 @@ void askForHuge(QWidget *window, const std::vector<dicom::Skipped> &huge,
             .arg(shownText(QString::fromStdString(huge.front().path.filename().string())),
                  translated(huge.front().reason));
     if (huge.size() > 1)
-        what += " " + HugeQuestionTexts::tr("%n other images are also unusually large.", "", int(huge.size()) - 1);
+        what += " " + HugeQuestionTexts::tr("%n other images are also unusually large.", "",
+                                            int(huge.size()) - 1);
     what += "\n\n" + HugeQuestionTexts::tr("Opening may use all memory and take a long time.");
     ask(window,
         {"hugeQuestion", HugeQuestionTexts::tr("Unusually large"), what,

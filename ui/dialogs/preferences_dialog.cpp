@@ -45,8 +45,8 @@ QCheckBox *check(const char *name, const QString &text, const QString &tip, bool
 
 } // namespace
 
-PreferencesDialog::PreferencesDialog(ActionTable &actions, QWidget *window)
-    : QDialog(window), m_actions(actions) {
+PreferencesDialog::PreferencesDialog(ActionTable &actions, const QString &spoken, QWidget *window)
+    : QDialog(window), m_actions(actions), m_spoken(spoken) {
     setObjectName("preferencesDialog");
     setWindowTitle(tr("Preferences"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -92,10 +92,11 @@ QWidget *PreferencesDialog::makeGeneral() {
     auto *restart = new PlainLabel(tr("The language changes at the next start"));
     restart->setObjectName("languageNote");
     restart->setProperty("role", "muted");
-    restart->hide();
-    connect(m_language, &QComboBox::activated, restart, [this, restart, spoken = now.language] {
-        restart->setVisible(m_language->currentData() != spoken);
-    });
+    const auto tell = [this, restart] {
+        restart->setVisible(m_language->currentData() != m_spoken);
+    };
+    connect(m_language, &QComboBox::activated, restart, tell);
+    tell();
     form->addRow(tr("Language"), m_language);
     form->addRow(QString(), restart);
     form->addRow(tr("Theme"), m_theme);

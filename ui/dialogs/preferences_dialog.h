@@ -21,7 +21,8 @@ class PlainLabel;
 class PreferencesDialog : public QDialog {
     Q_OBJECT
 public:
-    PreferencesDialog(ActionTable &actions, QWidget *window);
+    /// `spoken`: the preferred language when the program started.
+    PreferencesDialog(ActionTable &actions, const QString &spoken, QWidget *window);
 
 signals:
     void changed(const pellucid::ui::Preferences &preferences);
@@ -37,6 +38,7 @@ private:
     const ActionTable::Row *chosen() const;
 
     ActionTable &m_actions;
+    const QString m_spoken;
     QComboBox *m_language, *m_theme, *m_toolBar;
     QCheckBox *m_remembers, *m_resumes, *m_title;
     QLineEdit *m_filter;

@@ -203,11 +203,10 @@ QWidget *ServersDialog::makeForm() {
                            "server describes the other addresses there"));
     m_authorizationUrl =
         lineEdit("authorizationUrlEdit", tr("Page on which users log in; only without an issuer"));
-    m_tokenUrl =
-        lineEdit("tokenUrlEdit", tr("Token endpoint; only without an issuer"));
+    m_tokenUrl = lineEdit("tokenUrlEdit", tr("Token endpoint; only without an issuer"));
     m_clientId = lineEdit("clientIdEdit", tr("Client ID registered for Pellucid"));
-    m_scope = lineEdit("scopeEdit",
-                       tr("Scopes to request, such as openid offline_access; optional"));
+    m_scope =
+        lineEdit("scopeEdit", tr("Scopes to request, such as openid offline_access; optional"));
     m_keyPassword = lineEdit("keyPasswordEdit", m_secret->toolTip());
     m_keyPassword->setEchoMode(QLineEdit::Password);
     m_form->addRow(tr("Name"), m_name);

@@ -20,7 +20,7 @@ constexpr int fewSlices = 6;
 // What a new volume brings with it.
 constexpr Changes ofVolume = Change::volume | Change::scene | Change::pose | Change::displayWindow |
                              Change::crosshair | Change::cut | Change::segments | Change::exposure |
-                             Change::traits | Change::measurements | Change::selection;
+                             Change::measurements | Change::selection;
 
 QStringList filesOf(const StudySource &source) {
     QStringList files = source.files + source.lasting;
@@ -127,10 +127,10 @@ void Document::show(const OpenVolume &opened, const std::function<void(StudyView
         m_measured.clear();
         m_selectedMeasurement = -1;
         m_selectedClass = -1;
+        m_view = freshView(m_view);
         RegionOptions options = m_marking.options();
         options.addsPoints = false; // of a class that is gone
         m_marking.setOptions(options);
-        m_view = freshView(m_view);
     }
     if (same && (!isInPlace || isInTheMiddle)) // through samples, as if it had come at once
         m_view.crosshair = middleSample(volume.lattice());
@@ -140,6 +140,7 @@ void Document::show(const OpenVolume &opened, const std::function<void(StudyView
         m_view.displayWindow = m_initialWindow;
     if (adjust)
         adjust(m_view);
+    m_view.pose.zoom = std::clamp(m_view.pose.zoom, minZoom, maxZoom);
     updateCamera();
     emit changed(ofVolume);
 }

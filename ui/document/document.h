@@ -64,7 +64,7 @@ public:
     const std::optional<volume::Volume> &volume() const { return m_volume; }
     bool isPreview() const { return m_preview; }
     /// Opens a volume, as one change. The view is reset and the edits are dropped, unless the
-    /// volume completes a preview; then `adjust` may change the view.
+    /// volume completes a preview. `adjust` changes the view before anybody sees it.
     void show(const OpenVolume &opened, const std::function<void(StudyView &)> &adjust = {});
     /// The scene's field window, or the volume's own.
     classify::FieldWindow fieldWindow() const {

@@ -53,24 +53,22 @@ void dropMissing(classify::Look &look, const segment::SegmentSet *segments);
 
 /// What has changed in a document.
 enum class Change {
-    volume =
-        1 << 0, ///< another volume, or more of it: everything that follows up to `selection`, too
+    volume = 1 << 0, ///< another one, or more of it: all that follows up to `selection`, too
     scene = 1 << 1,
     pose = 1 << 2,
-    paneSize = 1 << 3, ///< the camera of the scene has other pixels; the pose is the same
-    displayWindow = 1 << 4,
-    crosshair = 1 << 5,
-    cut = 1 << 6,
-    segments = 1 << 7, ///< or whether the planes tint them
-    exposure = 1 << 8,
-    traits = 1 << 9,
-    measurements = 1 << 10,
-    selection = 1 << 11, ///< of a class or a measurement
-    tint = 1 << 12,
-    sources = 1 << 13,
-    currentSource = 1 << 14,
-    problems = 1 << 15,
-    moving = 1 << 16, ///< beside `pose`: more moves may follow, so a draft will do
+    displayWindow = 1 << 3,
+    crosshair = 1 << 4,
+    cut = 1 << 5,
+    segments = 1 << 6, ///< or whether the planes tint them
+    exposure = 1 << 7,
+    measurements = 1 << 8,
+    selection = 1 << 9, ///< of a class or a measurement
+    paneSize = 1 << 10, ///< the camera of the scene has other pixels; the pose is the same
+    tint = 1 << 11,
+    sources = 1 << 12,
+    currentSource = 1 << 13,
+    problems = 1 << 14,
+    moving = 1 << 15, ///< beside `pose`: more moves may follow, so a draft will do
 };
 Q_DECLARE_FLAGS(Changes, Change)
 Q_DECLARE_OPERATORS_FOR_FLAGS(Changes)

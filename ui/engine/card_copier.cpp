@@ -7,7 +7,6 @@
 
 #include "ui/document/document.h"
 #include "ui/engine/graphics_card.h"
-#include "ui/engine/reasons.h"
 #include "ui/jobs/job_runner.h"
 
 namespace pellucid::ui {

@@ -7,7 +7,6 @@
 
 #include "core/task/error.h"
 #include "ui/engine/gl_probe.h"
-#include "ui/engine/reasons.h"
 #include "ui/engine/shared_context.h"
 #include "ui/language/reasons.h"
 

@@ -246,9 +246,9 @@ void LookPreparer::jobEnded(const Outcome &outcome) {
     m_have = prepare::afterGivingUp(m_have);
     if (!madeEngine)
         return;
-    m_hasFailed = outcome.kind == Outcome::Kind::failed;
     act(Occasion::gaveUp);
-    emit planChanged(m_hasFailed ? PlanState::failed : PlanState::cancelled);
+    emit planChanged(outcome.kind == Outcome::Kind::failed ? PlanState::failed
+                                                           : PlanState::cancelled);
 }
 
 LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, double from,

@@ -102,7 +102,6 @@ private:
     std::shared_ptr<preprocess::StepCache> m_steps;
     QTimer m_rest; ///< runs while the weights move
     prepare::Have m_have;
-    bool m_hasFailed = false; ///< the given-up engine failed and was not cancelled
     std::optional<prepare::PreparedEngine> m_full;
     shading::Shading m_fullShading; ///< the last one of the look of the full engine
     std::shared_ptr<prepare::LayerSet> m_layers;

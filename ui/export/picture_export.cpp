@@ -254,7 +254,7 @@ ProjectionJob projectionJob(const PictureExport &what, const Panes &panes, const
     ProjectionJob job{what,
                       path,
                       view.sceneOfPicture(what.scale),
-                      view.pictureRenderer(),
+                      view.frames().renderer(),
                       view.devicePixelRatioF() * what.scale,
                       {},
                       {},
@@ -342,8 +342,8 @@ std::optional<task::Reason> obstacle(const PictureExport &what, const Panes &pan
         return because::noStudyIsOpen;
     const bool isPlane = what.pane != Pane::projection;
     if (!isPlane && !panes.projection->showsWhatIsAskedFor())
-        return panes.projection->planState() == PlanState::cancelled ||
-                       panes.projection->planState() == PlanState::failed
+        return panes.projection->frames().planState() == PlanState::cancelled ||
+                       panes.projection->frames().planState() == PlanState::failed
                    ? because::projectionIsNotPrepared
                    : because::projectionIsBeingMade;
     if (isPlane && !what.isPicture())

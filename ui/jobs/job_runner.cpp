@@ -82,7 +82,6 @@ void JobRunner::start(const QString &title, Work work, OnEnd onEnd, const QStrin
     }
     joinFinished();
     const quint64 generation = ++m_generation;
-    m_title = title;
     m_onEnd = std::move(onEnd);
     m_isRunning = true;
     try {

@@ -72,8 +72,6 @@ public:
     void join();
     /// Also true while a job gives way to the next.
     bool isRunning() const { return m_isRunning || m_isMakingWay; }
-    /// The title of the current job, or of the last one.
-    const QString &title() const { return m_title; }
 
 signals:
     void started(const QString &title);
@@ -102,7 +100,6 @@ private:
     quint64 m_generation = 0;
     bool m_isRunning = false;
     bool m_isMakingWay = false; ///< the former job is ending; no third job may take its place
-    QString m_title;
     OnEnd m_onEnd;
     std::vector<Thread> m_threads;
 };

@@ -7,7 +7,6 @@
 #include <QObject>
 #include <QStringList>
 
-#include "core/classify/look.h"
 #include "core/dicom/catalogue.h"
 #include "core/segment/segment_set.h"
 #include "core/task/progress.h"

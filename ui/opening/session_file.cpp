@@ -53,7 +53,7 @@ void setFunction(const QJsonObject &in, volume::ValueWindow &window) {
         window.curve = std::make_shared<const std::vector<float>>(std::move(curve));
 }
 
-constexpr const char *schema = "pellucid-session/1";
+constexpr const char *schema = "pellucid-session/2";
 
 constexpr int maxPrograms = 100;
 

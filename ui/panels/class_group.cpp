@@ -74,10 +74,18 @@ void ClassGroup::showFold() {
 }
 
 void ClassGroup::showCounts(int shownCount, int count) {
+    m_shownCount = shownCount;
+    m_count = count;
     m_eye->setIcon(groupIcon(palette().color(QPalette::WindowText), shownCount, count));
     m_name->setText(
         tr("%1: %2 of %3").arg(m_title, QString::number(shownCount), QString::number(count)));
     m_name->setToolTip(plainToolTip(m_name->text()));
+}
+
+void ClassGroup::changeEvent(QEvent *event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) // the icon has a color of the theme
+        showCounts(m_shownCount, m_count);
 }
 
 void ClassGroup::mousePressEvent(QMouseEvent *event) {

@@ -29,6 +29,7 @@ signals:
 
 protected:
     void mousePressEvent(QMouseEvent *event) override;
+    void changeEvent(QEvent *event) override;
 
 private:
     void showFold();
@@ -36,6 +37,7 @@ private:
     QString m_title;
     std::filesystem::path m_path;
     bool m_isFolded = false;
+    int m_shownCount = 0, m_count = 0;
     QToolButton *m_fold, *m_eye;
     PlainLabel *m_name;
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/depth_curve.h"
 
-#include "ui/theme/theme.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +8,8 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPainterPath>
+
+#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 

@@ -107,6 +107,12 @@ void EarlierPanel::hideEvent(QHideEvent *event) {
     m_studies.setShown(false);
 }
 
+void EarlierPanel::changeEvent(QEvent *event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) // a heading has a color of the theme
+        list();
+}
+
 void EarlierPanel::list() {
     const QString current = m_tree->currentItem() == nullptr
                                 ? QString()

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/light_sphere.h"
 
-#include "ui/theme/theme.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,6 +11,8 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+
+#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 

@@ -19,8 +19,6 @@ public:
 
 protected:
     void resizeEvent(QResizeEvent *event) override;
-
-protected:
     void changeEvent(QEvent *event) override;
 
 private:

@@ -15,7 +15,6 @@
 #include <QVBoxLayout>
 
 #include "ui/document/document.h"
-#include "ui/language/shown_text.h"
 #include "ui/panels/depth_curve.h"
 #include "ui/panels/light_sphere.h"
 #include "ui/widgets/form.h"

@@ -16,7 +16,6 @@
 #include "ui/language/names.h"
 #include "ui/language/number_text.h"
 #include "ui/language/reasons.h"
-#include "ui/language/shown_text.h"
 #include "ui/panels/curve_editor.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/limit_box.h"

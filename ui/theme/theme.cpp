@@ -86,8 +86,8 @@ void Theme::apply(QApplication &application) const {
     application.setFont(font);
 
     // Whoever works on the style reads it from a file, without a build.
-    QString sheet = QString::fromUtf8(resource(
-        qEnvironmentVariable("PELLUCID_STYLE", ":/pellucid/styles/workstation.qss")));
+    QString sheet = QString::fromUtf8(
+        resource(qEnvironmentVariable("PELLUCID_STYLE", ":/pellucid/styles/workstation.qss")));
     static const QRegularExpression role("@([a-z]+)");
     for (auto match = role.match(sheet); match.hasMatch();
          match = role.match(sheet, match.capturedStart())) {

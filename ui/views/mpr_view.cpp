@@ -15,7 +15,6 @@
 
 #include "core/mpr/reslice.h"
 #include "ui/document/document.h"
-#include "ui/language/shown_text.h"
 #include "ui/theme/theme.h"
 #include "ui/views/overlay.h"
 #include "ui/views/plane_texts.h"
@@ -303,11 +302,8 @@ void MprView::adoptScale(const MprView &other) {
 
 // The warning mark has no room for text.
 QString MprView::helpAt(const QPoint &at) const {
-    const volume::VolumeNotes &notes = m_document.volume()->notes();
-    const bool isOnMark =
-        m_overlays.texts && warningMarkRect(rect()).adjusted(0, -20, 0, 0).contains(at);
-    return isOnMark ? warningLines(notes, Names::shown, notes.warnings.size()).join('\n')
-                    : QString();
+    const QRect mark = warningMarkRect(rect()).adjusted(0, -20, 0, 0);
+    return m_overlays.texts && mark.contains(at) ? warnings() : QString();
 }
 
 void MprView::wheelEvent(QWheelEvent *event) {

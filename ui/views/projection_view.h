@@ -5,19 +5,11 @@
 #include <memory>
 #include <optional>
 
-#include <QTimer>
 #include <QWidget>
 
-#include "core/picture/automatic_tone.h"
-#include "core/task/reason.h"
 #include "ui/document/study_view.h"
-#include "ui/engine/error_meter.h"
-#include "ui/engine/look_preparer.h"
-#include "ui/engine/reasons.h"
-#include "ui/engine/render_worker.h"
-#include "ui/engine/shown_engine.h"
-#include "ui/views/look_comparison.h"
 #include "ui/views/projection_canvas.h"
+#include "ui/views/projection_frames.h"
 #include "ui/views/volume_pane.h"
 
 namespace pellucid::ui {
@@ -33,16 +25,14 @@ public:
     explicit ProjectionView(Document &document, QWidget *parent = nullptr);
     ~ProjectionView() override;
 
+    /// What is shown. Engine and state of its plan come through the functions below, because the
+    /// figures show them.
+    ProjectionFrames &frames() { return m_frames; }
+    const ProjectionFrames &frames() const { return m_frames; }
     void setEngine(const ShownEngine &shown, EngineStage stage);
+    void setPlanState(PlanState state);
     /// Shows the name of the look below that of the pane.
     void setLookName(const QString &name);
-    /// Whether the engine is made for what the scene asks for.
-    void setPlanState(PlanState state);
-    PlanState planState() const { return m_planState; }
-    /// Measures the exposure again with the next frame.
-    void retakeExposure();
-    /// The next volume is another phase: exposure and picture stay until its own picture comes.
-    void holdExposure();
     void setMessage(const QString &message);
     /// Looks the way another camera does, at the same pixel size, within the limits of the zoom.
     /// `pivotMm`: what that camera turns about, if it shows another volume; this view then shows
@@ -72,42 +62,27 @@ public:
     void setOverlays(const Overlays &overlays) override;
     /// Shows the look before the last edit beside the present one.
     void setComparing(bool isComparing);
-    bool isComparing() const { return m_isComparing; }
+    bool isComparing() const { return m_frames.isComparing(); }
     /// Turns about the patient's long axis.
     void turnAroundPatient(double degrees);
     /// Looks with these image axes, for example those of a projected distance.
     void lookAlong(const glm::dvec3 &right, const glm::dvec3 &up);
-    /// The picture on the screen, without annotations. *Throws* Error{noSuchDevice} if the graphics
-    /// card that holds it has failed, Error{outOfMemory}.
-    QImage picture() const;
+    QImage picture() const { return m_frames.picture(); }
     /// The scene that reproduces the picture of this pane anywhere, pixel for pixel: with the shown
     /// brightness, and planned for the volume. `scale`: pixels a side for one of the pane.
     scene::Scene sceneOfPicture(int scale = 1) const;
-    /// A function that renders the present look with any camera, on the processor. It may be called
-    /// on any thread while the view exists. It *throws* as the engine.
-    std::function<picture::ProjectionImage(const scene::Camera &)> pictureRenderer();
     /// Paints the annotations of a picture of the pane's size. *Units*: logical pixels.
     void paintAnnotations(QPainter &painter, const scene::Camera &camera, Names names) const;
     /// A camera of this pane, at any scale, turned as `turnAroundPatient` turns the view.
     scene::Camera turnedAroundPatient(const scene::Camera &camera, double degrees) const;
-    bool isFinal() const { return m_stage == EngineStage::full || m_stage == EngineStage::settled; }
     /// Whether the final image of what the scene asks for is on the screen.
     bool showsWhatIsAskedFor() const;
-    /// What is known of the error of the frame on the screen, against the study.
-    const std::optional<error::StatedError> &frameError() const { return m_frameError; }
-    bool showsFinalImage() const { return m_frame && !m_frame->draft && isFinal() && !m_pending; }
 
 signals:
     /// The angles beside the cube were clicked.
     void anglesRequested();
     /// Engine and reason for the status bar.
     void engineDescribed(const QString &text);
-    void finalImageShown();
-    /// The graphics card failed; the processor takes over.
-    void cardFailed(const pellucid::task::Reason &reason,
-                    const std::shared_ptr<pellucid::gpu::FramePasses> &passes);
-    /// The error of the picture on the screen has been measured, or measured better.
-    void errorMeasured(const pellucid::error::StatedError &error);
     /// A frame is on the screen. `times`: of rendering it.
     void frameShown(const pellucid::picture::FrameTimes &times, bool draft);
 
@@ -120,9 +95,8 @@ protected:
 private:
     void follow(Changes changes);
     void forgetVolume();
-    void requestFrame(bool moving);
-    void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
-    void measureError();
+    void showFrame();
+    void fitToNewBody();
     void updateTone();
     /// The pose that fits the body's shadow into the pane.
     Pose fittedToBody(const Pose &pose) const;
@@ -131,7 +105,7 @@ private:
     void showComparison();
     void showTexts();
 
-    bool showsPicture() const override { return m_frame != nullptr; }
+    bool showsPicture() const override { return m_frames.frame() != nullptr; }
     void updateMarks() override;
     /// Cube and angles.
     std::function<void()> controlAt(const QPointF &at) override;
@@ -142,45 +116,21 @@ private:
     void zoomBy(double factor) override;
     void orbitBy(const QPoint &delta) override;
     void rollBy(double radians) override;
-    picture::ToneRange automaticRange() const override;
-    picture::ToneRange shownRange() const override;
-    scene::Tone shownTone() const;
-    /// Of the frame on the screen.
-    picture::Display shownDisplay() const;
+    picture::ToneRange automaticRange() const override { return m_frames.automaticRange(); }
+    picture::ToneRange shownRange() const override { return m_frames.display().range; }
 
     std::unique_ptr<ProjectionCanvas> m_canvas;
     ProjectionOverlay *m_overlay;
-    ErrorMeter m_meter; ///< outlives the worker, which makes its pictures
-    RenderWorker m_worker;
-    LookComparison m_comparison;
-    QTimer m_rest;
-    QTimer m_check; ///< a picture rests: its error is measured
-    std::optional<prepare::PreparedEngine> m_prepared;
-    std::shared_ptr<gpu::GpuEngine> m_onCard;
-    task::Reason m_engineReason = task::because::processorChosen; ///< of the shown engine
-    /// The frame on the screen. A new engine has not made it yet.
-    std::shared_ptr<const RenderedFrame> m_frame;
-    std::optional<error::StatedError> m_frameError; ///< against the study, if known
-    EngineStage m_frameStage = EngineStage::coarse;
-    picture::AutomaticTone m_tone;
+    ProjectionFrames m_frames;
     /// What the pane waits for while there is no picture.
     enum class Waiting { no, underway, cancelled };
     void setWaiting(Waiting waiting);
     Waiting m_waiting = Waiting::no;
-    QString m_message, m_lookName;
-    shading::Shading m_drawnShading; ///< of the last requested frame
-    double m_fullFrameMs = 0.0;
-    bool m_isFirstFrame = true; ///< of its size, or of an engine
-    EngineStage m_stage = EngineStage::coarse;
+    QString m_message;
     bool m_orbitsCrosshair = false, m_turnsFreely = false;
-    bool m_fitsNext = true; ///< the next picture is the first of its volume
     /// Has the box of the body that the view was fitted to; other looks may show less of it.
     scene::Exposure m_body;
-    bool m_pending = false;
-    bool m_isComparing = false;
     glm::dquat m_seenFrom{1.0, 0.0, 0.0, 0.0}; ///< the present view
-    PlanState m_planState = PlanState::holds;
-    std::uint64_t m_requested = 0, m_generation = 0;
 };
 
 } // namespace pellucid::ui

@@ -26,10 +26,10 @@ std::function<void()> ProjectionView::controlAt(const QPointF &at) {
 }
 
 QString ProjectionView::helpAt(const QPoint &at) const {
-    const volume::VolumeNotes &notes = m_document.volume()->notes();
-    if (m_overlay->isOnWarnings(at) && !notes.warnings.empty())
-        return warningLines(notes, Names::shown, notes.warnings.size()).join('\n');
-    return m_frameError && m_overlay->isOnFigures(at) ? errorExplanation(*m_frameError) : QString();
+    if (m_overlay->isOnWarnings(at))
+        return warnings();
+    return m_frames.error() && m_overlay->isOnFigures(at) ? errorExplanation(*m_frames.error())
+                                                          : QString();
 }
 
 void ProjectionView::setOverlays(const Overlays &overlays) {

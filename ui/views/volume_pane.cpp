@@ -131,6 +131,11 @@ void VolumePane::leaveEvent(QEvent * /*event*/) {
     updateMarks();
 }
 
+QString VolumePane::warnings() const {
+    const volume::VolumeNotes &notes = m_document.volume()->notes();
+    return warningLines(notes, Names::shown, notes.warnings.size()).join('\n');
+}
+
 bool VolumePane::event(QEvent *event) {
     if (event->type() == QEvent::ToolTip && m_document.volume()) {
         const auto *const help = static_cast<QHelpEvent *>(event);

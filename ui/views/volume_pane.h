@@ -35,6 +35,8 @@ protected:
     virtual std::function<void()> controlAt(const QPointF & /*at*/) { return {}; }
     /// The tooltip at a position; empty: none.
     virtual QString helpAt(const QPoint &at) const = 0;
+    /// The warnings of the volume, a line each.
+    QString warnings() const;
     /// The mouse moves, and no tool uses it.
     virtual void hover(const QMouseEvent & /*event*/) {}
 

@@ -24,7 +24,6 @@
 #include "ui/export/print_picture.h"
 #include "ui/export/scene_files.h"
 #include "ui/export/segment_writer.h"
-#include "ui/language/reasons.h"
 #include "ui/opening/reasons.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/views/projection_view.h"

@@ -15,7 +15,6 @@
 #include <QUrl>
 #include <QVBoxLayout>
 
-#include "core/files/reasons.h"
 #include "ui/document/notices.h"
 #include "ui/widgets/plain_label.h"
 #include "ui/window/libraries.h"
@@ -68,7 +67,7 @@ QWidget *licence() {
 void openManual(Notices &notices) {
     const QString page = manual();
     if (!QFile::exists(page))
-        notices.report(task::because::doesNotExist, page);
+        notices.report(task::because::manualIsNotInstalled, page);
     else if (!QDesktopServices::openUrl(QUrl::fromLocalFile(page)))
         notices.report(task::because::noBrowserForTheManual, page);
 }

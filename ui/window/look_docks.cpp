@@ -77,7 +77,8 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
     connect(&copier, &CardCopier::engineReady, m_quality, &QualityPanel::showPlan);
     connect(m_quality, &QualityPanel::chosenAgain, &preparer, &LookPreparer::prepareAgain);
     connect(&projection, &ProjectionView::frameShown, m_quality, &QualityPanel::showFrame);
-    connect(&projection, &ProjectionView::errorMeasured, m_quality, &QualityPanel::showError);
+    connect(&projection.frames(), &ProjectionFrames::errorMeasured, m_quality,
+            &QualityPanel::showError);
 }
 
 void LookDocks::unfold(QWidget &panel) {

@@ -61,7 +61,8 @@
 namespace pellucid::ui {
 
 MainWindow::MainWindow(Workbench &bench, const Preferences &preferences, QWidget *parent)
-    : QMainWindow(parent), m_bench(bench), m_preferences(preferences) {
+    : QMainWindow(parent), m_bench(bench), m_preferences(preferences),
+      m_spoken(preferences.language) {
     setObjectName("mainWindow");
     setAcceptDrops(true);
     // With the frame that the desktop adds.
@@ -109,6 +110,7 @@ void MainWindow::createPanes() {
         ++n;
     }
     m_projection = new ProjectionView(m_bench.study.document);
+    restoreTurning(*m_projection);
     panes[3] = m_projection;
     m_panes = new PaneArea(panes);
     for (MprView *view : m_mpr)
@@ -231,7 +233,7 @@ void MainWindow::connectLookDocks() {
 
 PreferencesDialog &MainWindow::openPreferences() {
     return showOnly<PreferencesDialog>(*this, [this] {
-        auto *dialog = new PreferencesDialog(*m_actions, this);
+        auto *dialog = new PreferencesDialog(*m_actions, m_spoken, this);
         connect(dialog, &PreferencesDialog::changed, this, &MainWindow::preferencesChanged);
         return dialog;
     });

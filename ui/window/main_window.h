@@ -83,6 +83,7 @@ private:
 
     Workbench &m_bench;
     Preferences m_preferences;
+    const QString m_spoken; ///< the preferred language when the program started
     ActionTable *m_actions = nullptr;
     FileActions *m_files = nullptr;
     ServerCommands *m_servers = nullptr;

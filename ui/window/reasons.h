@@ -7,6 +7,7 @@
 namespace pellucid::task::because {
 
 // clang-format off
+PELLUCID_REASON(manualIsNotInstalled, "the manual is not installed")
 PELLUCID_REASON(noBrowserForTheManual, "no web browser is set up to open the manual")
 // clang-format on
 

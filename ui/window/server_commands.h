@@ -7,13 +7,11 @@
 #include <QStringList>
 
 #include "core/archive/retrieval.h"
-#include "core/task/reason.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/servers/awaited_studies.h"
 #include "ui/servers/earlier_studies.h"
 #include "ui/servers/open_request.h"
 #include "ui/servers/remote_study.h"
-#include "ui/studies/study_source.h"
 
 class QMainWindow;
 

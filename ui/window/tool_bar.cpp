@@ -57,7 +57,7 @@ ToolBar makeToolBar(QMainWindow &window, ActionTable &actions) {
     };
     add({"openFilesAction", "importAction"});
     add({"undoAction", "redoAction"});
-    addTools(*bar, actions);
+    addToolButtons(*bar, actions);
     bar->addSeparator();
     auto *views = new QToolButton;
     views->setObjectName("viewsButton");

@@ -21,7 +21,8 @@ namespace pellucid::test {
 /// Opens a small phantom in a document, as the workstation does, but without files and jobs.
 inline void openPhantom(ui::Document &document, phantom::Kind kind = phantom::Kind::head) {
     constexpr int side = 48;
-    const auto lattice = phantom::phantomLattice(kind, {.size = volume::GridSize{side, side, side}});
+    const auto lattice =
+        phantom::phantomLattice(kind, {.size = volume::GridSize{side, side, side}});
     const auto volume = phantom::makePhantom(kind, lattice);
     document.show({volume, ui::initialWindow(volume), classify::defaultFieldWindow(volume)});
 }
@@ -37,8 +38,8 @@ template <class Panel> std::unique_ptr<QWidget> windowOf(Panel *panel) {
     return window;
 }
 
-/// The fixture of a panel's test: a document with a phantom, and a panel that `Panel` makes for each
-/// test. It needs no program, no projection and no screen.
+/// The fixture of a panel's test: a document with a phantom, and a panel that `Panel` makes for
+/// each test. It needs no program, no projection and no screen.
 template <class Panel> class PanelBench : public QObject {
 public:
     PanelBench() {

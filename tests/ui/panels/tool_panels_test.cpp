@@ -48,8 +48,7 @@ private slots:
         begin();
         const measure::Measurement distance{
             measure::Kind::distance, "", {{0, 0, 0}, {30, 40, 0}}, {}};
-        document().undoStack()->push(
-            new ui::EditMeasurements(document(), {distance}, "Distance"));
+        document().undoStack()->push(new ui::EditMeasurements(document(), {distance}, "Distance"));
     }
 
     void itListsNamesAndRemoves() {

@@ -18,7 +18,7 @@ bool OrbitTool::move(const MouseMove &mouse) {
     const QPointF middle = QRectF({}, QSizeF(m_pane.paneSize())).center();
     const QPointF now = mouse.at - middle, before = now - mouse.delta;
     m_projection.rollBy(std::atan2(before.x() * now.y() - before.y() * now.x(),
-                             before.x() * now.x() + before.y() * now.y()));
+                                   before.x() * now.x() + before.y() * now.y()));
     return true;
 }
 

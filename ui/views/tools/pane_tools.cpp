@@ -75,7 +75,7 @@ PaneTool *PaneTools::toolOf(Qt::MouseButton button, const QPointF &at) const {
 
 Qt::CursorShape PaneTools::cursorAt(const QPointF &at) const {
     if (m_activeTool != nullptr)
-        return m_activeTool->heldCursor();
+        return m_gripCursor.value_or(m_activeTool->heldCursor());
     if (m_measure->isBusy())
         return m_measure->cursor();
     const PaneTool &tool = toolAt(at);
@@ -89,7 +89,11 @@ void PaneTools::press(Qt::MouseButton button, const QPointF &at) {
         return;
     m_button = button;
     m_last = at.toPoint();
+    m_gripCursor = tool->gripCursor(at);
     m_activeTool = tool->press(at) ? tool : nullptr;
+    // Nothing is measured while a study arrives: the view turns.
+    if (m_activeTool == nullptr && tool == m_measure && m_turning && m_turning->press(at))
+        m_activeTool = m_turning.get();
 }
 
 bool PaneTools::move(const QPointF &at) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -54,7 +55,9 @@ public:
     /// Whether something is unfinished that `cancel` would drop.
     bool isBusy() const;
     bool isMeasuring() const;
-    /// Drops unfinished figures and ends the drag.
+    /// Drops unfinished figures. A drag goes on.
+    void dropUnfinished();
+    /// Drops them and ends the drag.
     void cancel();
 
     /// Whether measurements can be seen, and thus dragged.
@@ -69,7 +72,6 @@ private:
     PaneTool *find(Tool tool) const;
     PaneTool &toolAt(const QPointF &at) const;
     PaneTool *toolOf(Qt::MouseButton button, const QPointF &at) const;
-    void dropUnfinished();
 
     const PaneView m_view;
     /// In painting order.
@@ -78,8 +80,9 @@ private:
     MeasureTool *m_measure;                       ///< for every kind of measurement
     Tool m_selected = Tool::pan;
     PaneTool *m_chosen;
-    PaneTool *m_activeTool = nullptr;        ///< gets the moves of the drag; null: nothing to drag
-    Qt::MouseButton m_button = Qt::NoButton; ///< the button of the drag
+    PaneTool *m_activeTool = nullptr; ///< gets the moves of the drag; null: nothing to drag
+    std::optional<Qt::CursorShape> m_gripCursor; ///< of what is dragged
+    Qt::MouseButton m_button = Qt::NoButton;     ///< the button of the drag
     QPoint m_last;
     bool m_showsMeasurements = true;
 };

@@ -33,6 +33,9 @@ Menus menus();
 
 /// Adds slab and mouse tools to the tool bar. Similar tools share a button, which shows the one
 /// that was chosen last.
-void addTools(QToolBar &bar, const ActionTable &actions);
+void addToolButtons(QToolBar &bar, const ActionTable &actions);
+
+/// Turns the view as the user last chose.
+void restoreTurning(ProjectionView &projection);
 
 } // namespace pellucid::ui

@@ -3,7 +3,6 @@
 #include <QDockWidget>
 #include <QUndoStack>
 
-#include "ui/beside/study_pair.h"
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/study_panel.h"
 #include "ui/window/actions/commands.h"

@@ -2,7 +2,6 @@
 #include <QCoreApplication>
 
 #include "core/classify/couch.h"
-#include "ui/beside/study_pair.h"
 #include "ui/document/commands.h"
 #include "ui/document/region_commands.h"
 #include "ui/panels/presets_panel.h"
@@ -88,7 +87,7 @@ std::vector<Command> lookCommands(const Scope &scope) {
         reconstruction(document, "bandLimitedAction", LookCommands::tr("&Sharp (band-limited)"),
                        Reconstruction::bandLimited),
         {.id = "filmAction",
-         .text = LookCommands::tr("In&verted grey (bone dark)"),
+         .text = LookCommands::tr("In&verted projection (bone dark)"),
          .key = "I",
          .run =
              [&document] {
@@ -105,7 +104,7 @@ std::vector<Command> lookCommands(const Scope &scope) {
                                scene.tone.low.reset();
                                scene.tone.high.reset();
                            });
-                 projection->retakeExposure();
+                 projection->frames().retakeExposure();
              }},
         {.id = "removeCouchAction",
          .text = LookCommands::tr("Remove the c&ouch"),

@@ -404,7 +404,7 @@ MenuEntry toolsMenu() {
     return {"", ToolCommands::tr("&Tools"), entries};
 }
 
-void addTools(QToolBar &bar, const ActionTable &actions) {
+void addToolButtons(QToolBar &bar, const ActionTable &actions) {
     const auto addButton = [&](const char *name, QAction *action, QMenu *menu) {
         auto *button = new QToolButton;
         button->setObjectName(name);

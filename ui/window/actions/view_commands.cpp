@@ -61,6 +61,10 @@ void resetViews(const Viewer &viewer) {
 
 } // namespace
 
+void restoreTurning(ProjectionView &projection) {
+    projection.setTurnsFreely(QSettings().value(freeRotationKey).toBool());
+}
+
 std::vector<Command> viewCommands(const Scope &scope) {
     using scene::StandardView;
     MainWindow &window = scope.window;
@@ -68,7 +72,6 @@ std::vector<Command> viewCommands(const Scope &scope) {
     Document &document = viewer.document;
     ProjectionView *const projection = viewer.projection;
     StudyPair &pair = scope.pair;
-    projection->setTurnsFreely(QSettings().value(freeRotationKey).toBool());
     const auto isBeside = [&pair] { return pair.beside() != nullptr; };
     return {
         standardView(scope, "frontViewAction", ViewCommands::tr("&Anterior"), StandardView::front,
