@@ -64,11 +64,11 @@ struct MoveDestination {
 /// Retrieves the objects of a study that its folder does not have yet: compressed objects stay
 /// compressed, series come from coarse to fine, over up to `Server::connections` connections, as
 /// far as the server grants them and they save time. A connection that is lost is made again while
-/// the others go on; what is still missing at the end is listed. *Throws* Error{unreachable} if
-/// nothing could be retrieved because the server cannot be reached, or because the port of the
-/// destination is in use; as exchange::Link otherwise; Error{unusable, loginHasExpired} if the user
-/// has to log in again; Error{output} if the folder cannot be written; Cancelled. What has arrived
-/// stays in any case.
+/// the others go on; objects that are still missing at the end are listed. *Throws*
+/// Error{unreachable} if nothing could be retrieved because the server cannot be reached, or
+/// because the port of the destination is in use; as exchange::Link otherwise; Error{unusable,
+/// loginHasExpired} if the user has to log in again; Error{output} if the folder cannot be written;
+/// Cancelled. What has arrived stays in any case.
 RetrievalReport retrieve(const Server &server, const Wanted &wanted, const ObjectFolder &folder,
                          const RetrievalObserver &observer = {},
                          const task::Progress &progress = {},

@@ -60,7 +60,7 @@ PELLUCID_REASON(hasNoSegments, "describes no segments")
 // Pixels
 PELLUCID_REASON(compressedDataDamaged, "the compressed data is damaged or truncated")
 
-// What tells the volumes of a series apart
+// Labels that distinguish the volumes of a series
 PELLUCID_REASON(bValue, "b-value %1")
 PELLUCID_REASON(heartInterval, "heart interval %1")
 PELLUCID_REASON(timeSlot, "time slot %1")

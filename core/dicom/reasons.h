@@ -107,7 +107,7 @@ PELLUCID_REASON(zeroSlopes, "files with a rescale slope of 0, taken as 1: %1")
 PELLUCID_REASON(damagedPixelsOf, "the compressed pixel data is damaged: %1")
 PELLUCID_REASON(damagedPixels, "files whose compressed pixel data is damaged: %1")
 
-// What tells the volumes of a series apart
+// Labels that distinguish the volumes of a series
 PELLUCID_REASON(slicesTo, "slices %1 to %2")
 PELLUCID_REASON(slice, "slice %1")
 PELLUCID_REASON(gapsFilled, "gaps filled")

@@ -135,7 +135,7 @@ void check(const Tokens &tokens) {
         fail();
 }
 
-// What this program sends is its own.
+// Nothing of the other types is shown or becomes the name of a file.
 template <class T> void check(const T & /*value*/) {}
 
 } // namespace

@@ -13,7 +13,7 @@ PELLUCID_REASON(isNotARegularFile, "is not a regular file")
 PELLUCID_REASON(isDamagedBy, "is damaged: %1")
 PELLUCID_REASON(inWords, "%1")
 
-// What the system reports
+// Failures that the operating system reports
 PELLUCID_REASON(noSuchFile, "No such file or directory")
 PELLUCID_REASON(permissionDenied, "Permission denied")
 PELLUCID_REASON(noSpaceLeft, "No space left on device")

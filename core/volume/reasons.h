@@ -10,7 +10,7 @@ namespace pellucid::task::because {
 // Memory
 PELLUCID_REASON(noMemoryForAField, "not enough memory for a field of %1 x %2 x %3")
 
-// What tells the volumes of a series apart
+// Labels that distinguish the volumes of a series
 PELLUCID_REASON(axialNumber, "axial %1")
 PELLUCID_REASON(coronalNumber, "coronal %1")
 PELLUCID_REASON(sagittalNumber, "sagittal %1")
