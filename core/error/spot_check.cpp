@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <span>
 #include <tuple>
 
 #include <glm/geometric.hpp>
@@ -25,8 +26,19 @@ using Complex = std::complex<double>;
 constexpr double alwaysSteps = 3.0;
 constexpr std::size_t alwaysBrightest = 100;
 
-// The limits of the interval, in standard errors.
-constexpr double limits = 3.0;
+// No more are summed, to limit the memory for them, and so many at once.
+constexpr double mostDrawn = 1 << 18;
+constexpr std::size_t atOnce = 4096;
+
+// A sine and a cosine take as long as so many multiplications: 44 ns on one thread.
+constexpr double perSine = 500.0;
+
+// The others are ordered by the tiles that frames read with one kernel.
+constexpr int tile = 16;
+
+// The limits of the interval, in standard errors: of 240 draws in six pictures of head, chest and
+// MR, 1.7 % were outside; with 3, 3.7 %.
+constexpr double limits = 3.5;
 
 // A frequency of the half plane and its weight: 2 if its mirror image is another.
 struct Frequency {
@@ -84,20 +96,25 @@ public:
                     const std::function<void(const StatedError &)> &refined) {
         Sums sums;
         std::vector<Frequency> all = frequenciesOfBand();
-        const double perFrequency = double(m_rows.box().size().count()) * m_rows.images();
-        sums.isComplete = double(all.size()) * perFrequency <= m_effort.complete ||
-                          all.size() <= std::size_t(m_effort.most);
+        const volume::GridSize size = m_rows.box().size();
+        const double perFrequency = double(size.count()) * m_rows.images() +
+                                    perSine * (double(size.i) / 2.0 + size.j + size.k),
+                     paid = m_effort.multiplications / perFrequency;
+        // A whole number of pairs in each round.
+        const int most = std::max(m_effort.atLeast, int(std::min(paid, mostDrawn))) / 8 * 8;
+        // To draw most of them takes as long.
+        sums.isComplete = all.size() <= 2 * std::size_t(most);
         if (!sums.isComplete)
             divide(all);
         add(all, sums.always, progress.part(0.0, sums.isComplete ? 1.0 : 0.1));
         if (sums.isComplete)
             return sums.errorOf(m_judged, m_image, m_rows.lattice());
-        for (int done = 0, count = m_effort.first;; done = count, count *= 2) {
-            count = std::min(count, m_effort.most);
+        for (int done = 0, count = most / 4;; done = count, count *= 2) {
+            count = std::min(count, most);
             add(draw((count - done) / 2), sums.drawn,
-                progress.part(0.1 + 0.9 * done / m_effort.most, 0.1 + 0.9 * count / m_effort.most));
+                progress.part(0.1 + 0.9 * done / most, 0.1 + 0.9 * count / most));
             const StatedError error = sums.errorOf(m_judged, m_image, m_rows.lattice());
-            if (count == m_effort.most || error.high <= (1.0 + m_effort.within) * error.relative)
+            if (count == most || error.high <= (1.0 + m_effort.within) * error.relative)
                 return error;
             if (refined)
                 refined(error);
@@ -128,12 +145,15 @@ private:
         });
         m_others.assign(bright, all.end());
         all.erase(bright, all.end());
-        std::sort(m_others.begin(), m_others.end(), [](const Frequency &a, const Frequency &b) {
-            return std::tie(a.radius, a.row, a.column) < std::tie(b.radius, b.row, b.column);
-        });
+        const auto placeOf = [](const Frequency &f) {
+            const int up = -f.row; // along V, from 0
+            return std::tuple((up >= 0 ? up : up - tile + 1) / tile, f.column / tile, up, f.column);
+        };
+        std::sort(m_others.begin(), m_others.end(),
+                  [&](const Frequency &a, const Frequency &b) { return placeOf(a) < placeOf(b); });
         double around = 0.0;
         for (Frequency &f : m_others)
-            around += f.chance = m_judged.slice.energyAround(f.column, f.row);
+            around += f.chance = std::sqrt(m_judged.slice.energyAround(f.column, f.row));
         const double even = 1.0 / double(m_others.size());
         for (Frequency &f : m_others)
             f.chance = 0.5 * even + 0.5 * (around > 0.0 ? f.chance / around : even);
@@ -161,6 +181,16 @@ private:
     // P of the samples, by channel.
     void add(const std::vector<Frequency> &frequencies, std::vector<Sums::Term> &terms,
              const task::Progress &progress) const {
+        const double count = double(frequencies.size());
+        for (std::size_t first = 0; first < frequencies.size(); first += atOnce) {
+            const std::size_t last = std::min(first + atOnce, frequencies.size());
+            addTogether(std::span(frequencies).subspan(first, last - first), terms,
+                        progress.part(double(first) / count, double(last) / count));
+        }
+    }
+
+    void addTogether(std::span<const Frequency> frequencies, std::vector<Sums::Term> &terms,
+                     const task::Progress &progress) const {
         const PictureSlice &slice = m_judged.slice;
         const glm::dmat3 axes = m_judged.period.camera.axes();
         const volume::Lattice &lattice = m_rows.lattice();

@@ -98,7 +98,7 @@ TEST(SpotCheck, MeasuresTheErrorOfHardFields) {
                 scene.camera.orientation =
                     scene::viewOrientation(scene::StandardView::front, {turn.x, turn.y, turn.z});
                 const Checked one(field, scene);
-                const error::StatedError stated = one.stated({.complete = 1e12});
+                const error::StatedError stated = one.stated({.multiplications = 1e12});
                 EXPECT_LE(stated.low, 1.001 * one.truth) << kind.name << " " << tolerance;
                 EXPECT_GE(1.1 * stated.high, one.truth) << kind.name << " " << tolerance;
                 EXPECT_TRUE(stated.isMeasured());
@@ -116,7 +116,7 @@ TEST(SpotCheck, CountsWhatAPictureRepeats) {
             scene.camera.width *= 3;
             scene.camera.height *= 2;
             const Checked one(field, scene);
-            const error::StatedError stated = one.stated({.complete = 1e12});
+            const error::StatedError stated = one.stated({.multiplications = 1e12});
             EXPECT_LE(stated.low, 1.001 * one.truth) << kind.name << " " << tolerance;
             EXPECT_GE(stated.high, one.truth) << kind.name << " " << tolerance;
         }
@@ -132,7 +132,7 @@ TEST(SpotCheck, ItsSampleFindsTheErrorOfAllFrequencies) {
         const auto field = fieldOf(lattice, kind.value);
         const Checked one(field, sceneOf(lattice, 1.1e-3));
         for (unsigned seed = 1; seed <= 10; ++seed, ++all) {
-            const error::CheckEffort effort{.most = 512, .complete = 0.0, .seed = seed};
+            const error::CheckEffort effort{.multiplications = 0.0, .atLeast = 512, .seed = seed};
             const error::StatedError stated = one.stated(effort);
             const bool isOutside = one.truth > stated.high || one.truth < stated.low;
             outside += isOutside ? 1 : 0;
@@ -191,11 +191,11 @@ TEST(SpotCheck, FindsWhatHasSpoiltAPicture) {
             std::rotate(s.begin(), s.begin() + 1, s.end());
         }};
     for (const auto &fault : faults) {
-        const auto [found, made] = measured(fault, {.complete = 1e12});
+        const auto [found, made] = measured(fault, {.multiplications = 1e12});
         EXPECT_GT(made, scene.tolerance);
         EXPECT_NEAR(found, made, 0.01 * made);
         // A sample of the frequencies finds it too, wherever in the period it is.
-        EXPECT_GT(measured(fault, {.complete = 0.0}).first, 0.5 * made);
+        EXPECT_GT(measured(fault, {.multiplications = 0.0}).first, 0.5 * made);
     }
 }
 
