@@ -12,13 +12,15 @@ namespace {
 
 // The default frame must beat the ray sum. A slow machine passes too, because it slows both. Frames
 // and ray sums are timed in blocks, because the ray sum's threads keep the processors busy for a
-// while after it ends. Measured: 9 to 22 times the speed of the ray sum at 128^3 on two threads of
-// AVX-512. Other processes slow some rounds, so the second best of four counts.
+// while after it ends. The field is of the size of a study: frames grow as the picture, ray sums as
+// the volume, and 128^3 fits in the cache of some processors. Measured: 28 to 65 times the speed of
+// the ray sum at 256^3 on two threads. Other processes slow some rounds, so the second best of four
+// counts.
 TEST(Performance, TheDefaultFrameBeatsTheRaySum) {
-    const bench::Subject subject = bench::noiseSphere(128);
+    const bench::Subject subject = bench::noiseSphere(256);
     const volume::Lattice &lattice = subject.field.values.lattice();
     scene::Scene scene;
-    scene.camera = bench::squareCamera(lattice, 128);
+    scene.camera = bench::squareCamera(lattice, 256);
     const auto plan = plan::planRender(scene, field::summarise(subject.field));
     render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
                                  fourier::Spectrum::prepare(subject.field.values, plan.spectrum)),
@@ -27,7 +29,7 @@ TEST(Performance, TheDefaultFrameBeatsTheRaySum) {
     scene::Camera camera = scene.camera;
     const auto medianOf = [&](const auto &makePicture) {
         std::vector<double> times;
-        for (const glm::dquat &view : bench::randomViews(32)) {
+        for (const glm::dquat &view : bench::randomViews(8)) {
             camera.orientation = view;
             const double start = bench::millisecondsNow();
             makePicture();
