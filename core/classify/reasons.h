@@ -49,12 +49,6 @@ PELLUCID_REASON(ballOutOfRange, "the radius of %1 mm is not between %2 and %3 mm
 PELLUCID_REASON(sightIsNoUnitVector, "the line of sight of a cut is not a unit vector")
 PELLUCID_REASON(slabIsEmpty, "the slab of a cut is empty")
 PELLUCID_REASON(cropBoxOutOfRange, "the crop box needs 0 <= low < high <= 1 on every axis")
-
-// What JSON should hold; `at`: where in it, or in which file
-PELLUCID_REASON(mustHaveAKind, "must be an object with a kind")
-PELLUCID_REASON(mustHaveANameAndARange, "must be an object with a name and a range")
-PELLUCID_REASON(isNot, "is not %1")
-PELLUCID_REASON(holdsTooManyClasses, "has more than %1 classes")
 // clang-format on
 
 } // namespace pellucid::task::because

@@ -25,7 +25,7 @@ bool JsonValue::isText() const {
     return m_json != nullptr && m_json->is_string();
 }
 
-void JsonValue::requireOnly(std::initializer_list<const char *> names) const {
+void JsonValue::requireOnly(const std::vector<const char *> &names) const {
     std::string known;
     for (const char *const name : names)
         known += (known.empty() ? "" : ", ") + std::string(name);

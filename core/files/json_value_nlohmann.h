@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <exception>
-#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,7 +44,9 @@ public:
     bool isList() const;
     bool isText() const;
     /// For objects only: refuses the first member that has none of these names, as misspelt.
-    void requireOnly(std::initializer_list<const char *> names) const;
+    void requireOnly(const std::vector<const char *> &names) const;
+    /// How many objects and lists it is in.
+    int depth() const { return int(std::count(m_pointer.begin(), m_pointer.end(), '/')); }
     /// The value itself, as JSON.
     std::string dumped() const;
 

@@ -45,6 +45,7 @@ PELLUCID_REASON(mustBeAnObject, "must be an object")
 PELLUCID_REASON(isOutOfRange, "is out of range")
 PELLUCID_REASON(isNoneOf, "unknown value '%1': use one of %2")
 PELLUCID_REASON(isNoMember, "unknown member '%1': use one of %2")
+PELLUCID_REASON(isNot, "is not %1")
 PELLUCID_REASON(hasNo, "has no %1")
 
 // Export

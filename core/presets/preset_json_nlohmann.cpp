@@ -5,6 +5,7 @@
 
 #include "core/classify/look_json_nlohmann.h"
 #include "core/classify/reasons.h"
+#include "core/files/json_fields_nlohmann.h"
 #include "core/files/json_lines_nlohmann.h"
 #include "core/files/reasons.h"
 #include "core/presets/preset_json_nlohmann.h"
@@ -17,6 +18,7 @@ namespace pellucid::presets {
 namespace {
 
 namespace because = task::because;
+using files::JsonFields;
 using files::JsonValue;
 using nlohmann::json;
 
@@ -75,8 +77,9 @@ Preset presetFrom(const JsonValue &in) {
             window.refuse(because::mustBeTwoRisingNumbers);
         preset.window = classify::FieldWindow{low, high};
     }
-    preset.look = classify::lookFrom(in);
-    preset.shading = shading::shadingFrom(in);
+    JsonFields io(in);
+    fields(io, preset.look);
+    fields(io, preset.shading);
     preset.source = in.dumped();
     return preset;
 }
@@ -110,8 +113,10 @@ json jsonOf(const Preset &preset) {
         out["units"] = "window";
     if (preset.window)
         out["window"] = {preset.window->low, preset.window->high};
-    out.update(classify::jsonOf(preset.look));
-    out.update(shading::jsonOf(preset.shading));
+    JsonFields io(out);
+    Preset copy = preset;
+    fields(io, copy.look);
+    fields(io, copy.shading);
     if (out.contains("classes"))
         for (json &tissue : out["classes"]) {
             const auto former =

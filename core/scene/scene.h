@@ -76,8 +76,7 @@ void validate(const Exposure &exposure);
 
 /// The scene as JSON, `"schema": "pellucid-scene/3"`.
 std::string toJson(const Scene &scene);
-/// Reads versions 1 to 3. *Throws* Error{usage}; the reason contains the JSON pointer of the
-/// value.
+/// *Throws* Error{usage}; the reason contains the JSON pointer of the value.
 Scene sceneFromJson(const std::string &text);
 
 } // namespace pellucid::scene

@@ -12,8 +12,6 @@ PELLUCID_REASON(noMemoryForTheGradient, "not enough memory for the gradient of t
 PELLUCID_REASON(noMemoryForTheLitField, "not enough memory for the lit field")
 
 // What JSON should hold; `at`: where in it, or in which file
-PELLUCID_REASON(mustHaveADirection, "must be an object with a direction")
-PELLUCID_REASON(holdsTooManyLights, "has more than %1 lights")
 
 // Depth cue and light
 PELLUCID_REASON(isNoNumber, "%1: '%2' is not a number")

@@ -111,24 +111,30 @@ bool Shading::isGrey() const {
     });
 }
 
-void validate(const Shading &shading) {
-    const DepthCue &cue = shading.cue;
+void validate(const DepthCue &cue) {
     require(cue.strength >= 0.0 && cue.strength <= 1.0, because::cueStrengthOutOfRange);
     require(cue.curve.size() >= minCurveValues && cue.curve.size() <= maxCurveValues,
             because::cueCurveHasOtherSize(minCurveValues, maxCurveValues));
     for (const double value : cue.curve)
         require(value >= 0.0 && value <= largestCurveValue,
                 because::cueCurveOutOfRange(fmt::format("{}", largestCurveValue)));
+}
+
+void validate(const Light &light) {
+    const double length = glm::length(light.direction);
+    require(std::isfinite(length) && length > 1e-12, because::lightHasNoDirection);
+    require(light.strength >= 0.0 && light.strength <= 1.0, because::lightStrengthOutOfRange);
+    for (const double c : {light.color.red, light.color.green, light.color.blue})
+        require(c >= 0.0 && c <= 1.0, because::lightColorOutOfRange);
+}
+
+void validate(const Shading &shading) {
+    validate(shading.cue);
     require(shading.ambient >= 0.0 && shading.ambient <= largestAmbient,
             because::ambientOutOfRange(fmt::format("{}", largestAmbient)));
     require(shading.lights.size() <= maxLights, because::tooManyLights(maxLights));
-    for (const Light &light : shading.lights) {
-        const double length = glm::length(light.direction);
-        require(std::isfinite(length) && length > 1e-12, because::lightHasNoDirection);
-        require(light.strength >= 0.0 && light.strength <= 1.0, because::lightStrengthOutOfRange);
-        for (const double c : {light.color.red, light.color.green, light.color.blue})
-            require(c >= 0.0 && c <= 1.0, because::lightColorOutOfRange);
-    }
+    for (const Light &light : shading.lights)
+        validate(light);
 }
 
 DepthCue cueFromText(const std::string &text) {
@@ -147,7 +153,7 @@ DepthCue cueFromText(const std::string &text) {
         cue.kind = kind == "linear" ? CueKind::linear : CueKind::sine;
         cue.strength = numberOf(values, because::theCue(text));
     }
-    validate(Shading{.cue = cue});
+    validate(cue);
     return cue;
 }
 
@@ -164,7 +170,7 @@ Light lightFromText(const std::string &text) {
         if (strength != std::string::npos)
             light.strength = numberOf(text.substr(strength + 1), what);
     }
-    validate(Shading{.lights = {light}});
+    validate(light);
     return light;
 }
 

@@ -87,6 +87,8 @@ struct Shading {
 };
 
 /// *Throws* Error{usage} naming the value that is out of range.
+void validate(const DepthCue &cue);
+void validate(const Light &light);
 void validate(const Shading &shading);
 
 /// "none", "linear:S", "sine:S" or "curve:c0,c1,...", the far end first. *Throws* Error{usage}.

@@ -6,16 +6,13 @@
 #include "core/shading/shading.h"
 
 namespace pellucid::files {
-class JsonValue;
+class JsonFields;
 }
 
 namespace pellucid::shading {
 
-/// The shading as a JSON object with `cue`, `ambient` and `lights`, as far as they differ from the
-/// defaults.
+/// The fields of a shading: `cue`, `ambient` and `lights`, as far as they differ from the defaults.
+void fields(files::JsonFields &io, Shading &shading);
 nlohmann::json jsonOf(const Shading &shading);
-
-/// Reads such an object; ignores unknown keys. *Throws* as JsonValue.
-Shading shadingFrom(const files::JsonValue &in);
 
 } // namespace pellucid::shading

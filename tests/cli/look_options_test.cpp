@@ -245,7 +245,7 @@ TEST_F(Cli, SceneAndPresetCarryCueAndLights) {
     const auto catalogue = dicom::scan({series});
     scene.camera = scene::defaultCamera(
         dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume.lattice());
-    scene.shading = test::readShading("{" + shading + "}");
+    scene.shading = test::readJson<shading::Shading>("{" + shading + "}");
     std::ofstream(folder / "s.json") << scene::toJson(scene);
     EXPECT_EQ(picture(series, "--scene " + quoted(folder / "s.json")), expected);
 }

@@ -6,19 +6,20 @@
 #include <nlohmann/json.hpp>
 
 #include "core/classify/look_json_nlohmann.h"
-#include "core/files/json_value_nlohmann.h"
+#include "core/files/json_fields_nlohmann.h"
 #include "core/shading/shading_json_nlohmann.h"
 
 namespace pellucid::test {
 
-/// What the readers make of a text. *Throw* as they do.
-inline classify::Look readLook(const std::string &text) {
+/// A value from the text of its JSON, and back. *Throws* as JsonFields.
+template <class T> T readJson(const std::string &text) {
     const auto json = nlohmann::json::parse(text, nullptr, false);
-    return classify::lookFrom(files::JsonValue(json));
+    T value;
+    files::JsonFields::read(files::JsonValue(json), value);
+    return value;
 }
-inline shading::Shading readShading(const std::string &text) {
-    const auto json = nlohmann::json::parse(text, nullptr, false);
-    return shading::shadingFrom(files::JsonValue(json));
+template <class T> std::string jsonText(const T &value) {
+    return files::JsonFields::written(value).dump();
 }
 
 } // namespace pellucid::test

@@ -61,7 +61,7 @@ std::string reasonOf(const Look &look) {
 
 std::string refusalOf(const std::string &json) {
     try {
-        test::readLook(json);
+        test::readJson<classify::Look>(json);
     } catch (const task::Error &error) {
         return error.reason().english();
     }
@@ -155,7 +155,7 @@ TEST(RegionSteps, GoThroughJson) {
     own.operand.own = std::make_shared<const TissueClass>(
         classify::connectedRegion({{1.0, 2.0, 3.0}}, 10.0, 20.0, 0.0));
     look.classes[2].steps = {painted, cutting, connected, {StepKind::fill}, own};
-    EXPECT_EQ(test::readLook(classify::jsonOf(look).dump()), look);
+    EXPECT_EQ(test::readJson<classify::Look>(test::jsonText(look)), look);
     EXPECT_EQ(
         refusalOf(R"({"classes":[{"name":"a","range":[0,1],"steps":[{"kind":"without",
               "class":"b"}]}]})"),

@@ -42,7 +42,8 @@ const std::vector<std::pair<StepKind, std::string>> names{{StepKind::gaussian, "
 
 std::string reasonOf(const std::string &step) {
     try {
-        test::readLook(R"({"classes":[{"name":"c","range":[0,1],"steps":[)" + step + "]}]}");
+        test::readJson<classify::Look>(R"({"classes":[{"name":"c","range":[0,1],"steps":[)" + step +
+                                       "]}]}");
         return "accepted";
     } catch (const task::Error &error) {
         EXPECT_EQ(error.code(), task::ErrorCode::usage);
@@ -80,12 +81,12 @@ TEST(Step, GoesThroughTextAndJson) {
                                   {StepKind::edges, {{"high", 80.0}, {"itk", 1.0}}}};
     EXPECT_EQ(classify::stepText(look.classes.front().steps[0]), "median(radius_mm=1.5)");
     EXPECT_EQ(classify::stepText(look.classes.front().steps[2]), "edges(high=80,itk=1)");
-    const std::string json = classify::jsonOf(look).dump();
+    const std::string json = test::jsonText(look);
     EXPECT_NE(json.find(R"("steps":[{"kind":"median","radius_mm":1.5},{"kind":"largest"},)"
                         R"({"high":80.0,"itk":1.0,"kind":"edges"}])"),
               std::string::npos)
         << json;
-    EXPECT_EQ(test::readLook(json), look);
+    EXPECT_EQ(test::readJson<classify::Look>(json), look);
     // Default values are not written.
     EXPECT_EQ(classify::stepText({StepKind::edges, {{"low", 20.0}}}), "edges");
 }
