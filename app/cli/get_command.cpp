@@ -148,8 +148,8 @@ Transfer known(TransferLog &log, std::int64_t id) {
 void addGetCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
     CLI::App *c =
-        app.add_subcommand("get", "Retrieve a study from a server; if it is repeated with the same "
-                                  "destination, retrieve only what is missing");
+        app.add_subcommand("get", "Retrieve a study from a server; if repeated with the same "
+                                  "destination, retrieve only missing objects");
     c->add_option("NAME", o->name, "Name of the server")->required();
     c->add_option("--study", o->wanted.studyUid, "UID of the study")->required();
     c->add_option("--series", o->wanted.seriesUids, "UIDs of series; default: all of the study");

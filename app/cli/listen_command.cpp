@@ -116,8 +116,8 @@ void addListenCommand(CLI::App &app, const Context &context) {
     CLI::Option *authorities =
         c->add_option(
              "--authorities", o->listener.authorities,
-             "CA certificates with TLS; a sender's certificate must be from them, and name the "
-             "sender's host or address")
+             "CA certificates with TLS; a sender's certificate must be issued by one and name "
+             "its host or address")
             ->check(CLI::ExistingFile)
             ->needs(certificate);
     certificate->needs(key);

@@ -23,7 +23,7 @@ PELLUCID_REASON(passwordNeedsATerminal, "a password is needed, and there is no t
 PELLUCID_REASON(systemDoesNotProtectUnattended, "%1; %2 goes on only with --allow-unprotected")
 
 // Looks, classes and presets
-PELLUCID_REASON(classAwaitsPoints, "the class '%1' needs a point in the patient; name one by --point '%1=x,y,z'")
+PELLUCID_REASON(classAwaitsPoints, "the class '%1' needs a point in the patient; set it with --point '%1=x,y,z'")
 
 // Recipes
 PELLUCID_REASON(noStudyMatches, "no study matches")

@@ -21,8 +21,8 @@ void addRecipeCommand(CLI::App &app, const Context &) {
     auto file = std::make_shared<std::string>();
     CLI::App *c = app.add_subcommand("recipe", "Check and explain recipes for 'batch'");
     c->require_subcommand(1);
-    CLI::App *check = c->add_subcommand("check", "Say whether a recipe can be used, or the line "
-                                                 "where it cannot");
+    CLI::App *check = c->add_subcommand("check", "Check a recipe; if it cannot be used, report "
+                                                 "the line");
     check->add_option("RECIPE", *file, "The recipe, a JSON file")->required()->check(notEmpty());
     check->callback([file] {
         const batch::Recipe recipe = batch::readRecipe(*file);

@@ -355,7 +355,7 @@ void addRenderCommand(CLI::App &app, const Context &context) {
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     c->add_option("--check", o->check,
                   "Pictures whose error is measured, by exact sums at selected frequencies: "
-                  "'none', 'all', or 'rest' (default): every single picture and, of a series, the "
+                  "'none', 'all', or 'rest' (default): standalone pictures and, in a series, the "
                   "first, the last and six others")
         ->transform(CLI::CheckedTransformer(
             std::map<std::string, error::CheckedPictures>{{"none", error::CheckedPictures::none},

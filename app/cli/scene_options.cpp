@@ -167,7 +167,7 @@ void addDisplayOptions(CLI::App &command, SceneOptions &options) {
         .add_option("--detail", options.detail,
                     "A or A,MM: amplify structures finer than MM (default 2; less if the volume's "
                     "radius is below 16 mm) by up to 1 + A, A from "
-                    "0 to 4; a linear filter, of values too")
+                    "0 to 4; linear; applies to values too")
         ->check(notEmpty());
     command
         .add_option("--contrast", options.contrast,
@@ -220,7 +220,7 @@ void addQualityOptions(CLI::App &command, SceneOptions &options) {
                        "the tolerance");
     command
         .add_option("--padding", options.padding,
-                    "Ratio of the padded size to the field's, at least, along each axis; default: "
+                    "Minimum ratio of the padded size to the field's along each axis; default: "
                     "as needed")
         ->check(CLI::Range(1.0, 4.0));
     command

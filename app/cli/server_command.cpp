@@ -267,14 +267,14 @@ void addServerCommand(CLI::App &app, const Context &context) {
                   "Send the password or token without TLS, although others on the network can read "
                   "it");
     put->add_option("--character-set", o->set,
-                    "Character set of a DICOM server's answers that name none, such as "
-                    "'ISO_IR 100'")
+                    "Character set, such as 'ISO_IR 100', if a DICOM server's answers "
+                    "name none")
         ->excludes(web);
     put->add_option("--connections", o->connections, "Most connections at once, 1 to 8; default 4")
         ->check(CLI::Range(1, archive::maxConnections));
     put->add_option("--limit", o->limit, "Maximum number of results; default 200; 0: no limit");
     put->add_flag("--uncompress", o->uncompress,
-                  "Send files uncompressed whose encoding a DICOM server does not accept")
+                  "Decompress files whose encoding a DICOM server does not accept")
         ->excludes(web);
     put->callback([o] {
         if (o->dicom.empty() == o->web.empty())

@@ -13,7 +13,7 @@ PELLUCID_REASON(mustBeAFileName, "must be a name of 1 to %1 letters, digits, '-'
 // Recipes
 PELLUCID_REASON(loopNeedsViews, "needs a turntable or several views")
 PELLUCID_REASON(viewsAreGivenTwice, "has more than one of view, views and turntable; only view and turntable go together")
-PELLUCID_REASON(nameIsTaken, "the name '%1' is that of another output")
+PELLUCID_REASON(nameIsTaken, "another output has the name '%1'")
 PELLUCID_REASON(needsANameOfItsOwn, "needs a name: its default, '%1', is the name of another output")
 PELLUCID_REASON(nameIsReserved, "the name '%1' is reserved for the record of the results")
 PELLUCID_REASON(fitHasNoChoice, "cannot be met with both pixel_mm and size; remove one")

@@ -83,7 +83,7 @@ PELLUCID_REASON(pixelsWithoutEnd, "files whose compressed pixel data is not term
 PELLUCID_REASON(moreBitsThanDeclared, "files whose pixels have more bits than their header says: %1")
 PELLUCID_REASON(placedBySpacing, "files with one position for all frames, which were placed in their order by the spacing between slices: %1")
 PELLUCID_REASON(placedByThickness, "files with one position for all frames and no spacing, which were placed in their order by the slice thickness: %1")
-PELLUCID_REASON(decimalCommas, "files with commas in their numbers, which were read: %1")
+PELLUCID_REASON(decimalCommas, "files with decimal commas, which were accepted: %1")
 PELLUCID_REASON(numbersOfWrongType, "files whose numbers have a wrong value representation: %1")
 PELLUCID_REASON(mosaicTilesGuessed, "mosaics without a number of slices, which were split by their acquisition matrix: %1")
 PELLUCID_REASON(valuesAsStored, "without Rescale Slope or Intercept, unlike other images of the series: the values are taken as they are")

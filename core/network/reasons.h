@@ -56,7 +56,7 @@ PELLUCID_REASON(loginIsRefused, "the login server refuses the login: %1")
 PELLUCID_REASON(loginAnswerHasNoToken, "the login server's answer has no usable token")
 PELLUCID_REASON(storedWithChanges, "stored, but the server changed or left out attributes (%1)")
 PELLUCID_REASON(proxyHasNoServer, "the server behind the proxy does not answer (HTTP status %1)")
-PELLUCID_REASON(serverNeedsACertificate, "the server demands a certificate of this program")
+PELLUCID_REASON(serverNeedsACertificate, "the server requires a client certificate")
 // clang-format on
 
 } // namespace pellucid::task::because

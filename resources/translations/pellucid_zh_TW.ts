@@ -2318,18 +2318,6 @@
         <translation>必須是物件</translation>
     </message>
     <message>
-        <source>must be an object with a kind</source>
-        <translation>必須是具有 kind 的物件</translation>
-    </message>
-    <message>
-        <source>must be an object with a name and a range</source>
-        <translation>必須是具有名稱與範圍的物件</translation>
-    </message>
-    <message>
-        <source>must be an object with a direction</source>
-        <translation>必須是具有方向的物件</translation>
-    </message>
-    <message>
         <source>must be value or window</source>
         <translation>必須是 value 或 window</translation>
     </message>
@@ -2348,14 +2336,6 @@
     <message>
         <source>has no %1</source>
         <translation>缺少 %1</translation>
-    </message>
-    <message>
-        <source>has more than %1 classes</source>
-        <translation>含有超過 %1 個類別</translation>
-    </message>
-    <message>
-        <source>has more than %1 lights</source>
-        <translation>含有超過 %1 個光源</translation>
     </message>
     <message>
         <source>not enough memory for a field of %1 x %2 x %3</source>
@@ -2894,7 +2874,7 @@
         <translation>剪裁的厚切是空的</translation>
     </message>
     <message>
-        <source>the class &apos;%1&apos; needs a point in the patient; name one by --point &apos;%1=x,y,z&apos;</source>
+        <source>the class &apos;%1&apos; needs a point in the patient; set it with --point &apos;%1=x,y,z&apos;</source>
         <translation>類別「%1」需要病患中的一點；請以 --point &apos;%1=x,y,z&apos; 指定</translation>
     </message>
     <message>
@@ -3326,7 +3306,7 @@
         <translation>在瀏覽器中登入僅適用於 DICOMweb 伺服器</translation>
     </message>
     <message>
-        <source>a server with a login in the browser needs an https address, so that nobody reads the token on its way</source>
+        <source>a server with a login in the browser needs an https address, so that nobody reads the token in transit</source>
         <translation>在瀏覽器中登入的伺服器須使用 https 網址，以免權杖在途中被讀取</translation>
     </message>
     <message>
@@ -3378,7 +3358,7 @@
         <translation>對方所送資料的呈現環境與其命令不同</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is not a day of the calendar</source>
+        <source>&apos;%1&apos; is not a calendar date</source>
         <translation>「%1」不是日曆上的日期</translation>
     </message>
     <message>
@@ -3442,7 +3422,7 @@
         <translation>不是投影至方形像素：前兩列的前三個數須互相垂直且長度相同</translation>
     </message>
     <message>
-        <source>has pixels of another size than the matrices before</source>
+        <source>has a different pixel size from earlier matrices</source>
         <translation>像素大小與先前的矩陣不同</translation>
     </message>
     <message>
@@ -3470,7 +3450,7 @@
         <translation>view、views 與 turntable 給定多於一個；只有 view 與 turntable 可以並用</translation>
     </message>
     <message>
-        <source>the name &apos;%1&apos; is that of another output</source>
+        <source>another output has the name &apos;%1&apos;</source>
         <translation>名稱「%1」已屬於另一個輸出</translation>
     </message>
     <message>
@@ -3622,7 +3602,7 @@
         <translation>代理伺服器後方的伺服器沒有回應（HTTP 狀態 %1）</translation>
     </message>
     <message>
-        <source>the server demands a certificate of this program</source>
+        <source>the server requires a client certificate</source>
         <translation>伺服器要求本程式的憑證</translation>
     </message>
     <message>
@@ -3854,7 +3834,7 @@
         <translation>檢查不完整：缺少 %1 個物件</translation>
     </message>
     <message>
-        <source>files with commas in their numbers, which were read: %1</source>
+        <source>files with decimal commas, which were accepted: %1</source>
         <translation>數值中有逗號而已讀取的檔案：%1</translation>
     </message>
     <message>
@@ -5040,11 +5020,11 @@
         <translation>移除所選步驟</translation>
     </message>
     <message>
-        <source>The selected step runs earlier</source>
+        <source>Run the selected step earlier</source>
         <translation>所選步驟提前</translation>
     </message>
     <message>
-        <source>The selected step runs later</source>
+        <source>Run the selected step later</source>
         <translation>所選步驟延後</translation>
     </message>
     <message>
@@ -6595,7 +6575,7 @@ Open it side by side?</source>
         <translation>所有位址</translation>
     </message>
     <message>
-        <source>Address of this computer on the network of the servers, to receive only there</source>
+        <source>Receive only on this address of this computer, on the servers&apos; network</source>
         <translation>本電腦在伺服器所在網路上的位址，僅在該處接收</translation>
     </message>
     <message>
@@ -6955,7 +6935,7 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>自動</translation>
     </message>
     <message>
-        <source>Character set of answers that name none, such as ISO_IR 100</source>
+        <source>Character set, such as ISO_IR 100, if answers name none</source>
         <translation>未註明字元集之回應所用的字元集，例如 ISO_IR 100</translation>
     </message>
     <message>
@@ -7083,7 +7063,7 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>接收</translation>
     </message>
     <message>
-        <source>Sends compressed images uncompressed if the server does not accept their encoding</source>
+        <source>Decompresses images before sending if the server does not accept their encoding</source>
         <translation>若伺服器不接受壓縮影像的編碼，則解壓縮後傳送</translation>
     </message>
     <message>

@@ -91,7 +91,7 @@ TEST_F(CliServers, OptionsOfTheOtherKindOfServerAreRefused) {
 
 TEST_F(CliServers, ASearchThatMakesNoSenseIsRefused) {
     add("s --dicom A@127.0.0.1:" + std::to_string(freePort()));
-    expectOneLine(own("find s --date 20261399"), 2, "'20261399' is not a day");
+    expectOneLine(own("find s --date 20261399"), 2, "'20261399' is not a calendar date");
     expectOneLine(own("find s --date 20260102-20260101"), 2, "ends before it begins");
     expectOneLine(own("find s --name \"$(printf 'M\\374ller')\""), 2, "UTF-8");
     expectOneLine(own("find s --level series --study 1.2 --name A"), 2,

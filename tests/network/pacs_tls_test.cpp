@@ -264,7 +264,8 @@ TEST_F(PacsTls, WrongServersAreRefusedAndNamed) {
         program.peer.protocol = exchange::Protocol::web;
         if (!demands)
             program.peer.authorities = at("ca2.pem");
-        EXPECT_THAT(echo(program), HasSubstr(demands ? "demands a certificate" : "--authorities"));
+        EXPECT_THAT(echo(program),
+                    HasSubstr(demands ? "requires a client certificate" : "--authorities"));
     }
 }
 

@@ -47,8 +47,8 @@ ClassSteps::ClassSteps(const classify::TissueClass &tissue, const classify::Look
     : QWidget(parent), m_tissue(tissue), m_look(look), m_steps(tissue.steps),
       m_list(new QListWidget),
       m_remove(makeButton(tr("Remove"), "removeStepButton", tr("Remove the selected step"))),
-      m_up(makeButton(tr("Up"), "stepUpButton", tr("The selected step runs earlier"))),
-      m_down(makeButton(tr("Down"), "stepDownButton", tr("The selected step runs later"))) {
+      m_up(makeButton(tr("Up"), "stepUpButton", tr("Run the selected step earlier"))),
+      m_down(makeButton(tr("Down"), "stepDownButton", tr("Run the selected step later"))) {
     m_list->setObjectName("classSteps");
     m_list->setAccessibleName(tr("Steps"));
     m_list->setFixedHeight(listHeight);

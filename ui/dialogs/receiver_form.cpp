@@ -34,7 +34,7 @@ ReceiverForm::ReceiverForm(StudyReceiver &receiver, QWidget *parent)
     m_address->setObjectName("receiverAddressEdit");
     m_address->setPlaceholderText(tr("all addresses"));
     m_address->setToolTip(
-        tr("Address of this computer on the network of the servers, to receive only there"));
+        tr("Receive only on this address of this computer, on the servers' network"));
     m_address->setText(now.address);
     m_port->setObjectName("receiverPortBox");
     m_port->setRange(1, 65535);

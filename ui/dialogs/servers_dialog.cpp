@@ -182,12 +182,12 @@ QWidget *ServersDialog::makeForm() {
                             tr("Most connections at the same time while retrieving; fewer are "
                                "used where more would not save time"));
     m_limit = spinBox("limitBox", 0, 100000, tr("Maximum number of results; 0: no limit"));
-    m_characterSet = lineEdit("characterSetEdit",
-                              tr("Character set of answers that name none, such as ISO_IR 100"));
+    m_characterSet =
+        lineEdit("characterSetEdit", tr("Character set, such as ISO_IR 100, if answers name none"));
     m_uncompress = new QCheckBox(tr("&Decompress if the encoding is not accepted"));
     m_uncompress->setObjectName("uncompressBox");
     m_uncompress->setToolTip(
-        tr("Sends compressed images uncompressed if the server does not accept their encoding"));
+        tr("Decompresses images before sending if the server does not accept their encoding"));
     m_tls = new QCheckBox(tr("&Encrypt the connection (TLS)"));
     m_tls->setObjectName("tlsBox");
     m_authentication = new QComboBox;

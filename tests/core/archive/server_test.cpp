@@ -165,9 +165,9 @@ TEST(Search, TermsAreChecked) {
 }
 
 TEST(Search, DatesAreOfTheCalendar) {
-    EXPECT_EQ(refusalOf({.date = "20261399"}), "'20261399' is not a day of the calendar");
-    EXPECT_EQ(refusalOf({.date = "20260101-20260231"}), "'20260231' is not a day of the calendar");
-    EXPECT_EQ(refusalOf({.date = "20250229-"}), "'20250229' is not a day of the calendar");
+    EXPECT_EQ(refusalOf({.date = "20261399"}), "'20261399' is not a calendar date");
+    EXPECT_EQ(refusalOf({.date = "20260101-20260231"}), "'20260231' is not a calendar date");
+    EXPECT_EQ(refusalOf({.date = "20250229-"}), "'20250229' is not a calendar date");
     EXPECT_EQ(refusalOf({.date = "20260102-20260101"}),
               "the range of dates '20260102-20260101' ends before it begins");
     EXPECT_NE(refusalOf({.date = "20260101-20260102-20260103"}), "accepted");

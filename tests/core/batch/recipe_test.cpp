@@ -79,7 +79,7 @@ TEST(Recipe, FaultsAreNamedWithTheirLines) {
         {"{\"recipe\": 1, \"outputs\": [{}, {}]}",
          "/outputs/1: needs a name: its default, 'picture'"},
         {"{\"recipe\": 1, \"outputs\": [{\"view\": \"AP\"}, {\"name\": \"ap\"}]}",
-         "/outputs/1/name: the name 'ap' is that"},
+         "/outputs/1/name: another output has the name 'ap'"},
         {"{\"recipe\": 1, \"outputs\": [{}],\n\"outputs\": [{}]}",
          "line 2: the member 'outputs' is given twice"},
         {"{\"recipe\": 1, \"outputs\": [{\"deidentify\": true}]}", "/outputs/0/deidentify: is for"},
@@ -91,7 +91,7 @@ TEST(Recipe, FaultsAreNamedWithTheirLines) {
         {"{\"recipe\": 1, \"outputs\": [{\"look\": \"nothing like this\"}]}", "/outputs/0/look"},
         {"{\"recipe\": 1, \"outputs\": [{\"turntable\": 3, \"name\": \"a\"},\n"
          "{\"name\": \"a_0002\"}]}",
-         "line 2: /outputs/1/name: the name 'a_0002'"},
+         "line 2: /outputs/1/name: another output has the name 'a_0002'"},
         {"{\"recipe\": 1, \"outputs\": [{\"look\": \"Bone over soft tissue\", \"format\": "
          "\"png16\"}]}",
          "/outputs/0/format"},
