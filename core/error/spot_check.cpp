@@ -100,10 +100,11 @@ public:
         const double perFrequency = double(size.count()) * m_rows.images() +
                                     perSine * (double(size.i) / 2.0 + size.j + size.k),
                      paid = m_effort.multiplications / perFrequency;
+        const int affordable = int(std::min(paid, mostDrawn));
         // A whole number of pairs in each round.
-        const int most = std::max(m_effort.atLeast, int(std::min(paid, mostDrawn))) / 8 * 8;
-        // To draw most of them takes as long.
-        sums.isComplete = all.size() <= 2 * std::size_t(most);
+        const int most = std::max(m_effort.atLeast, affordable) / 8 * 8;
+        // Drawing half of a few takes about as long as summing them all.
+        sums.isComplete = all.size() <= std::size_t(std::max(m_effort.atLeast, 2 * affordable));
         if (!sums.isComplete)
             divide(all);
         add(all, sums.always, progress.part(0.0, sums.isComplete ? 1.0 : 0.1));
