@@ -41,9 +41,6 @@ static void validate(const Measurement &m) {
     require(m.pointsMm.size() >= count.min && m.pointsMm.size() <= count.max,
             count.min == count.max ? because::mustHavePoints(count.min)
                                    : because::mustHaveFromToPoints(count.min, count.max));
-    constexpr double largestMm = 1e7; // ten kilometres
-    for (const glm::dvec3 &p : m.pointsMm)
-        require(glm::length(p) <= largestMm, task::because::isOutOfRange);
     // A tolerance for the rounding of numbers written with all digits.
     const auto &[right, up] = m.axes;
     require(std::abs(glm::length(right) - 1.0) <= 1e-6 && std::abs(glm::length(up) - 1.0) <= 1e-6 &&
@@ -55,6 +52,11 @@ static void fields(JsonFields &io, Measurement &m) {
     io.required("kind", m.kind);
     io.known("name", m.name);
     io.required("points_mm", m.pointsMm);
+    io.checked("points_mm", [&] {
+        constexpr double largestMm = 1e7; // ten kilometres
+        for (const glm::dvec3 &p : m.pointsMm)
+            require(glm::length(p) <= largestMm, because::isOutOfRange);
+    });
     io.required("right", m.axes.right);
     io.required("up", m.axes.up);
     io.unusual("projected", m.isProjected);

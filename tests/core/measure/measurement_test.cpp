@@ -190,6 +190,8 @@ TEST(Measurement, BadFilesAreRefusedWithAReason) {
               "measurement 1: it must have 3 points");
     EXPECT_EQ(reason(one(R"({"kind": "distance", "points_mm": [[0,0,0],[1,1,1e300]]})")),
               "measurement 1: /points_mm/1/2: is out of range");
+    EXPECT_EQ(reason(one(R"({"kind": "distance", "points_mm": [[0,0,0],[1,1,1e8]]})")),
+              "measurement 1: /points_mm: is out of range");
     EXPECT_EQ(reason(one(R"({"kind": "distance", "points_mm": [[0,0,0],[1,1]]})")),
               "measurement 1: /points_mm/1: must be three numbers");
     EXPECT_EQ(reason(one(R"({"kind": "distance", "points_mm": [[0,0,0],[1,1,1]]})")),
