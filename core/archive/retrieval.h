@@ -64,7 +64,7 @@ struct MoveDestination {
 /// Retrieves the objects of a study that its folder does not have yet: compressed objects stay
 /// compressed, series come from coarse to fine, over up to `Server::connections` connections, as
 /// far as the server grants them and they save time. A connection that is lost is made again while
-/// the others go on; objects that are still missing at the end are listed. *Throws*
+/// the others go on. The report lists the objects that never arrived. *Throws*
 /// Error{unreachable} if nothing could be retrieved because the server cannot be reached, or
 /// because the port of the destination is in use; as exchange::Link otherwise; Error{unusable,
 /// loginHasExpired} if the user has to log in again; Error{output} if the folder cannot be written;

@@ -135,7 +135,7 @@ void check(const Tokens &tokens) {
         fail();
 }
 
-// Nothing of the other types is shown or becomes the name of a file.
+// The other types contain no text that is shown or names a file.
 template <class T> void check(const T & /*value*/) {}
 
 } // namespace

@@ -379,7 +379,7 @@ private slots:
             QVERIFY(sharedGlObjects() > closed);
         };
         // Studies leave what the next ones use again: pictures and tables, of which a few are kept.
-        // What a study keeps for good comes once with each.
+        // A leak grows with every study.
         constexpr int first = 3, next = 5;
         const auto countAfter = [&](int studies) {
             int count = -1;

@@ -101,7 +101,7 @@ private slots:
         QCOMPARE(mainWindow().tabifiedDockWidgets(presets).size(), 3);
     }
 
-    // Of the values of fat and muscle, the left half at 0: fat vanishes and bone stays.
+    // A curve over the values of fat and muscle, its left half at 0, hides fat and keeps bone.
     void theCurveOfATypedRangeShows() {
         open(headPath());
         auto *editor = find<ui::CurveEditor>("curveEditor");

@@ -63,7 +63,7 @@ private slots:
         QTest::keyClick(name, Qt::Key_Return);
         QVERIFY(find<QLabel>("presetMessage")->isVisible());
         QVERIFY(find<QLabel>("presetMessage")->text().contains("is built in"));
-        QVERIFY(name->isVisible()); // still there for a different name
+        QVERIFY(name->isVisible()); // the user can enter another name
         QTest::keyClick(name, Qt::Key_Escape);
         QVERIFY(!name->isVisible());
     }
