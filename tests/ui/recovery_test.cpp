@@ -269,11 +269,12 @@ private slots:
         const fs::path sessions = m_folder / "cache" / "pellucid" / "sessions";
         QProcess program;
         startWorkstation(program, m_folder, {zip});
+        // A folder counts once it has contents: before, it has no lock, and a cleanup may take it.
         const auto unpacked = [&] {
             std::error_code ignored;
             int count = 0;
             for (const auto &entry : fs::directory_iterator(sessions, ignored))
-                count += entry.is_directory() ? 1 : 0;
+                count += fs::is_directory(entry.path() / "files", ignored) ? 1 : 0;
             return count;
         };
         QTRY_VERIFY_WITH_TIMEOUT(unpacked() == 1, patienceMs);
