@@ -92,6 +92,7 @@ const std::vector<std::pair<std::string, RunSuite>> &suites() {
         {"shading", alone(runShadingSuite)},
         {"planes", alone(runPlanesSuite)},
         {"radiograph", alone(runRadiographSuite)},
+        {"check", alone(runCheckSuite)},
         {"gpu", alone(runGpuSuite)},
         {"search",
          [](const Report &report, const Subject *, const Options &options) {

@@ -36,6 +36,9 @@ void runPlanesSuite(const Report &report);
 /// How much contrast processing adds to frames of 1800 x 2000 pixels, alternating with plain
 /// display.
 void runRadiographSuite(const Report &report);
+/// The exact sums from which the error of a picture is measured, at 256^3 to 512 x 512 x 800: their
+/// time, and their error relative to the sum of all samples.
+void runCheckSuite(const Report &report);
 /// The engine on the graphics card at 128^3 to 512^3 compared with the processor's and with a ray
 /// sum on the same card. *Throws* Error{noSuchDevice}.
 void runGpuSuite(const Report &report);
