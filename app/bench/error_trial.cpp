@@ -104,6 +104,28 @@ shading::Shading shadingOf(Genes &genes) {
     return result;
 }
 
+// Half of the trials are uniform. The best kernel leaves rounding and tails to be seen.
+scene::Interpolation interpolationOf(Genes &genes) {
+    scene::Interpolation interpolation;
+    interpolation.isUniform = genes.next() < 0.5;
+    if (!interpolation.isUniform || genes.next() < 0.5)
+        return interpolation;
+    interpolation.kernel = {fourier::KernelFamily::leastAliasing, 7};
+    interpolation.padding = 2.0;
+    interpolation.storage =
+        genes.next() < 0.5 ? fourier::Storage::binary16 : fourier::Storage::float32;
+    return interpolation;
+}
+
+std::string nameOf(const scene::Interpolation &interpolation) {
+    std::string name = interpolation.isUniform ? ", uniform" : "";
+    if (interpolation.kernel)
+        name += ", " + fourier::kernelName(*interpolation.kernel);
+    if (interpolation.storage)
+        name += ", " + std::string(fourier::storageName(*interpolation.storage));
+    return name;
+}
+
 } // namespace
 
 Trial trialOf(const Candidate &candidate, PictureKind pictures) {
@@ -115,12 +137,17 @@ Trial trialOf(const Candidate &candidate, PictureKind pictures) {
     if (kind == FieldKind::pattern) // so that the pattern's lines are in the roll-off
         zoom = genes.between(0.94, 1.0);
     const volume::Lattice lattice = latticeOf(genes);
+    const scene::Interpolation interpolation = interpolationOf(genes);
+    const bool isBandLimited = genes.next() < 0.3;
     const Shape shape = shapeOf(kind, genes, lattice);
     std::string view;
     Trial trial;
     trial.scene.camera = scene::defaultCamera(lattice);
     trial.scene.camera.orientation = viewOf(genes, lattice, shape.along, view);
     trial.scene.tolerance = tolerance;
+    trial.scene.interpolation = interpolation;
+    if (isBandLimited)
+        trial.scene.image.reconstruction = scene::Reconstruction::bandLimited;
     const volume::GridSize size = lattice.size();
     trial.field = classify::densityField(
         volume::Volume(lattice, samplesOf(kind, shape, genes, size), volume::ValueUnit::none),
@@ -148,8 +175,9 @@ Trial trialOf(const Candidate &candidate, PictureKind pictures) {
         more += fmt::format(", detail {:.2g} at {:.2g} mm", image.detail, image.detailMm);
     }
     trial.fieldName = fmt::format("{}, {}x{}x{}", fieldKindName(kind), size.i, size.j, size.k);
-    trial.name = fmt::format("{}, {}{}, pixel {:.2f} mm, tolerance {:.2g}", trial.fieldName, view,
-                             more, camera.pixelMm, tolerance);
+    trial.name = fmt::format("{}, {}{}, pixel {:.2f} mm{}, tolerance {:.2g}{}", trial.fieldName,
+                             view, more, camera.pixelMm, isBandLimited ? ", band limited" : "",
+                             tolerance, nameOf(interpolation));
     return trial;
 }
 

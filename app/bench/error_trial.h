@@ -17,7 +17,8 @@ struct Candidate {
     std::vector<double> genes;
 };
 
-/// A decoded candidate: a field, and a scene with view and tolerance.
+/// A decoded candidate: a field, and a scene with view and tolerance. Half of the scenes are
+/// uniform: their plans state what they predict, where others state the tolerance.
 struct Trial {
     std::string fieldName; ///< kind of field and size
     std::string name;      ///< also view, pixel and tolerance

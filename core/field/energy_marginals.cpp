@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -52,10 +53,8 @@ public:
     explicit DistanceProfiles(EnergySpread &spread) : m_spread(spread) {
         m_spread.byDistance.assign(m_directions.size(), std::vector<double>(distanceSteps));
         m_spread.distanceStepMm = std::max(spread.radiusMm, 1e-300) / distanceSteps;
-        m_spread.concentration = 0.0;
     }
     void add(const glm::dvec3 &fromCenterMm, double share) {
-        m_spread.concentration += share * share;
         for (std::size_t d = 0; d < m_directions.size(); ++d) {
             const double steps =
                 std::abs(glm::dot(fromCenterMm, m_directions[d])) / m_spread.distanceStepMm;
@@ -100,11 +99,13 @@ public:
         tbb::parallel_for(std::size_t(0), m_layers.size(),
                           [&](std::size_t n) { sumLayer(int(n)); });
         joinLayers();
+        m_isPositive = isPositive();
         m_spread.shadowMm2 = shadowOf(m_lattice, m_box, m_spread.radiusMm);
         const MassInBalls balls = profileBlocks();
         m_result.massMm3 = m_mass * m_lattice.cellVolumeMm3();
         m_result.energyMm3 = m_energy * m_lattice.cellVolumeMm3();
-        if (isPositive())
+        m_spread.roughestView = m_roughness;
+        if (m_isPositive)
             boundAnyView(balls);
         m_result.spread = std::make_shared<const EnergySpread>(std::move(m_spread));
         return std::move(m_result);
@@ -146,7 +147,13 @@ private:
 
     int blocksOf(int samples) const { return (samples + m_side - 1) / m_side; }
     // Bounds that hold in every view exist only for fields without negative samples.
-    bool isPositive() const { return m_smallest >= 0.0 && m_mass > 0.0; }
+    // Resampling may leave -1e-16 where a field is 0; floats round more than that.
+    bool isPositive() const {
+        const std::vector<float> &maxima = m_maxima[2].values;
+        return -m_smallest <= double(std::numeric_limits<float>::epsilon() *
+                                     *std::max_element(maxima.begin(), maxima.end())) &&
+               m_mass > 0.0;
+    }
 
     void sumLayer(int n) {
         Layer &layer = m_layers[std::size_t(n)];
@@ -341,7 +348,7 @@ private:
                                                  m_box.lo.k + middle(int(n), m_size.k)}};
                     const glm::dvec3 fromCenterMm = m_lattice.patient(at).mm - m_center;
                     profiles.add(fromCenterMm, energy / m_energy);
-                    if (isPositive())
+                    if (m_isPositive)
                         balls.add(fromCenterMm, m_layers[n].blockMass[block] / m_mass);
                 }
         return balls;
@@ -354,6 +361,7 @@ private:
         const double ballBound = 1.0 / balls.minArea(0.5 * m_side * glm::length(cell));
         const double seen = leastProjectionEnergy(m_result.blocks, m_lattice, m_box);
         const double minEnergy = std::max(ballBound, seen);
+        m_spread.leastProjection = minEnergy;
         m_spread.peakedness = std::max(1.0, largestLineIntegral(m_maxima, m_side, m_lattice) /
                                                 (m_result.massMm3 * minEnergy));
         const double depthMm = 2.0 * m_spread.radiusMm + m_lattice.longestStepMm();
@@ -372,7 +380,9 @@ private:
     std::array<std::vector<BlockRange>, 3> m_ranges;
     std::array<std::vector<std::size_t>, 3> m_blockAt; ///< of each sample along an axis
     std::array<LayerMaxima, 3> m_maxima;
-    double m_energy = 0.0, m_mass = 0.0, m_smallest = 0.0; ///< of the field's samples
+    double m_energy = 0.0, m_mass = 0.0, m_smallest = 0.0,
+           m_largest = 0.0; ///< of the field's samples
+    bool m_isPositive = false;
     double m_roughness = 0.0; ///< the share of the energy near the highest frequencies, at most
     EnergyMarginals m_result;
     EnergySpread m_spread;

@@ -19,26 +19,27 @@ struct EnergySpread {
     std::vector<std::vector<double>> byDistance;
     double distanceStepMm = 1.0;
     double shortestStepMm = 1.0, longestStepMm = 1.0; ///< of the lattice
-    /// An upper bound on the share of a projection's energy near the highest frequencies of the
-    /// lattice, in any view of a field without negative samples: |P g|^2 <= depth |g|^2, and |P
-    /// f|^2 has the lower bounds below. The energy of g is at most a sixteenth of that of the
-    /// second differences along the three axes, which weights a frequency f by sum_d sin^4(pi f_d).
-    /// Infinite for a field with negative samples.
-    double roughestView = std::numeric_limits<double>::infinity();
-    /// The sum of the squared energy shares of blocks of samples: 1 for a point, 1/blocks for a
-    /// uniform field.
-    double concentration = 1.0;
+    /// The share of a projection's energy near the highest frequencies of the lattice. The energy
+    /// of that part g is at most a sixteenth of that of the second differences along the three
+    /// axes, which weights a frequency f by sum_d sin^4(pi f_d). In a field without negative
+    /// samples it is an upper bound for any view: |P g|^2 <= depth |g|^2, and `leastProjection`
+    /// bounds |P f|^2. In others it is the share of the field's energy, of which a projection has
+    /// less on average.
+    double roughestView = 1.0;
     /// Distance from the centre of the lattice to the farthest nonzero sample, mm.
     double radiusMm = 0.0;
     /// An upper bound on the mean area of the field's shadow over all directions, mm^2: a quarter
     /// of the surface of its box, or of the enclosing sphere if that is smaller.
     double shadowMm2 = 0.0;
+    /// A lower bound on the energy of any projection of a field without negative samples, relative
+    /// to the square of its mass, in 1/mm^2: the larger of m(R)^2 / (pi R^2), where m(R) is the
+    /// share of the mass in any ball of radius R, and of the least energy of coarse projections. 0
+    /// for a field with negative samples, which may cancel positive ones in some view.
+    double leastProjection = 0.0;
     /// For a field without negative samples: in any view, a part's share of the projection's energy
     /// is at most this many times its share of the mass. With f_a the part, <P f_a, P f> <= max(P
-    /// f) * mass_a, and `largestLineIntegral` bounds max(P f). |P f|^2 has two lower bounds, and
-    /// the larger one counts: m(R)^2 / (pi R^2), where m(R) is the mass in any ball of radius R,
-    /// and a little less than the smallest energy of coarse projections in directions all around.
-    /// Infinite for a field with negative samples, which may cancel positive ones in some view.
+    /// f) * mass_a; `largestLineIntegral` bounds max(P f), and `leastProjection` |P f|^2. Infinite
+    /// for a field with negative samples.
     double peakedness = std::numeric_limits<double>::infinity();
 };
 

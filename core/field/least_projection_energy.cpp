@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
@@ -15,11 +16,9 @@ namespace pellucid::field {
 namespace {
 
 constexpr int views = 64;
-constexpr int maxPixels = 128; // along a side of a coarse projection
-
-// Between the sampled directions the energy does not fall below this share of the minimum found:
-// aligned parts make narrow peaks in the energy, not narrow valleys.
-constexpr double sampledShare = 0.85;
+constexpr int maxPixels = 128;      // along a side of a coarse projection
+constexpr int descents = 4;         // from the least of the views
+constexpr double finestTurn = 0.01; // radians: a pixel at the edge of such a projection
 
 // Directions that cover half a sphere evenly, along a spiral.
 glm::dvec3 viewDirection(int view) {
@@ -28,12 +27,24 @@ glm::dvec3 viewDirection(int view) {
     return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
+// A direction at right angles to w.
+glm::dvec3 across(const glm::dvec3 &w) {
+    return glm::normalize(
+        glm::cross(w, std::abs(w.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0)));
+}
+
 // The masses of a field as points.
 struct PointMasses {
     std::vector<glm::dvec3> placesMm; ///< relative to the middle of the box
     std::vector<double> masses;
     double radiusMm = 0.0; ///< the largest distance of a point
     double blockMm = 0.0;  ///< the longest side of a block
+
+    void add(const glm::dvec3 &placeMm, double mass) {
+        placesMm.push_back(placeMm);
+        masses.push_back(mass);
+        radiusMm = std::max(radiusMm, glm::length(placeMm));
+    }
 };
 
 PointMasses pointMasses(std::span<const Block> blocks, const volume::Lattice &lattice,
@@ -57,18 +68,39 @@ PointMasses pointMasses(std::span<const Block> blocks, const volume::Lattice &la
             const BlockRange &range = ranges[std::size_t(d)][block.at[std::size_t(d)]];
             at[d] += 0.5 * (range.first + range.last);
         }
-        points.placesMm.push_back(lattice.patient(volume::VoxelPoint{at}).mm - middle);
-        points.masses.push_back(double(block.mass));
-        points.radiusMm = std::max(points.radiusMm, glm::length(points.placesMm.back()));
+        points.add(lattice.patient(volume::VoxelPoint{at}).mm - middle, double(block.mass));
     }
     return points;
 }
 
-// The energy of the projection along w, each mass shared between the nearest four pixels. *Shape*:
-// side x side pixels.
-double projectionEnergy(const PointMasses &points, const glm::dvec3 &w, double pixelMm, int side) {
-    const glm::dvec3 u = glm::normalize(glm::cross(w, glm::dvec3(0.0, 1.0, 0.0))),
-                     v = glm::cross(w, u);
+// The same with the points of four blocks a side joined.
+PointMasses joined(const PointMasses &fine) {
+    const double cellMm = 4.0 * fine.blockMm;
+    const int side = int(2.0 * fine.radiusMm / cellMm) + 1;
+    struct Cell {
+        glm::dvec3 momentMm{0.0};
+        double mass = 0.0;
+    };
+    std::vector<Cell> cells(std::size_t(side) * std::size_t(side) * std::size_t(side));
+    for (std::size_t n = 0; n < fine.masses.size(); ++n) {
+        const glm::ivec3 at((fine.placesMm[n] + fine.radiusMm) / cellMm);
+        Cell &cell = cells[std::size_t((at.z * side + at.y) * side + at.x)];
+        cell.momentMm += fine.masses[n] * fine.placesMm[n];
+        cell.mass += fine.masses[n];
+    }
+    PointMasses points;
+    points.blockMm = cellMm;
+    for (const Cell &cell : cells)
+        if (cell.mass > 0.0)
+            points.add(cell.momentMm / cell.mass, cell.mass);
+    return points;
+}
+
+// The energy of the projection along w, each mass shared between the nearest four pixels.
+double projectionEnergy(const PointMasses &points, const glm::dvec3 &w) {
+    const double pixelMm = std::max(points.blockMm, 2.0 * points.radiusMm / (maxPixels - 3));
+    const int side = int(2.0 * points.radiusMm / pixelMm) + 3;
+    const glm::dvec3 u = across(w), v = glm::cross(w, u);
     std::vector<double> picture(std::size_t(side) * std::size_t(side));
     for (std::size_t n = 0; n < points.masses.size(); ++n) {
         const double x = glm::dot(points.placesMm[n], u) / pixelMm + 0.5 * (side - 1),
@@ -86,6 +118,26 @@ double projectionEnergy(const PointMasses &points, const glm::dvec3 &w, double p
     for (const double sum : picture)
         energy += sum * sum / (pixelMm * pixelMm);
     return energy;
+}
+
+// The direction of the least energy that ever smaller turns from w reach.
+glm::dvec3 downhill(const PointMasses &points, glm::dvec3 w, double energy) {
+    constexpr int ways = 6;
+    for (double turn = 1.0 / std::sqrt(double(views)); turn > finestTurn;) {
+        const glm::dvec3 from = w, u = across(w), v = glm::cross(w, u);
+        for (int way = 0; way < ways; ++way) {
+            const double angle = 2.0 * std::numbers::pi * way / ways;
+            const glm::dvec3 turned =
+                glm::normalize(from + turn * (std::cos(angle) * u + std::sin(angle) * v));
+            if (const double found = projectionEnergy(points, turned); found < energy) {
+                energy = found;
+                w = turned;
+            }
+        }
+        if (w == from)
+            turn *= 0.5;
+    }
+    return w;
 }
 
 } // namespace
@@ -118,14 +170,23 @@ double MassInBalls::minArea(double halfMm) const {
 
 double leastProjectionEnergy(std::span<const Block> blocks, const volume::Lattice &lattice,
                              const volume::VoxelBox &box) {
-    const PointMasses points = pointMasses(blocks, lattice, box);
-    const double pixelMm = std::max(points.blockMm, 2.0 * points.radiusMm / (maxPixels - 3));
-    const int side = int(2.0 * points.radiusMm / pixelMm) + 3;
+    const PointMasses points = pointMasses(blocks, lattice, box), coarse = joined(points);
     std::array<double, views> energies{};
     tbb::parallel_for(0, views, [&](int view) {
-        energies[std::size_t(view)] = projectionEnergy(points, viewDirection(view), pixelMm, side);
+        energies[std::size_t(view)] = projectionEnergy(coarse, viewDirection(view));
     });
-    return sampledShare * *std::min_element(energies.begin(), energies.end());
+    std::array<int, views> order{};
+    std::iota(order.begin(), order.end(), 0);
+    std::partial_sort(order.begin(), order.begin() + descents, order.end(), [&](int a, int b) {
+        return energies[std::size_t(a)] < energies[std::size_t(b)];
+    });
+    std::array<double, descents> least{};
+    tbb::parallel_for(0, descents, [&](int n) {
+        const int view = order[std::size_t(n)];
+        least[std::size_t(n)] = projectionEnergy(
+            points, downhill(coarse, viewDirection(view), energies[std::size_t(view)]));
+    });
+    return *std::min_element(least.begin(), least.end());
 }
 
 } // namespace pellucid::field

@@ -35,9 +35,9 @@ private:
     glm::dvec3 m_center{0.0};
 };
 
-/// A little less than the smallest energy of coarse projections in directions all around. They are
-/// computed from the masses of blocks; spreading each mass over its block lowers the energy.
-/// *Shape*: the blocks of a field in a box of the lattice.
+/// The least energy of coarse projections: of 64 directions all around, and downhill from the four
+/// with the least. They are computed from the masses of blocks; spreading each mass over its block
+/// lowers the energy. *Shape*: the blocks of a field in a box of the lattice.
 double leastProjectionEnergy(std::span<const Block> blocks, const volume::Lattice &lattice,
                              const volume::VoxelBox &box);
 

@@ -15,20 +15,6 @@ namespace pellucid::plan {
 
 namespace {
 
-// Single views of fields with negative samples scatter around the expected error. This margin, as
-// energy, covers the worst view in the bench's hard suite.
-constexpr double viewMargin = 1.5;
-// The same margins for rounding: few cells may dominate it, and a bounded field needs less margin.
-// All cells of a field of a few samples are alike and round alike, so their errors do not average
-// out.
-constexpr double sparseMargin = 12.0, boundedMargin = 1.5;
-
-double roundingMargin(const field::EnergySpread &spread) {
-    const double alike =
-        std::isinf(spread.peakedness) ? 1.0 : std::min(1.0, 2.5 * spread.concentration);
-    return boundedMargin + (sparseMargin - boundedMargin) * alike;
-}
-
 // The factor that a sample at x gets from the taps read at a frequency t off the grid. `Any`: a
 // Kernel or a MomentKernel.
 template <class Any> std::complex<double> offGrid(const Any &kernel, double x, double t) {
@@ -66,8 +52,8 @@ BlockAmplitudes amplitudesAt(const fourier::Kernel &kernel, double x) {
 }
 
 // The largest mean of a value over the parts of a field that their shares allow. For fields with
-// negative samples: the expected mean, times a margin. Values are sorted into classes, and each
-// class counts with its largest value.
+// negative samples: the expected mean. Values are sorted into classes, and each class counts with
+// its largest value.
 class LargestMean {
 public:
     LargestMean(const field::EnergyMarginals &field) : m_field(field) {}
@@ -78,7 +64,7 @@ public:
             double sum = 0.0;
             for (const field::Block &block : m_field.blocks)
                 sum += double(block.energy) * value(block.at);
-            return viewMargin * sum;
+            return sum;
         }
         constexpr int classes = 256;
         constexpr double octaves = 64.0, perOctave = classes / octaves;
@@ -105,8 +91,9 @@ private:
 
 } // namespace
 
-AxisError axisError(const fourier::Kernel &kernel, int padded, int samples) {
+AxisError axisError(const fourier::Kernel &kernel, int padded, int samples, double stepMm) {
     AxisError error;
+    error.periodMm = padded * stepMm;
     for (const field::BlockRange &range : field::blockRanges(samples)) {
         // Amplitudes grow outward, so both ends of a block bound it.
         BlockAmplitudes worst;
@@ -120,7 +107,6 @@ AxisError axisError(const fourier::Kernel &kernel, int padded, int samples) {
         error.blocks.push_back(worst);
     }
     error.kernelEnergy = kernel.energy();
-    error.isShort = samples <= 4;
     return error;
 }
 
@@ -218,9 +204,6 @@ double minRms(const std::function<double(double)> &cue, const field::EnergySprea
     return least;
 }
 
-// A floor for where the cue is darkest: neighbours are brighter.
-constexpr double darkest = 0.002;
-
 } // namespace
 
 CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice, double radiusMm,
@@ -236,7 +219,8 @@ CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice
     else
         for (const double t : {-offset / radiusMm, offset / radiusMm}) // both are monotonic
             least = std::min(least, value(t));
-    least = std::max(darkest, least);
+    // Half a sample from where the cue is darkest.
+    least = std::max(0.5 * cue.strength * lattice.shortestStepMm() / radiusMm, least);
     weight.aliases = cueRms(cue) / least;
     if (cue.kind == shading::CueKind::linear)
         for (int d = 0; d < 3; ++d)
@@ -245,24 +229,56 @@ CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice
     return weight;
 }
 
+namespace {
+
 // Rounding errors are uniform up to half a unit in the last place, 2^-11 of the leading power of
-// two; over the mantissas that is 0.73 * 2^-11/sqrt(3).
-static double relativeRounding(fourier::Storage storage) {
-    return storage == fourier::Storage::binary16 ? 2.1e-4 : 3e-7;
+// two; over the mantissas that is 0.73 * 2^-11/sqrt(3). At most, it is 2^-11.
+constexpr double meanRounding16 = 2.1e-4, mostRounding16 = 4.9e-4, rounding32 = 3e-7;
+
+// The share of pairs of the energy that lie in one layer across an axis.
+double inOneLayer(const std::vector<double> &shares) {
+    double sum = 0.0;
+    for (const double share : shares)
+        sum += share * share;
+    return sum;
 }
 
-static double roundingNoise(const std::array<AxisError, 3> &axes,
-                            const field::EnergyMarginals &field) {
+// The largest share of a slice's energy that one cell can have.
+double largestCell(const std::array<AxisError, 3> &axes, const field::EnergySpread &spread) {
+    const double i = axes[0].periodMm, j = axes[1].periodMm, k = axes[2].periodMm,
+                 cells = std::min({i * j, j * k, k * i}) * spread.leastProjection;
+    return 1.0 / std::max(1.0, cells);
+}
+
+// The energy of rounding over that of a cell.
+double cellRounding(const std::array<AxisError, 3> &axes, fourier::Storage storage,
+                    const field::EnergyMarginals &field) {
+    if (storage == fourier::Storage::float32)
+        return rounding32 * rounding32;
+    const double mean = meanRounding16 * meanRounding16, most = mostRounding16 * mostRounding16,
+                 i = inOneLayer(field.axis[0]), j = inOneLayer(field.axis[1]),
+                 k = inOneLayer(field.axis[2]), equal = std::max({i * j, j * k, k * i});
+    return mean +
+           std::min(1.0, equal + std::sqrt(largestCell(axes, *field.spread))) * (most - mean);
+}
+
+// Independent errors of the cells reach a slice with the energy of the kernel, equal ones whole.
+// Cells along an axis round alike as far as the energy lies in one layer.
+double roundingNoise(const std::array<AxisError, 3> &axes, const field::EnergyMarginals &field) {
     double energy = 1.0;
-    for (const AxisError &axis : axes)
-        energy *= axis.isShort ? 1.0 : axis.kernelEnergy;
+    for (std::size_t d = 0; d < axes.size(); ++d) {
+        const double kernel = axes[d].kernelEnergy;
+        energy *= kernel + std::max(0.0, 1.0 - kernel) * inOneLayer(field.axis[d]);
+    }
     return energy * LargestMean(field).of([&](const auto &at) {
         double inverse = 1.0;
         for (std::size_t d = 0; d < axes.size(); ++d)
-            inverse *= axes[d].isShort ? 1.0 : axes[d].blocks[at[d]].inverse;
+            inverse *= axes[d].blocks[at[d]].inverse;
         return inverse;
     });
 }
+
+} // namespace
 
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
                             const field::EnergyMarginals &field, double share,
@@ -279,12 +295,10 @@ double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Stora
         moment = std::max(moment, cue.moments[d] * cue.moments[d] * axes[d].moment);
     }
     const double weight = cue.aliases * cue.aliases;
-    const double rounding = relativeRounding(storage);
     // Rounding errors are distributed like h^2, so nearly all of their energy is where the field
     // is.
-    return std::sqrt((weight * aliases + viewMargin * moment) / share +
-                     weight * roundingMargin(*field.spread) * rounding * rounding *
-                         roundingNoise(axes, field));
+    return std::sqrt((weight * aliases + moment) / share +
+                     weight * cellRounding(axes, storage, field) * roundingNoise(axes, field));
 }
 
 } // namespace pellucid::plan

@@ -29,7 +29,7 @@ struct BlockAmplitudes {
 struct AxisError {
     std::vector<BlockAmplitudes> blocks; ///< see `field::blockRanges`
     double kernelEnergy = 1.0;           ///< integral H^2
-    bool isShort = false; ///< so few samples that the cells of their spectrum round alike
+    double periodMm = 0.0;               ///< of the padded axis
     /// The error of the moment kernel of a linear cue, as the larger of two energies w^T C w, with
     /// C of `field::SlabProducts` and k the kernel's response. In views along the axis, w is the
     /// difference between the sum over the taps and i x; in views close to it, w is k(x)/h(x) - x
@@ -38,7 +38,7 @@ struct AxisError {
 };
 
 /// The errors of an axis with this many samples. *Units*: `padded` in samples.
-AxisError axisError(const fourier::Kernel &kernel, int padded, int samples);
+AxisError axisError(const fourier::Kernel &kernel, int padded, int samples, double stepMm);
 /// Raises `error.moment` to that of this field, for a linear cue.
 void addMomentError(AxisError &error, const fourier::Kernel &kernel,
                     const fourier::MomentKernel &moment, int padded,
@@ -68,11 +68,20 @@ CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice
 ///   |P(f w)|^2 <= sum_b max_b(w)^2 <P f_b, P f>, since <P f_a, P f_b> >= 0,
 /// and each <P f_b, P f> / |P f|^2 is at most `field::EnergySpread::peakedness` times the part's
 /// share of the mass: the worst parts get the largest shares that they can have. Parts of a field
-/// with negative samples can cancel; for these it is the expected error, times a margin. Aliases of
-/// several axes add up in amplitude, as where they overlap each other or the projection: every
-/// slice grid has views close to that. `share`: the image's share of the projection's energy.
-/// Rounding to binary16 has an error of 2.1e-4 of each cell, spread evenly over the period;
-/// rounding to float and summing, 3e-7.
+/// with negative samples can cancel, and no bound holds in every view; for these it is the expected
+/// error. Aliases of several axes add up in amplitude, as where they overlap each other or the
+/// projection: every slice grid has views close to that. `share`: the image's share of the
+/// projection's energy.
+///
+/// Rounding to binary16 has an error of 2.1e-4 of each cell on average, at most 4.9e-4, spread
+/// evenly over the period. The mean holds where a slice has many cells that round independently.
+/// - None has a larger share s of a slice's energy than frequency 0 can have, 1 / (area of a period
+///   x `field::EnergySpread::leastProjection`). So there are at least 1/s, and the error's energy
+///   scatters by 1.05 sqrt(s) of its mean. The bound adds sqrt(s) of the distance from the mean to
+///   the maximum: all of it for a single cell, 4.2 standard deviations for many.
+/// - Cells along an axis are equal if the field lies in one layer across it, and those of a slice
+///   if that is so for two axes. The share of pairs of the energy in one layer says how far.
+/// Rounding to float and summing have 3e-7.
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
                             const field::EnergyMarginals &field, double share,
                             const CueWeight &cue = {});

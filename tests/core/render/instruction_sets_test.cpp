@@ -42,7 +42,7 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     const auto energy = field::energyMarginals(field.values, field.support);
     std::array<plan::AxisError, 3> axes;
     for (int d = 0; d < 3; ++d)
-        axes[d] = plan::axisError(kernel, layout.padded[d], int(energy.axis[d].size()));
+        axes[d] = plan::axisError(kernel, layout.padded[d], int(energy.axis[d].size()), 1.0);
     const double predicted = plan::predictRelativeError(axes, storage, energy, 1.0);
     const auto fieldOfView = plan::fieldOfViewOf(field.values.lattice(), field.support);
     EXPECT_LT(error, std::hypot(predicted, fieldOfView.aliasingLimit)) << predicted;
