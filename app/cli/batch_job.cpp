@@ -122,7 +122,11 @@ private:
             if (isDone[first])
                 continue;
             const scene::Scene &scene = scenes[first].second;
-            SceneRenderer renderer(scene, Subject{*m_volume, nullptr, {}},
+            std::size_t pictures = 0;
+            for (std::size_t n = first; n < scenes.size(); ++n)
+                if (subjectOf(scenes[n].second) == subjectOf(scene))
+                    pictures += std::max<std::size_t>(1, scenes[n].first->views.size());
+            SceneRenderer renderer(scene, Subject{*m_volume, nullptr, {}}, int(pictures),
                                    MemoryLimit{.bytes = m_memoryBytes, .decides = false}, m_card,
                                    m_context);
             if (!renderer.whyEmpty().empty())

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdio>
+#include <deque>
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -159,7 +162,7 @@ private:
             m_scene.tone.exposure.reset(); // the scene may be of another study
         const bool isGiven = m_command.count("--memory") > 0;
         m_renderer.emplace(
-            m_scene, Subject{volume(), m_segments, m_options.input.path},
+            m_scene, Subject{volume(), m_segments, m_options.input.path}, frames(),
             MemoryLimit{isGiven ? std::optional(m_options.memory) : std::nullopt, isGiven}, m_card,
             m_context);
         for (const std::string &text : lookWarnings(m_command, m_preset, m_scene, volume()))
@@ -178,10 +181,13 @@ private:
         if (isTurntable())
             turn.emplace(m_outs.front());
         placeFrames();
+        // Pictures are encoded while the next ones are made.
+        std::deque<std::future<void>> written;
+        const std::size_t atOnce = std::max(1U, std::thread::hardware_concurrency());
         for (int frame = 0; frame < frames(); ++frame) {
             scene::Scene turned = m_scene;
             turned.camera = m_cameras[std::size_t(frame)];
-            const picture::ProjectionImage image =
+            picture::ProjectionImage image =
                 m_renderer->image(turned.camera, checkOf(std::size_t(frame)));
             if (isDisplayed(m_options.out))
                 turned.tone.exposure = m_renderer->exposure();
@@ -190,9 +196,22 @@ private:
             labels.instanceNumber = frame + 1;
             labels.derivation = derivationText(m_renderer->lastError());
             const fs::path &file = m_outs[std::size_t(frame)];
-            writeImage(turn ? turn->aside(file) : file, image, turned, volume().lattice(), labels);
+            if (written.size() == atOnce) {
+                written.front().get();
+                written.pop_front();
+            }
+            written.push_back(
+                std::async(std::launch::async,
+                           [this, labels, image = std::move(image), turned = std::move(turned),
+                            to = turn ? turn->aside(file) : file] {
+                               writeImage(to, image, turned, volume().lattice(), labels);
+                           }));
             m_writeMs += watch.lapMs();
         }
+        Stopwatch watch;
+        for (std::future<void> &picture : written)
+            picture.get();
+        m_writeMs += watch.lapMs();
         if (turn)
             turn->commit();
     }

@@ -28,10 +28,11 @@ constexpr const char *whyExact =
 
 } // namespace
 
-SceneRenderer::SceneRenderer(const scene::Scene &scene, Subject subject, const MemoryLimit &memory,
-                             const CardChoice &card, const Context &context)
-    : m_scene(scene), m_planned(scene), m_subject(std::move(subject)), m_card(card),
-      m_context(context), m_progress(context.stop) {
+SceneRenderer::SceneRenderer(const scene::Scene &scene, Subject subject, int pictures,
+                             const MemoryLimit &memory, const CardChoice &card,
+                             const Context &context)
+    : m_scene(scene), m_planned(scene), m_subject(std::move(subject)), m_pictures(pictures),
+      m_card(card), m_context(context), m_progress(context.stop) {
     if (memory.isGiven)
         m_given = memory.bytes;
     makeFields(memory);
@@ -78,7 +79,8 @@ void SceneRenderer::prepare() {
         m_prepared = prepare::prepareEngine({.scene = m_planned,
                                              .fields = std::move(fields),
                                              .budget = m_budget,
-                                             .mayBeExact = true},
+                                             .mayBeExact = true,
+                                             .pictures = m_pictures},
                                             m_progress);
         useCard();
     } catch (const Error &error) {
@@ -205,8 +207,10 @@ std::optional<picture::ProjectionImage> SceneRenderer::imageOfCard(const scene::
 
 void SceneRenderer::measure(const scene::Camera &camera) {
     render::ProjectionEngine &maker = m_onCard ? *m_onCard : *m_prepared->engine;
-    m_lastError = prepare::measuredError(maker, studyFields(), camera, m_scene.image,
-                                         m_scene.shading, {}, m_progress);
+    // Whether the picture keeps the tolerance is to be known, not how much better it is.
+    m_lastError =
+        prepare::measuredError(maker, studyFields(), camera, m_scene.image, m_scene.shading,
+                               {.enough = m_scene.tolerance}, m_progress);
 }
 
 std::string SceneRenderer::description() const {

@@ -43,9 +43,10 @@ struct MemoryLimit {
 /// again if a part of the volume misses it.
 class SceneRenderer {
 public:
-    /// *Throws* Error{outOfMemory}, naming the path; Error{noSuchDevice}; Cancelled.
-    SceneRenderer(const scene::Scene &scene, Subject subject, const MemoryLimit &memory,
-                  const CardChoice &card, const Context &context);
+    /// `pictures`: how many will be made. *Throws* Error{outOfMemory}, naming the path;
+    /// Error{noSuchDevice}; Cancelled.
+    SceneRenderer(const scene::Scene &scene, Subject subject, int pictures,
+                  const MemoryLimit &memory, const CardChoice &card, const Context &context);
 
     /// *Throws* Error{outOfMemory} if the pictures of a camera need more than the limit, although
     /// those of the scene's camera do not.
@@ -115,6 +116,7 @@ private:
     scene::Scene m_scene;
     scene::Scene m_planned; ///< with a smaller tolerance, if a part of the volume needs one
     Subject m_subject;
+    int m_pictures;
     std::optional<std::uint64_t> m_given; ///< bytes
     CardChoice m_card;
     std::string m_engineReason;

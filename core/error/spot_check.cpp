@@ -115,7 +115,8 @@ public:
             add(draw((count - done) / 2), sums.drawn,
                 progress.part(0.1 + 0.9 * done / most, 0.1 + 0.9 * count / most));
             const StatedError error = sums.errorOf(m_judged, m_image, m_rows.lattice());
-            if (count == most || error.high <= (1.0 + m_effort.within) * error.relative)
+            if (count == most || error.high <= (1.0 + m_effort.within) * error.relative ||
+                error.high <= m_effort.enough)
                 return error;
             if (refined)
                 refined(error);

@@ -14,8 +14,14 @@ double timeInCache(int width, fourier::Storage storage);
 
 /// The time of a frame with this slice grid from a spectrum with this layout. The planner compares
 /// plans by it. *Units*: one is the time of a sample of kernel width 4 from binary16 cells in the
-/// cache, without its share of the transforms: about 24 ns.
+/// cache, without its share of the transforms.
 double frameTime(const SliceGrid &grid, const scene::Camera &camera, const volume::Lattice &lattice,
                  const fourier::SpectrumLayout &layout);
+
+/// The time to prepare a spectrum with padded axes of these sizes. *Units*: as above.
+double prepareTime(const volume::GridSize &padded);
+
+/// The time to search the paddings of one kernel, which is made for each. *Units*: as above.
+constexpr double searchTime = 1e6;
 
 } // namespace pellucid::plan

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/fourier/transforms/padded_size.h"
 #include "core/plan/cost_model.h"
 #include "core/plan/kernel_candidates.h"
 #include "core/plan/reasons.h"
@@ -108,13 +109,19 @@ public:
         // Half of the squared error is for narrower kernels, if it can be. Four fifths of the
         // tolerance for the plan gave the same frames within a tenth; with all of it, frames took
         // up to twice as long.
-        if (!scene.interpolation.isUniform)
+        if (!scene.interpolation.isUniform && composition.isAdaptive())
             m_limits.push_back(std::sqrt(0.5) * scene.tolerance);
         m_limits.push_back(scene.tolerance);
+        // Wide kernels and float cells need the least padding.
+        if (leastPreparation() > m_composition.pictures * timeOf(m_kernels.back())) {
+            std::reverse(m_kernels.begin(), m_kernels.end());
+            std::reverse(m_storages.begin(), m_storages.end());
+        }
     }
 
-    // Binary16 where it meets the tolerance: float cells take twice the memory. The first searches
-    // skip kernels that no padding makes good enough, because making a kernel takes milliseconds.
+    // The first storage that meets the tolerance: binary16, because float cells take twice the
+    // memory, unless preparation is most of the time. The first searches skip kernels that no
+    // padding makes good enough, because making a kernel takes milliseconds.
     RenderPlan plan() {
         for (const auto storage : m_storages)
             for (const double limit : m_limits)
@@ -186,9 +193,24 @@ private:
                                                          field.energy, m_imageShare, weight));
         return m_errorFactor * worst;
     }
-    // More taps and wider cells cost time that nothing else can save.
+    // The least time of a frame.
+    double timeOf(const fourier::KernelChoice &choice) const {
+        return m_grids.front().cells() * timeInCache(choice.width, m_storages.front());
+    }
+    // Of all spectra.
+    double leastPreparation() const {
+        volume::GridSize padded = m_fields.front().support.size();
+        for (int *const side : {&padded.i, &padded.j, &padded.k})
+            *side = fourier::paddedSize(*side, m_paddings.front());
+        return double(m_fields.size()) * prepareTime(padded);
+    }
+    // More taps and wider cells cost time that nothing else can save, and so does the search.
     bool mayBeFaster(const fourier::KernelChoice &choice, fourier::Storage storage) const {
-        return m_grids.front().cells() * timeInCache(choice.width, storage) < m_bestTime;
+        return leastPreparation() +
+                   m_composition.pictures * m_grids.front().cells() *
+                       timeInCache(choice.width, storage) +
+                   searchTime <
+               m_bestTime;
     }
     bool isHopeless(const fourier::KernelChoice &choice, fourier::Storage storage) {
         const std::size_t most = m_paddings.size() - 1;
@@ -264,7 +286,9 @@ private:
                       std::size_t bytes) {
         const double predicted = std::hypot(layoutError, planned.folded);
         const double time =
-            frameTime(planned.grid, m_scene.camera, m_fields.front().lattice, layout.spectrum);
+            double(m_fields.size()) * prepareTime(layout.spectrum.padded) +
+            m_composition.pictures *
+                frameTime(planned.grid, m_scene.camera, m_fields.front().lattice, layout.spectrum);
         const bool meets = predicted <= m_limit, unmet = std::isinf(m_bestTime);
         if (meets ? time < m_bestTime : unmet && (!m_best || predicted < m_best->predictedError)) {
             m_best = RenderPlan{layout.spectrum, planned.fieldOfView, predicted, bytes};
@@ -299,9 +323,9 @@ private:
     double m_imageShare; ///< share of the projection's energy in the image
 
     std::optional<RenderPlan> m_best;
-    double m_bestTime =
-        std::numeric_limits<double>::infinity(); ///< of the plans within the tolerance
-    bool m_isOverBudget = false;                 ///< something did not fit
+    /// Of all pictures, by the plans within the tolerance.
+    double m_bestTime = std::numeric_limits<double>::infinity();
+    bool m_isOverBudget = false; ///< something did not fit
     std::size_t m_minBytes = std::numeric_limits<std::size_t>::max();
 };
 

@@ -45,15 +45,15 @@ struct RenderPlan {
 };
 
 /// The cheapest choice of kernel, padding of each axis and slice grid whose predicted error is
-/// within the scene's tolerance, with binary16 cells if these can keep it. Unless one kernel reads
-/// everything, the plan takes half of the squared tolerance where it can; `adaptWidths` spends the
-/// rest. If no plan is within the tolerance, or none of those fits the budget: the most accurate
+/// within the scene's tolerance, with binary16 cells if these can keep it. The cheapest takes the
+/// least time for all pictures, preparation included. Unless one kernel reads everything, the plan
+/// takes half of the squared tolerance where it can; `adaptWidths` spends the rest. If no plan is within the tolerance, or none of those fits the budget: the most accurate
 /// that fits. Values that the scene's `interpolation` sets are not changed. *Throws*
 /// Error{outOfMemory} if nothing fits the budget, Error{usage} if the scene is invalid.
 RenderPlan planRender(const scene::Scene &scene, const field::Summary &field,
                       const Budget &budget = {});
 
-/// How the images of fields make a picture.
+/// How the images of fields make a picture, and how many pictures.
 struct Composition {
     int images = 1; ///< transforms in a frame
     /// The largest number of fields that add up in a channel of a picture that the plan's error is
@@ -61,6 +61,12 @@ struct Composition {
     /// relative error of n of them is at most sqrt(n) times that of the worst. Layers whose weights
     /// move are planned one by one; the error of their sum is measured.
     int together = 1;
+    /// The number of pictures that a preparation is for. In the window it is ten seconds of turning
+    /// or more.
+    int pictures = 500;
+    /// Whether each frame chooses its widths. The data for that take as long to prepare as they
+    /// save in some 50 frames.
+    bool isAdaptive() const { return pictures > 50; }
     /// The error of a picture over that of its worst field.
     double errorFactor() const { return std::sqrt(double(together)); }
 };

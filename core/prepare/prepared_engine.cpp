@@ -91,7 +91,8 @@ FittingPlan planWithin(const scene::Scene &scene, ShadedFields fields,
         try {
             plan::RenderPlan plan =
                 plan::planRender(scene, summaries, composition, {bytes - std::min(bytes, held)});
-            plan::adaptWidths(plan, scene, summaries);
+            if (composition.isAdaptive())
+                plan::adaptWidths(plan, scene, summaries);
             if (reduction > 1) {
                 const volume::GridSize size = fitting.fields.front().values.lattice().size();
                 plan.bytes += held;
@@ -163,7 +164,8 @@ PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progre
     const std::size_t channels = fields.channels.size();
     const volume::Lattice lattice = fields.channels.front().values.lattice();
     const scene::Scene scene = scene::planningScene(request.scene, lattice);
-    const plan::Composition composition = compositionOf(channels, scene.shading);
+    plan::Composition composition = compositionOf(channels, scene.shading);
+    composition.pictures = request.pictures;
     plan::Budget budget = request.budget;
     budget.bytes -= std::min(budget.bytes, bytesForLight(scene.shading, lattice.size(), channels));
     const bool mayBeExact = request.mayBeExact && scene.interpolation.isPlanned() &&

@@ -25,6 +25,7 @@ struct EngineRequest {
     /// Whether the exact reference makes the pictures if no plan keeps the tolerance: not if memory
     /// is short, the scene sets the interpolation, or the plan is for the whole volume.
     bool mayBeExact = false;
+    int pictures = plan::Composition().pictures; ///< how many will be made
 };
 
 /// A plan that fits in memory, and the fields that it is for: those given, or means of `reduction`

@@ -146,6 +146,19 @@ TEST(SpotCheck, ItsSampleFindsTheErrorOfAllFrequencies) {
     EXPECT_LE(outside, all / 20);
 }
 
+// Where only the tolerance counts, a quarter of the frequencies tells that a picture keeps it.
+TEST(SpotCheck, EndsWhenItsUpperLimitIsLowEnough) {
+    const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
+    const Checked one(fieldOf(lattice, kinds.front().value), sceneOf(lattice, 1.1e-3));
+    error::CheckEffort effort{.multiplications = 0.0, .atLeast = 1024, .within = 0.0};
+    EXPECT_GE(one.stated(effort).frequencies, 1024);
+    effort.enough = 1.1e-3;
+    const error::StatedError stated = one.stated(effort);
+    EXPECT_LE(stated.frequencies, 256 + 150);
+    EXPECT_LE(stated.high, effort.enough);
+    EXPECT_GE(1.1 * stated.high, one.truth);
+}
+
 // A picture that something has spoilt says so.
 TEST(SpotCheck, FindsWhatHasSpoiltAPicture) {
     const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});

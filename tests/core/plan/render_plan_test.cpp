@@ -87,6 +87,21 @@ TEST(RenderPlan, TighterTolerancesTakeMoreTapsAndThenFloatCells) {
     }
 }
 
+// One picture is soon rendered, so its spectrum is prepared with the least padding.
+TEST(RenderPlan, AFewPicturesTakeLittlePreparation) {
+    const auto lattice = volume::Lattice::centred({96, 96, 96}, {1, 1, 1});
+    const auto summary = field::summarise(test::noiseField(lattice));
+    const auto scene = sceneFor(lattice);
+    const auto planFor = [&](int pictures) {
+        return plan::planRender(scene, {&summary, 1}, plan::Composition{.pictures = pictures});
+    };
+    const auto one = planFor(1), many = planFor(500);
+    EXPECT_LT(one.spectrum.padded.count(), many.spectrum.padded.count());
+    EXPECT_GT(one.spectrum.width(), many.spectrum.width());
+    for (const auto &plan : {one, many})
+        EXPECT_LE(plan.predictedError, scene.tolerance);
+}
+
 // Two fields of one channel may err alike; their images need not overlap.
 TEST(RenderPlan, FieldsThatAddUpCostTheirErrorTimesTheRootOfTheirNumber) {
     const volume::Lattice lattice = volume::Lattice::centred({24, 24, 24}, {1, 1, 1});
