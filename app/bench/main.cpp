@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -61,7 +62,7 @@ pellucid::bench::Subject readSubject(const std::string &path) {
 
 struct Options {
     std::vector<std::string> suites{"quick"};
-    double minutes = 1.0;
+    double minutes = 1.0, within = std::numeric_limits<double>::infinity();
     int pictures = 300, fields = 200;
     std::uint64_t seed = 1;
     std::string volume, json, csv, reportFolder;
@@ -127,6 +128,9 @@ void addOptions(CLI::App &app, Options &options) {
     app.add_option("--seed", options.seed, "Random seed of the suites search, pictures and sweep");
     app.add_option("--volume", options.volume,
                    "An NRRD volume to measure in the suites kernels and scaling");
+    app.add_option("--within", options.within,
+                   "Minutes after which no further row is measured; default: no limit")
+        ->check(CLI::Range(0.0, 10000.0));
     app.add_option("--json", options.json, "Write the rows as JSON");
     app.add_option("--csv", options.csv, "Write the rows as CSV");
     app.add_option("--report", options.reportFolder,
@@ -161,21 +165,38 @@ void measureSuites(const Options &options) {
     const std::optional<bench::Subject> subject = givenSubject(options);
     const auto machine = bench::thisMachine();
     std::vector<bench::Row> rows;
+    struct TimeIsUp {};
+    const double end = bench::millisecondsNow() + 60e3 * options.within;
     const auto report = [&](const bench::Row &row) {
         if (rows.empty())
             std::fputs(bench::tableHead(machine).c_str(), stdout);
         std::fputs(bench::tableLine(row).c_str(), stdout);
         std::fflush(stdout);
         rows.push_back(row);
+        if (bench::millisecondsNow() > end)
+            throw TimeIsUp();
     };
-    for (const std::string &wanted : options.suites)
-        for (const auto &[name, run] : suites())
-            if (name == wanted)
-                run(report, subject ? &*subject : nullptr, options);
+    std::optional<task::Error> noCard; // other suites do without
+    try {
+        for (const std::string &wanted : options.suites)
+            for (const auto &[name, run] : suites())
+                if (name == wanted)
+                    try {
+                        run(report, subject ? &*subject : nullptr, options);
+                    } catch (const task::Error &error) {
+                        if (error.code() != task::ErrorCode::noSuchDevice)
+                            throw;
+                        noCard = error;
+                    }
+    } catch (const TimeIsUp &) {
+        std::puts("the time is up: not everything was measured");
+    }
     save(options.json, bench::jsonText(machine, rows));
     save(options.csv, bench::csvText(rows));
     if (!options.reportFolder.empty())
         bench::writeHtmlReport(options.reportFolder, machine, rows);
+    if (noCard)
+        throw task::Error(*noCard);
 }
 
 int fail(const std::exception &error, pellucid::task::ErrorCode code) {
