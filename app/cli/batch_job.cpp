@@ -16,6 +16,7 @@
 #include "app/cli/json_text.h"
 #include "app/cli/reason_lines.h"
 #include "app/cli/scene_renderer.h"
+#include "app/cli/write_behind.h"
 #include "core/batch/derived_uid.h"
 #include "core/batch/reasons.h"
 #include "core/dicom/load_volume.h"
@@ -169,7 +170,7 @@ private:
         error::StatedError largest;
         for (std::size_t view = 0; view < cameras.size(); ++view) {
             scene.camera = cameras[view];
-            const picture::ProjectionImage image =
+            picture::ProjectionImage image =
                 renderer.image(scene.camera, error::isChecked(output.check, view, cameras.size())
                                                  ? SceneRenderer::Check::measure
                                                  : SceneRenderer::Check::none);
@@ -181,8 +182,10 @@ private:
             m_missed = renderer.warningOfView();
             if (!m_missed.empty() && error == largest)
                 worst = m_missed;
-            add(output, scene, image, files[files.size() > 1 ? view : 0], int(view), error);
+            add(output, scene, std::move(image), files[files.size() > 1 ? view : 0], int(view),
+                error);
         }
+        m_written.finish();
         made.predictedError = renderer.bound()->relative; // its fields are never reduced
         if (largest.isMeasured())
             made.measuredError = largest.relative;
@@ -247,7 +250,8 @@ private:
         }
     }
 
-    void add(const Output &output, const scene::Scene &scene, const picture::ProjectionImage &image,
+    // Files of their own are written while the next view is rendered.
+    void add(const Output &output, const scene::Scene &scene, picture::ProjectionImage &&image,
              const std::string &name, int view, const error::StatedError &error) {
         const fs::path path = m_folder / name;
         switch (output.format) {
@@ -256,12 +260,14 @@ private:
             m_geometry.push_back(geometryJson(scene.camera, m_volume->lattice(), error));
             break;
         case Format::png16:
-            files::writePng16(
-                path,
-                picture::greyOf(image,
-                                picture::plainDisplayOf(scene.tone, scene.camera.orientation),
-                                !scene.tone.high),
-                image.height, image.width);
+            m_written.add([path, scene, image = std::move(image)] {
+                files::writePng16(
+                    path,
+                    picture::greyOf(image,
+                                    picture::plainDisplayOf(scene.tone, scene.camera.orientation),
+                                    !scene.tone.high),
+                    image.height, image.width);
+            });
             break;
         case Format::captureLoop:
             m_loop->add(shown(image, scene));
@@ -272,7 +278,10 @@ private:
         case Format::png:
         case Format::nrrd:
         case Format::capture:
-            writeImage(path, image, scene, m_volume->lattice(), labelsFor(output, view, error));
+            m_written.add([path, scene, image = std::move(image), patient = m_volume->lattice(),
+                           labels = labelsFor(output, view, error)] {
+                writeImage(path, image, scene, patient, labels);
+            });
             break;
         }
     }
@@ -307,6 +316,7 @@ private:
     nlohmann::json m_geometry;
     std::unique_ptr<dicom::CaptureLoop> m_loop;
     std::unique_ptr<files::VideoFile> m_video;
+    WriteBehind m_written;
 };
 
 } // namespace

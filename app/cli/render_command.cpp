@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdio>
-#include <deque>
-#include <future>
 #include <map>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -23,6 +20,7 @@
 #include "app/cli/scene_renderer.h"
 #include "app/cli/segment_options.h"
 #include "app/cli/terminal.h"
+#include "app/cli/write_behind.h"
 #include "core/error/checked_pictures.h"
 #include "core/files/file_set.h"
 #include "core/files/image_files.h"
@@ -181,9 +179,7 @@ private:
         if (isTurntable())
             turn.emplace(m_outs.front());
         placeFrames();
-        // Pictures are encoded while the next ones are made.
-        std::deque<std::future<void>> written;
-        const std::size_t atOnce = std::max(1U, std::thread::hardware_concurrency());
+        WriteBehind written;
         for (int frame = 0; frame < frames(); ++frame) {
             scene::Scene turned = m_scene;
             turned.camera = m_cameras[std::size_t(frame)];
@@ -196,21 +192,14 @@ private:
             labels.instanceNumber = frame + 1;
             labels.derivation = derivationText(m_renderer->lastError());
             const fs::path &file = m_outs[std::size_t(frame)];
-            if (written.size() == atOnce) {
-                written.front().get();
-                written.pop_front();
-            }
-            written.push_back(
-                std::async(std::launch::async,
-                           [this, labels, image = std::move(image), turned = std::move(turned),
-                            to = turn ? turn->aside(file) : file] {
-                               writeImage(to, image, turned, volume().lattice(), labels);
-                           }));
+            written.add([this, labels, image = std::move(image), turned = std::move(turned),
+                         to = turn ? turn->aside(file) : file] {
+                writeImage(to, image, turned, volume().lattice(), labels);
+            });
             m_writeMs += watch.lapMs();
         }
         Stopwatch watch;
-        for (std::future<void> &picture : written)
-            picture.get();
+        written.finish();
         m_writeMs += watch.lapMs();
         if (turn)
             turn->commit();
@@ -349,7 +338,7 @@ private:
     scene::ViewList m_views;              ///< of --matrix
     std::vector<scene::Camera> m_cameras; ///< of the views
     std::optional<SceneRenderer> m_renderer;
-    double m_writeMs = 0.0;
+    double m_writeMs = 0.0; ///< waiting for pictures to be written
 };
 
 } // namespace
