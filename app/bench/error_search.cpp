@@ -18,9 +18,7 @@ std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t see
         for (std::size_t n = 0; n < Candidate::geneCount; ++n)
             candidate.genes.push_back(uniform(random));
         candidate.genes[1] = 0.3; // the default tolerance, 1.1e-3
-        Trial trial = trialOf(candidate, pictures);
-        // Planned: a picture far better than its tolerance has an error that is hard to measure.
-        trial.scene.interpolation = {};
+        const Trial trial = trialOf(candidate, pictures);
         const Verdict verdict = judge(trial);
         if (verdict.measured > 0.0)
             factors.push_back({trial.name, verdict.stated.high / verdict.measured});

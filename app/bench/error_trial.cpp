@@ -137,7 +137,8 @@ Trial trialOf(const Candidate &candidate, PictureKind pictures) {
     if (kind == FieldKind::pattern) // so that the pattern's lines are in the roll-off
         zoom = genes.between(0.94, 1.0);
     const volume::Lattice lattice = latticeOf(genes);
-    const scene::Interpolation interpolation = interpolationOf(genes);
+    const scene::Interpolation interpolation =
+        pictures == PictureKind::whole ? interpolationOf(genes) : scene::Interpolation{};
     const bool isBandLimited = genes.next() < 0.3;
     const Shape shape = shapeOf(kind, genes, lattice);
     std::string view;

@@ -17,8 +17,7 @@ struct Candidate {
     std::vector<double> genes;
 };
 
-/// A decoded candidate: a field, and a scene with view and tolerance. Half of the scenes are
-/// uniform: their plans state what they predict, where others state the tolerance.
+/// A decoded candidate: a field, and a scene with view and tolerance.
 struct Trial {
     std::string fieldName; ///< kind of field and size
     std::string name;      ///< also view, pixel and tolerance
@@ -26,8 +25,9 @@ struct Trial {
     scene::Scene scene;
 };
 /// The pictures to search. `whole`: uncropped, without cue and light; the plan's error bounds each
-/// of them. `any`: any cue, light and crop; each picture has its own predicted error. `amplified`:
-/// the same with amplified detail.
+/// of them. Half of these are uniform: their plans state what they predict, where others state the
+/// tolerance. `any`: any cue, light and crop; each picture has its own predicted error.
+/// `amplified`: the same with amplified detail.
 enum class PictureKind { whole, any, amplified };
 /// The field and the scene that the genes encode.
 Trial trialOf(const Candidate &candidate, PictureKind pictures);

@@ -207,7 +207,7 @@ std::optional<picture::ProjectionImage> SceneRenderer::imageOfCard(const scene::
 
 void SceneRenderer::measure(const scene::Camera &camera) {
     render::ProjectionEngine &maker = m_onCard ? *m_onCard : *m_prepared->engine;
-    // Whether the picture keeps the tolerance is to be known, not how much better it is.
+    // The question is whether the picture keeps the tolerance, not by how much.
     m_lastError =
         prepare::measuredError(maker, studyFields(), camera, m_scene.image, m_scene.shading,
                                {.enough = m_scene.tolerance}, m_progress);

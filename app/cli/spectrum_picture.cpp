@@ -57,8 +57,11 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
     const classify::ShownFields fields = fieldsFor(scene, volume, segments, context);
     if (const std::string why = whyEmpty(scene, volume, fields); !why.empty())
         throw Error(ErrorCode::unusable, because::inWords(why));
-    const auto prepared =
-        prepare::prepareEngine({scene, fields, {system::availableMemoryBytes()}}, progress);
+    const auto prepared = prepare::prepareEngine({.scene = scene,
+                                                  .fields = fields,
+                                                  .budget = {system::availableMemoryBytes()},
+                                                  .pictures = 1},
+                                                 progress);
     std::vector<std::string> warnings = englishTexts(volume.notes().warnings);
     const auto warnOf = [&](const std::string &text) {
         warnings.push_back(text);

@@ -22,7 +22,7 @@ struct CheckEffort {
     int atLeast = 1024;
     /// The estimate is good enough once its limits are within this share of it.
     double within = 1.0 / 3.0;
-    /// Or once its upper limit is at most this.
+    /// It is also good enough once its upper limit is at most this.
     double enough = 0.0;
     unsigned seed = 1; ///< the same seed draws the same frequencies
 };

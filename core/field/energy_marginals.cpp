@@ -146,8 +146,8 @@ private:
     };
 
     int blocksOf(int samples) const { return (samples + m_side - 1) / m_side; }
-    // Bounds that hold in every view exist only for fields without negative samples.
-    // Resampling may leave -1e-16 where a field is 0; floats round more than that.
+    // Bounds that hold in every view exist only for fields without negative samples. Those smaller
+    // than the rounding of floats, which resampling leaves where a field is 0, do not count.
     bool isPositive() const {
         const std::vector<float> &maxima = m_maxima[2].values;
         return -m_smallest <= double(std::numeric_limits<float>::epsilon() *
@@ -380,8 +380,7 @@ private:
     std::array<std::vector<BlockRange>, 3> m_ranges;
     std::array<std::vector<std::size_t>, 3> m_blockAt; ///< of each sample along an axis
     std::array<LayerMaxima, 3> m_maxima;
-    double m_energy = 0.0, m_mass = 0.0, m_smallest = 0.0,
-           m_largest = 0.0; ///< of the field's samples
+    double m_energy = 0.0, m_mass = 0.0, m_smallest = 0.0; ///< of the field's samples
     bool m_isPositive = false;
     double m_roughness = 0.0; ///< the share of the energy near the highest frequencies, at most
     EnergyMarginals m_result;

@@ -31,9 +31,9 @@ struct EnergySpread {
     /// An upper bound on the mean area of the field's shadow over all directions, mm^2: a quarter
     /// of the surface of its box, or of the enclosing sphere if that is smaller.
     double shadowMm2 = 0.0;
-    /// A lower bound on the energy of any projection of a field without negative samples, relative
-    /// to the square of its mass, in 1/mm^2: the larger of m(R)^2 / (pi R^2), where m(R) is the
-    /// share of the mass in any ball of radius R, and of the least energy of coarse projections. 0
+    /// The least energy of any projection of a field without negative samples, relative to the
+    /// square of its mass, in 1/mm^2: the larger of the bound m(R)^2 / (pi R^2), where m(R) is the
+    /// share of the mass in any ball of radius R, and of the least that a search finds. 0
     /// for a field with negative samples, which may cancel positive ones in some view.
     double leastProjection = 0.0;
     /// For a field without negative samples: in any view, a part's share of the projection's energy

@@ -120,7 +120,7 @@ double projectionEnergy(const PointMasses &points, const glm::dvec3 &w) {
     return energy;
 }
 
-// The direction of the least energy that ever smaller turns from w reach.
+// Descends from w by ever smaller turns. Returns the direction of the least energy found.
 glm::dvec3 downhill(const PointMasses &points, glm::dvec3 w, double energy) {
     constexpr int ways = 6;
     for (double turn = 1.0 / std::sqrt(double(views)); turn > finestTurn;) {

@@ -11,8 +11,8 @@
 
 namespace pellucid::field {
 
-// Two lower bounds on the energy of any projection of a field without negative samples, relative to
-// the square of its mass; the larger of them counts. *Units*: 1/mm^2.
+// A lower bound and an estimate of the least energy of any projection of a field without negative
+// samples, relative to the square of its mass; the larger of them counts. *Units*: 1/mm^2.
 
 /// The mass of a field in balls about its centre of mass. The projection of a ball lies in a disc,
 /// so the projection's energy is at least m(R)^2/(pi R^2), where m(R) is the share of the mass in a

@@ -35,8 +35,8 @@ private:
 void writePng16(const std::filesystem::path &path, std::span<const std::uint16_t> grey, int height,
                 int width);
 
-/// Writes an opaque 8-bit PNG: grey if all pixels are, else RGB. *Shape*: height x width x 4, RGBA,
-/// rows from the top; alpha is ignored. The file appears only when complete. *Throws*
+/// Writes an opaque 8-bit PNG: grey if every pixel is grey, otherwise RGB. *Shape*: height x width
+/// x 4, RGBA, rows from the top; alpha is ignored. The file appears only when complete. *Throws*
 /// Error{output}.
 void writePng(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,
               int width);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cassert>
 #include <csetjmp>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ void write(const std::filesystem::path &path, const std::vector<std::uint8_t> &b
     Writer writer;
     writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, refuse, nullptr);
     writer.info = png_create_info_struct(writer.png);
+    if (writer.png == nullptr || writer.info == nullptr)
+        throw std::bad_alloc();
     if (setjmp(png_jmpbuf(writer.png)) != 0)
         throw task::Error(task::ErrorCode::output, task::because::cannotBeEncoded(failure), path);
     png_set_write_fn(
@@ -53,6 +56,8 @@ void write(const std::filesystem::path &path, const std::vector<std::uint8_t> &b
     png_set_IHDR(writer.png, writer.info, png_uint_32(width), png_uint_32(height), format.bits,
                  format.colors, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
+    if (format.bits == 8)
+        png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
     constexpr int runs = 3; // zlib's Z_RLE
     png_set_compression_strategy(writer.png, runs);
@@ -72,14 +77,14 @@ void writePng(const std::filesystem::path &path, std::span<const std::uint8_t> r
               int width) {
     assert(rgba.size() == std::size_t(height) * width * 4);
     const std::size_t pixels = rgba.size() / 4;
-    std::vector<std::uint8_t> grey(pixels);
     unsigned colored = 0; // without a branch: vector code
-    for (std::size_t n = 0; n < pixels; ++n) {
-        grey[n] = rgba[4 * n];
+    for (std::size_t n = 0; n < pixels; ++n)
         colored |=
             unsigned(rgba[4 * n] ^ rgba[4 * n + 1]) | unsigned(rgba[4 * n] ^ rgba[4 * n + 2]);
-    }
     if (colored == 0) {
+        std::vector<std::uint8_t> grey(pixels);
+        for (std::size_t n = 0; n < pixels; ++n)
+            grey[n] = rgba[4 * n];
         write(path, grey, height, width, grey8);
         return;
     }

@@ -21,7 +21,7 @@ double frameTime(const SliceGrid &grid, const scene::Camera &camera, const volum
 /// The time to prepare a spectrum with padded axes of these sizes. *Units*: as above.
 double prepareTime(const volume::GridSize &padded);
 
-/// The time to search the paddings of one kernel, which is made for each. *Units*: as above.
+/// The time to try one kernel at all paddings; each padding has its own kernel. *Units*: as above.
 constexpr double searchTime = 1e6;
 
 } // namespace pellucid::plan

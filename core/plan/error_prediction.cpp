@@ -219,7 +219,7 @@ CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice
     else
         for (const double t : {-offset / radiusMm, offset / radiusMm}) // both are monotonic
             least = std::min(least, value(t));
-    // Half a sample from where the cue is darkest.
+    // At least the value of a linear cue half a sample from where it is darkest.
     least = std::max(0.5 * cue.strength * lattice.shortestStepMm() / radiusMm, least);
     weight.aliases = cueRms(cue) / least;
     if (cue.kind == shading::CueKind::linear)
@@ -262,7 +262,7 @@ double cellRounding(const std::array<AxisError, 3> &axes, fourier::Storage stora
            std::min(1.0, equal + std::sqrt(largestCell(axes, *field.spread))) * (most - mean);
 }
 
-// Independent errors of the cells reach a slice with the energy of the kernel, equal ones whole.
+// Independent errors reach a slice with the kernel's energy, equal errors in full.
 // Cells along an axis round alike as far as the energy lies in one layer.
 double roundingNoise(const std::array<AxisError, 3> &axes, const field::EnergyMarginals &field) {
     double energy = 1.0;

@@ -63,25 +63,26 @@ struct CueWeight {
 CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice, double radiusMm,
                     const fourier::SpectrumLayout &layout, const field::EnergyMarginals &energy);
 
-/// An upper bound on the relative L2 error of an image in any direction. The error is the
-/// projection of f (a - 1). For parts f_b of a field without negative samples
+/// An upper bound on the relative L2 error of an image in any direction; for a field with negative
+/// samples, whose parts can cancel, the expected error. The error is the projection of f (a - 1).
+/// For parts f_b of a field without negative samples
 ///   |P(f w)|^2 <= sum_b max_b(w)^2 <P f_b, P f>, since <P f_a, P f_b> >= 0,
 /// and each <P f_b, P f> / |P f|^2 is at most `field::EnergySpread::peakedness` times the part's
-/// share of the mass: the worst parts get the largest shares that they can have. Parts of a field
-/// with negative samples can cancel, and no bound holds in every view; for these it is the expected
-/// error. Aliases of several axes add up in amplitude, as where they overlap each other or the
-/// projection: every slice grid has views close to that. `share`: the image's share of the
-/// projection's energy.
+/// share of the mass: the worst parts get the largest shares that they can have. Aliases of several
+/// axes add up in amplitude, as where they overlap each other or the projection: every slice grid
+/// has views close to that. `share`: the image's share of the projection's energy.
 ///
-/// Rounding to binary16 has an error of 2.1e-4 of each cell on average, at most 4.9e-4, spread
-/// evenly over the period. The mean holds where a slice has many cells that round independently.
-/// - None has a larger share s of a slice's energy than frequency 0 can have, 1 / (area of a period
-///   x `field::EnergySpread::leastProjection`). So there are at least 1/s, and the error's energy
-///   scatters by 1.05 sqrt(s) of its mean. The bound adds sqrt(s) of the distance from the mean to
-///   the maximum: all of it for a single cell, 4.2 standard deviations for many.
-/// - Cells along an axis are equal if the field lies in one layer across it, and those of a slice
-///   if that is so for two axes. The share of pairs of the energy in one layer says how far.
-/// Rounding to float and summing have 3e-7.
+/// Rounding to binary16 changes each cell by 2.1e-4 on average (root mean square), and by at most
+/// 4.9e-4. The average holds if a slice has many cells that round independently.
+/// - No cell has more than the share s of a slice's energy that frequency 0 can have, 1 / (area of
+///   a period x `field::EnergySpread::leastProjection`). A slice therefore has at least 1/s cells,
+///   and the energy of the error scatters by 1.05 sqrt(s) of its mean. The bound adds sqrt(s) of
+///   the distance from the mean to the maximum: all of it for a single cell, 4.2 standard
+///   deviations for many.
+/// - Cells along an axis are equal if the field lies in one layer across it; all cells of a slice
+///   are if that holds for two axes. The share of pairs of the energy that lie in one layer
+///   measures how nearly.
+/// Rounding to float and summing add 3e-7.
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
                             const field::EnergyMarginals &field, double share,
                             const CueWeight &cue = {});

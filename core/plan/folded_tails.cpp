@@ -10,8 +10,8 @@ namespace pellucid::plan {
 
 namespace {
 
-// A bound on the energy of folded tails along one axis. Lengths are in samples of the band. The
-// response of a band that rolls off over its share F is
+// A bound on the energy of folded tails along one axis, averaged over phases. Lengths are in
+// samples of the band. The response of a band that rolls off over its share F is
 //   h(r) = sin(pi (1 - F/2) r) cos(pi F r/2) / (pi r (1 - (F r)^2)),
 // at most E(r) = min(1, 1/|(F r)^2 - 1|) / (pi r). For samples on a length l with a share e of the
 // energy, |sum E p|^2 <= e l E^2 (Cauchy-Schwarz), and the amplitudes of several lengths and of the
@@ -39,9 +39,9 @@ double tailEnergy(const field::EnergySpread &spread, double rollOff, double band
     constexpr std::size_t bins = 16; // of the profiles
     double most = 0.0;
     for (const auto &shares : spread.byDistance) {
-        const std::size_t joined = std::max<std::size_t>(1, shares.size() / bins);
+        const std::size_t joined = (shares.size() + bins - 1) / bins;
         const double length = std::max(1.0, double(joined) * spread.distanceStepMm / bandMm);
-        std::array<double, bins + 1> amplitudes{};
+        std::array<double, bins> amplitudes{};
         for (std::size_t n = 0; n < shares.size(); ++n)
             amplitudes[n / joined] += length * shares[n];
         for (double &amplitude : amplitudes)

@@ -11,7 +11,7 @@ namespace pellucid::plan {
 /// back along one axis of an image of `side` pixels, panned by `pan` pixels, from copies of the
 /// projection `period` pixels away. It is that of a pattern that is regular from end to end, whose
 /// tails add up in phase, and which has all the energy that the projection may have in the
-/// roll-off.
+/// roll-off. For a field with negative samples that share is a mean, and so is this.
 double foldedTailEnergy(const field::EnergySpread &spread, const scene::ImageDefinition &image,
                         double pixelMm, int period, int side, double pan);
 

@@ -27,8 +27,10 @@ KernelCandidate KernelCandidates::make(const fourier::KernelChoice &choice, doub
     std::optional<fourier::MomentKernel> moment;
     if (m_cue == LinearCue::present)
         moment.emplace(kernel, double(padded) / m_samples);
-    AxisError error =
-        axisError(kernel, padded, m_samples, m_fields.front().lattice.spacingMm(int(m_axis)));
+    // Of tilted slices, the distance: the area of a period is smaller than its sides say.
+    const volume::Lattice &lattice = m_fields.front().lattice;
+    const double stepMm = m_axis == 2 ? lattice.sliceDistanceMm() : lattice.spacingMm(int(m_axis));
+    AxisError error = axisError(kernel, padded, m_samples, stepMm);
     if (moment)
         for (const field::Summary &field : m_fields)
             addMomentError(error, kernel, *moment, padded,

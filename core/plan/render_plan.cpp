@@ -197,12 +197,12 @@ private:
     double timeOf(const fourier::KernelChoice &choice) const {
         return m_grids.front().cells() * timeInCache(choice.width, m_storages.front());
     }
-    // Of all spectra.
+    // Of one spectrum, of which each frame reads a slice.
     double leastPreparation() const {
         volume::GridSize padded = m_fields.front().support.size();
         for (int *const side : {&padded.i, &padded.j, &padded.k})
             *side = fourier::paddedSize(*side, m_paddings.front());
-        return double(m_fields.size()) * prepareTime(padded);
+        return prepareTime(padded);
     }
     // More taps and wider cells cost time that nothing else can save, and so does the search.
     bool mayBeFaster(const fourier::KernelChoice &choice, fourier::Storage storage) const {
@@ -286,7 +286,7 @@ private:
                       std::size_t bytes) {
         const double predicted = std::hypot(layoutError, planned.folded);
         const double time =
-            double(m_fields.size()) * prepareTime(layout.spectrum.padded) +
+            prepareTime(layout.spectrum.padded) +
             m_composition.pictures *
                 frameTime(planned.grid, m_scene.camera, m_fields.front().lattice, layout.spectrum);
         const bool meets = predicted <= m_limit, unmet = std::isinf(m_bestTime);

@@ -44,12 +44,14 @@ struct RenderPlan {
     scene::ImageDefinition image; ///< for which these are
 };
 
-/// The cheapest choice of kernel, padding of each axis and slice grid whose predicted error is
-/// within the scene's tolerance, with binary16 cells if these can keep it. The cheapest takes the
-/// least time for all pictures, preparation included. Unless one kernel reads everything, the plan
-/// takes half of the squared tolerance where it can; `adaptWidths` spends the rest. If no plan is within the tolerance, or none of those fits the budget: the most accurate
-/// that fits. Values that the scene's `interpolation` sets are not changed. *Throws*
-/// Error{outOfMemory} if nothing fits the budget, Error{usage} if the scene is invalid.
+/// The kernel, padding of each axis and slice grid that take the least time for all pictures,
+/// preparation included, with a predicted error within the scene's tolerance. Cells are binary16 if
+/// these meet it or, where preparation takes most of the time, float. Unless one kernel reads
+/// everything, or there are few pictures, the plan
+/// takes half of the squared tolerance where it can; `adaptWidths` spends the rest. If no plan is
+/// within the tolerance, or none of those fits the budget: the most accurate that fits. Values that
+/// the scene's `interpolation` sets are not changed. *Throws* Error{outOfMemory} if nothing fits
+/// the budget, Error{usage} if the scene is invalid.
 RenderPlan planRender(const scene::Scene &scene, const field::Summary &field,
                       const Budget &budget = {});
 
@@ -61,11 +63,11 @@ struct Composition {
     /// relative error of n of them is at most sqrt(n) times that of the worst. Layers whose weights
     /// move are planned one by one; the error of their sum is measured.
     int together = 1;
-    /// The number of pictures that a preparation is for. In the window it is ten seconds of turning
-    /// or more.
+    /// How many pictures are made from one preparation. Default: the window, about ten seconds of
+    /// turning.
     int pictures = 500;
-    /// Whether each frame chooses its widths. The data for that take as long to prepare as they
-    /// save in some 50 frames.
+    /// Whether each frame chooses its widths. Preparing the data for that takes as long as they
+    /// save in about 50 frames.
     bool isAdaptive() const { return pictures > 50; }
     /// The error of a picture over that of its worst field.
     double errorFactor() const { return std::sqrt(double(together)); }

@@ -146,7 +146,8 @@ TEST(SpotCheck, ItsSampleFindsTheErrorOfAllFrequencies) {
     EXPECT_LE(outside, all / 20);
 }
 
-// Where only the tolerance counts, a quarter of the frequencies tells that a picture keeps it.
+// Where only the tolerance counts, a quarter of the frequencies is enough to show that a picture
+// keeps it: of 1,024, beside the hundred brightest and those near zero.
 TEST(SpotCheck, EndsWhenItsUpperLimitIsLowEnough) {
     const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
     const Checked one(fieldOf(lattice, kinds.front().value), sceneOf(lattice, 1.1e-3));

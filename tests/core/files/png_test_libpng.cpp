@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <fstream>
+#include <iterator>
+#include <string>
 #include <vector>
 
 #include <png.h>
@@ -16,7 +18,7 @@ namespace {
 
 constexpr int height = 37, width = 53;
 
-// Bytes of a header after its signature, length and name: width, height, bits, colors.
+// The header follows the signature, its length and its name: width, height, bits, colors.
 std::vector<int> bitsAndColors(const std::filesystem::path &path) {
     std::ifstream file(path, std::ios::binary);
     file.seekg(24);
@@ -51,6 +53,15 @@ TEST(Png, AGreyPictureIsWrittenAsGrey) {
     files::writePng(folder / "grey.png", rgba, height, width);
     EXPECT_EQ(bitsAndColors(folder / "grey.png"), (std::vector<int>{8, PNG_COLOR_TYPE_GRAY}));
     EXPECT_EQ(readRgba(folder / "grey.png"), rgba);
+}
+
+// Viewers that manage colors need to know.
+TEST(Png, EightBitsAreMarkedAsSrgb) {
+    const test::TemporaryFolder folder;
+    files::writePng(folder / "grey.png", gradient(), height, width);
+    std::ifstream file(folder / "grey.png", std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_NE(bytes.find("sRGB"), std::string::npos);
 }
 
 TEST(Png, OneColoredPixelMakesItRgb) {
