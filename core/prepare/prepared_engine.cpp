@@ -165,7 +165,8 @@ PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progre
     const volume::Lattice lattice = fields.channels.front().values.lattice();
     const scene::Scene scene = scene::planningScene(request.scene, lattice);
     plan::Composition composition = compositionOf(channels, scene.shading);
-    composition.pictures = request.pictures;
+    if (scene.plannedFor == scene::PlannedFor::picture)
+        composition.pictures = request.pictures;
     plan::Budget budget = request.budget;
     budget.bytes -= std::min(budget.bytes, bytesForLight(scene.shading, lattice.size(), channels));
     const bool mayBeExact = request.mayBeExact && scene.interpolation.isPlanned() &&

@@ -25,7 +25,9 @@ struct EngineRequest {
     /// Whether the exact reference makes the pictures if no plan keeps the tolerance: not if memory
     /// is short, the scene sets the interpolation, or the plan is for the whole volume.
     bool mayBeExact = false;
-    int pictures = plan::Composition().pictures; ///< how many will be made
+    /// How many will be made. A plan for the whole volume is the workstation's, so that its
+    /// pictures can be made again.
+    int pictures = plan::Composition().pictures;
 };
 
 /// A plan that fits in memory, and the fields that it is for: those given, or means of `reduction`

@@ -308,7 +308,7 @@ TEST(ErrorSearch, TailsAndRoundingUnderTheBestKernel) {
     for (const auto *const samples : {&corner, &smooth})
         for (const fourier::Storage storage :
              {fourier::Storage::binary16, fourier::Storage::float32})
-            for (const double azimuth : {0.0, 90.0, 45.0, 31.0, 57.0, 13.0}) {
+            for (const double azimuth : {0.0, 45.0, 31.0}) {
                 bench::Trial trial{
                     "", "",
                     classify::densityField(

@@ -80,7 +80,7 @@ TEST(LayerSet, ThinLayersAreReducedUntilTheyFit) {
             [&](std::size_t, const task::Progress &) { return fields.channels.front(); }, budget);
     };
     const std::size_t bytes = fields.channels.front().values.samples().bytes();
-    const auto reduced = layersIn({3 * count * bytes});
+    const auto reduced = layersIn({4 * count * bytes});
     EXPECT_GT(reduced->reduction(), 1);
 }
 
