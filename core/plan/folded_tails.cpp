@@ -32,7 +32,7 @@ double tailEnergy(const field::EnergySpread &spread, double rollOff, double band
         const double far = std::max(1.0, r), u = rollOff * far;
         return 1.0 / (std::numbers::pi * far * std::max(1.0, u * u - 1.0));
     };
-    // Of samples at x and -x.
+    // The tails of two samples, at x and -x.
     const auto tails = [&](double r, double x) {
         return std::sqrt(tail(r - x) * tail(r - x) + tail(r + x) * tail(r + x));
     };

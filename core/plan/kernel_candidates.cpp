@@ -27,7 +27,8 @@ KernelCandidate KernelCandidates::make(const fourier::KernelChoice &choice, doub
     std::optional<fourier::MomentKernel> moment;
     if (m_cue == LinearCue::present)
         moment.emplace(kernel, double(padded) / m_samples);
-    // Of tilted slices, the distance: the area of a period is smaller than its sides say.
+    // Tilted slices make the faces of a period smaller than the product of their sides; with the
+    // distance between slices, no face is too large.
     const volume::Lattice &lattice = m_fields.front().lattice;
     const double stepMm = m_axis == 2 ? lattice.sliceDistanceMm() : lattice.spacingMm(int(m_axis));
     AxisError error = axisError(kernel, padded, m_samples, stepMm);

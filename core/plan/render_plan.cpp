@@ -197,7 +197,7 @@ private:
     double timeOf(const fourier::KernelChoice &choice) const {
         return m_grids.front().cells() * timeInCache(choice.width, m_storages.front());
     }
-    // Of one spectrum, of which each frame reads a slice.
+    // One spectrum counts, because a frame reads a slice of each.
     double leastPreparation() const {
         volume::GridSize padded = m_fields.front().support.size();
         for (int *const side : {&padded.i, &padded.j, &padded.k})
@@ -323,7 +323,7 @@ private:
     double m_imageShare; ///< share of the projection's energy in the image
 
     std::optional<RenderPlan> m_best;
-    /// Of all pictures, by the plans within the tolerance.
+    /// The least time for all pictures that a plan within the tolerance takes.
     double m_bestTime = std::numeric_limits<double>::infinity();
     bool m_isOverBudget = false; ///< something did not fit
     std::size_t m_minBytes = std::numeric_limits<std::size_t>::max();

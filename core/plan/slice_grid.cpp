@@ -68,7 +68,7 @@ SliceGrid sliceGrid(const scene::Camera &camera, const FieldOfView &fieldOfView,
                 });
         };
         const int least = fourier::smoothEvenSize(int(std::ceil(reach)));
-        const int most = std::min(largestSliceGrid, std::max(1024, 3 * least));
+        const int most = std::min(largestSliceGrid, std::max(2048, 3 * least));
         if (keeps(least))
             return least;
         if (!keeps(most))

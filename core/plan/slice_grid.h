@@ -33,7 +33,7 @@ FieldOfView fieldOfViewOf(const volume::Lattice &lattice, const volume::VoxelBox
 
 /// The smallest smooth slice grid for a camera such that no sample of the projection, with its
 /// footprint, wraps into the image in any view, and the folded tails are within the limit. The
-/// tails may raise the size of an axis to at most three times, or to 1024 if that is more. *Throws*
+/// tails may raise the size of an axis to at most three times, or to 2048 if that is more. *Throws*
 /// Error{outOfMemory} above 65536 frequencies a side.
 SliceGrid sliceGrid(const scene::Camera &camera, const FieldOfView &fieldOfView,
                     const volume::Lattice &lattice, const scene::ImageDefinition &image);

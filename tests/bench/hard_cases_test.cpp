@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "app/bench/measure.h"
@@ -41,10 +44,13 @@ TEST_P(HardCase, KeepsTheToleranceItAccepts) {
                 ++accepted;
             }
             EXPECT_LE(*row.relativeL2, *row.predictedError);
-            // The bound holds for every view. Where widths may spend what it leaves, it is the
-            // tolerance. An empty field's image is empty.
-            if (isUniform && *row.relativeL2 > 0.0)
-                EXPECT_LE(*row.predictedError, 200.0 * *row.relativeL2);
+            // The bound holds for every view, and is not far from this one. Where widths spend what
+            // it leaves, the error is closer, down to the rounding of floats. An empty field's
+            // image is empty.
+            constexpr double rounding = std::numeric_limits<float>::epsilon();
+            if (*row.relativeL2 > 0.0)
+                EXPECT_LE(*row.predictedError,
+                          (isUniform ? 200.0 : 100.0) * std::max(rounding, *row.relativeL2));
         }
     EXPECT_GT(accepted, 0);
 }
