@@ -7,9 +7,9 @@
 
 namespace pellucid::reference {
 
-/// The exact image for volumes that are too large for direct summation: Kaiser-Bessel gridding of
-/// width 12 at padding 2 in double precision. It agrees with the direct sum to 1e-10 or better.
-/// *Throws* Error{outOfMemory}, Cancelled. *Source*: Beatty, Nishimura, Pauly 2005.
+/// The exact image for volumes that are too large for direct summation: gridding in double
+/// precision with a sinh kernel of width 13 at padding 2. It agrees with the direct sum to 1e-10 or
+/// better. *Throws* Error{outOfMemory}, Cancelled. *Source*: Potts and Tasche 2021.
 class WideKernel {
 public:
     /// *Shape*: only the box is read, and the rest must be zero.
@@ -25,6 +25,9 @@ public:
     static std::size_t bytes(const volume::VoxelBox &box);
 
 private:
+    /// Where a row of cells starts. *Shape*: j and k wrap.
+    std::size_t rowAt(int j, int k) const;
+
     volume::Lattice m_lattice;
     volume::GridSize m_padded;
     volume::PatientPoint m_wrapPoint;
