@@ -28,9 +28,11 @@ Period periodOf(const volume::Lattice &lattice, const scene::Camera &camera,
                 const scene::ImageDefinition &image) {
     const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
     double margin = 6.0 * fadingLength(image.rollOff);
-    // The lattice's own band is tapered too: allow three times its length if that is longer.
+    // The lattice's own band is tapered too, and along an axis its tails lie on a line, where less
+    // cancels: with six times its length they were 2e-5 of a point.
     if (image.reconstruction == scene::Reconstruction::bandLimited)
-        margin *= std::max(1.0, 0.5 * lattice.longestStepMm() / camera.pixelMm);
+        margin = 8.0 * fadingLength(image.rollOff) *
+                 std::max(1.0, lattice.longestStepMm() / camera.pixelMm);
     // The filter that amplifies detail falls by e every `detailMm`.
     if (image.detail > 0.0)
         margin += 30.0 * image.detailMm / camera.pixelMm;
@@ -79,6 +81,8 @@ std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::La
                        scene::detailFactor(image, std::hypot(su, sv)) * du * dv;
             for (int d = 0; d < 3; ++d)
                 w *= scene::reconstructionFactor(image, glm::dot(lattice.step(d), s));
+            if (w == 0.0)
+                continue; // beyond the band of the lattice
             frequencies.push_back(s);
             at.push_back(kx);
             weight.push_back(w);

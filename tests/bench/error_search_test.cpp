@@ -352,5 +352,30 @@ TEST(ErrorSearch, AThinSheetSeenEdgeOn) {
     }
 }
 
+// The tails of the lattice's own band lie on a line. The exact image once cut them off too early,
+// so that pictures seemed to exceed their bounds.
+TEST(ErrorSearch, PointsWhoseTailsLieOnALine) {
+    for (const volume::GridSize size : {volume::GridSize{12, 40, 12}, volume::GridSize{36, 36, 7}})
+        for (const double azimuth : {0.0, 45.0}) {
+            const auto lattice = volume::Lattice::centred(size, {1.0, 1.0, 2.0});
+            std::vector<float> samples(size.count(), 0.0F);
+            for (const std::size_t at : {samples.size() / 5, samples.size() / 2})
+                samples[at] = 1.0F;
+            bench::Trial trial{
+                "", "",
+                classify::densityField(
+                    volume::Volume(lattice, std::move(samples), volume::ValueUnit::none),
+                    {0.0, 1.0}),
+                sceneFor(lattice,
+                         scene::viewOrientation(scene::StandardView::front, {azimuth, 0, 0}),
+                         1e-5)};
+            trial.scene.image.reconstruction = scene::Reconstruction::bandLimited;
+            trial.scene.interpolation.isUniform = true;
+            const auto verdict = bench::judge(trial);
+            EXPECT_LE(verdict.measured, verdict.predicted) << size.i << ' ' << azimuth;
+            EXPECT_LE(verdict.measured, verdict.stated.high) << size.i << ' ' << azimuth;
+        }
+}
+
 } // namespace
 } // namespace pellucid
