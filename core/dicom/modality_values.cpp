@@ -2,8 +2,11 @@
 #include "core/dicom/modality_values.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <optional>
 #include <type_traits>
 
@@ -37,13 +40,13 @@ double rescaled(const InstanceHeader &h, int frame, int stored) {
 }
 
 struct Padding {
-    int low = 0, high = 0;
+    int low = 1, high = 0; // none
     bool holds(int stored) const { return stored >= low && stored <= high; }
 };
 
-std::optional<Padding> paddingOf(const InstanceHeader &h, volume::ValueUnit unit) {
+Padding paddingOf(const InstanceHeader &h, volume::ValueUnit unit) {
     if (!h.paddingValue)
-        return std::nullopt;
+        return {};
     int value = *h.paddingValue, limit = h.paddingLimit.value_or(value);
     if (h.isSigned()) { // some writers store it as unsigned
         value = value > 32767 ? value - 65536 : value;
@@ -52,9 +55,48 @@ std::optional<Padding> paddingOf(const InstanceHeader &h, volume::ValueUnit unit
     if (unit == volume::ValueUnit::hounsfield) {
         const double hu = rescaled(h, 0, value);
         if (hu > lowestTissueHu && hu < highestTissueHu)
-            return std::nullopt;
+            return {};
     }
-    return Padding{std::min(value, limit), std::max(value, limit)};
+    return {std::min(value, limit), std::max(value, limit)};
+}
+
+// A rescale whose values of 16-bit codes are whole and fit 32 bits.
+struct WholeRescale {
+    std::int32_t slope = 1, intercept = 0;
+};
+std::optional<WholeRescale> wholeRescale(const InstanceHeader &h, int frame, double factor) {
+    const Rescale &r = h.frames[std::size_t(frame)].rescale;
+    const bool isWhole = h.modalityTable.empty() && factor == 1.0 &&
+                         r.slope == std::round(r.slope) && std::abs(r.slope) <= 0x1p14 &&
+                         r.intercept == std::round(r.intercept) && std::abs(r.intercept) <= 0x1p29;
+    return isWhole ? std::optional(WholeRescale{int(r.slope), int(r.intercept)}) : std::nullopt;
+}
+
+// The values of most CT and MR files, in vector code.
+bool writeWhole(std::span<const std::uint16_t> in, bool isSigned, const Padding &padding,
+                const WholeRescale &rescale, std::int16_t *out) {
+    std::array<std::uint16_t, 4096> codes;
+    const std::int32_t flip = isSigned ? 0x8000 : 0; // extends the sign
+    while (!in.empty()) {
+        const std::size_t count = std::min(in.size(), codes.size());
+        // Reads each sample once: the decoder may still change it.
+        std::memcpy(codes.data(), in.data(), count * sizeof(std::uint16_t));
+        std::atomic_signal_fence(std::memory_order_seq_cst);
+        std::int32_t least = 0, most = 0;
+        for (std::size_t n = 0; n < count; ++n) {
+            const std::int32_t stored = (codes[n] ^ flip) - flip,
+                               value = rescale.slope * stored + rescale.intercept;
+            const bool isPadding = stored >= padding.low && stored <= padding.high;
+            least = std::min(least, isPadding ? 0 : value);
+            most = std::max(most, isPadding ? 0 : value);
+            out[n] = isPadding ? missingValue<std::int16_t>() : std::int16_t(value);
+        }
+        if (least < -32767 || most > 32767) // the lowest code marks missing samples
+            return false;
+        in = in.subspan(count);
+        out += count;
+    }
+    return true;
 }
 
 } // namespace
@@ -82,13 +124,17 @@ bool writeValues(const decoder::DecodedFile &image, int frame, const ValueScale 
                  volume::Narrowing &narrowing) {
     const InstanceHeader &h = image.header;
     const std::size_t plane = std::size_t(h.rows) * h.columns;
+    const auto frameSamples = image.samples.subspan(plane * std::size_t(frame), plane);
+    const Padding padding = paddingOf(h, scale.unit);
+    if constexpr (std::is_same_v<T, std::int16_t>)
+        if (const auto rescale = wholeRescale(h, frame, scale.factor))
+            return writeWhole(frameSamples, h.isSigned(), padding, *rescale, out);
     // Read each sample once: the decoder may still change it.
-    const volatile std::uint16_t *in = image.samples.data() + plane * std::size_t(frame);
-    const auto padding = paddingOf(h, scale.unit);
+    const volatile std::uint16_t *in = frameSamples.data();
     for (std::size_t n = 0; n < plane; ++n) {
         const std::uint16_t code = in[n];
         const int stored = h.isSigned() ? int(std::int16_t(code)) : int(code);
-        if (padding && padding->holds(stored)) {
+        if (padding.holds(stored)) {
             out[n] = missingValue<T>();
             continue;
         }
@@ -104,17 +150,17 @@ bool writeValues(const decoder::DecodedFile &image, int frame, const ValueScale 
 }
 
 template <class T> void fillMissing(std::vector<T> &samples) {
-    T lowest = std::numeric_limits<T>::max();
-    bool any = false, all = true;
-    for (const T v : samples)
-        if (isMissing(v)) {
-            any = true;
-        } else {
-            lowest = std::min(lowest, v);
-            all = false;
-        }
-    if (any)
-        std::replace_if(samples.begin(), samples.end(), isMissing<T>, all ? T(0) : lowest);
+    constexpr T none = std::numeric_limits<T>::max();
+    T lowest = none;
+    std::size_t missing = 0;
+    for (const T v : samples) { // in vector code
+        const bool is = isMissing(v);
+        missing += std::size_t(is);
+        lowest = std::min(lowest, is ? none : v);
+    }
+    if (missing > 0)
+        std::replace_if(samples.begin(), samples.end(), isMissing<T>,
+                        missing == samples.size() ? T(0) : lowest);
 }
 
 template bool writeValues(const decoder::DecodedFile &, int, const ValueScale &, std::int16_t *,
