@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/plan/cost_model.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace pellucid::plan {
 
@@ -43,6 +45,19 @@ double frameTime(const SliceGrid &grid, const scene::Camera &camera, const volum
 // Measured on two threads: 2.2 ns a padded sample, where a unit takes 8 ns.
 double prepareTime(const volume::GridSize &padded) {
     return 0.3 * double(padded.count());
+}
+
+bool widthsPay(const SliceGrid &grid, const scene::Camera &camera, const volume::Lattice &lattice,
+               const volume::GridSize &padded, int pictures) {
+    // Measured on a chest and a bonsai, 36 to 512 pictures of 256^2 to 1800 x 2000 pixels: a padded
+    // sample takes a third of its preparation; frames save two fifths of their reading inside the
+    // samples' band, and all of it outside.
+    constexpr double preparing = 0.1, savedInside = 0.4;
+    const double shortest = lattice.shortestStepMm();
+    const double inside = std::min(1.0, std::pow(camera.pixelMm / shortest, 2));
+    const double reading = double(grid.columns) * grid.rows * readTime(4);
+    return pictures * reading * (1.0 - (1.0 - savedInside) * inside) >
+           preparing * double(padded.count());
 }
 
 } // namespace pellucid::plan

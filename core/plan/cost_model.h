@@ -21,6 +21,11 @@ double frameTime(const SliceGrid &grid, const scene::Camera &camera, const volum
 /// The time to prepare a spectrum with padded axes of these sizes. *Units*: as above.
 double prepareTime(const volume::GridSize &padded);
 
+/// Whether frames that choose their widths save more time than it takes to prepare the data for it.
+/// *Shape*: `padded`: of the spectrum.
+bool widthsPay(const SliceGrid &grid, const scene::Camera &camera, const volume::Lattice &lattice,
+               const volume::GridSize &padded, int pictures);
+
 /// The time to try one kernel at all paddings; each padding has its own kernel. *Units*: as above.
 constexpr double searchTime = 1e6;
 

@@ -105,11 +105,14 @@ public:
                  KernelCandidates(1, fields, cueOf(scene)),
                  KernelCandidates(2, fields, cueOf(scene))},
           m_grids(planGrids(scene, fields, m_errorFactor)),
-          m_imageShare(imageShare(scene.camera, fields)) {
+          m_imageShare(imageShare(scene.camera, fields)),
+          m_isAdaptive(!scene.interpolation.isUniform &&
+                       widthsPay(m_grids.front().grid, scene.camera, fields.front().lattice,
+                                 leastPadded(), composition.pictures)) {
         // Half of the squared error is for narrower kernels, if it can be. Four fifths of the
         // tolerance for the plan gave the same frames within a tenth; with all of it, frames took
         // up to twice as long.
-        if (!scene.interpolation.isUniform && composition.isAdaptive())
+        if (m_isAdaptive)
             m_limits.push_back(std::sqrt(0.5) * scene.tolerance);
         m_limits.push_back(scene.tolerance);
         // Wide kernels and float cells need the least padding.
@@ -145,6 +148,7 @@ private:
     RenderPlan finished() const {
         RenderPlan plan = *m_best;
         plan.reason = reasonFor(plan, m_scene, m_isOverBudget);
+        plan.isAdaptive = m_isAdaptive;
         return plan;
     }
 
@@ -198,11 +202,12 @@ private:
         return m_grids.front().cells() * timeInCache(choice.width, m_storages.front());
     }
     // One spectrum counts, because a frame reads a slice of each.
-    double leastPreparation() const {
+    double leastPreparation() const { return prepareTime(leastPadded()); }
+    volume::GridSize leastPadded() const {
         volume::GridSize padded = m_fields.front().support.size();
         for (int *const side : {&padded.i, &padded.j, &padded.k})
             *side = fourier::paddedSize(*side, m_paddings.front());
-        return prepareTime(padded);
+        return padded;
     }
     // More taps and wider cells cost time that nothing else can save, and so does the search.
     bool mayBeFaster(const fourier::KernelChoice &choice, fourier::Storage storage) const {
@@ -321,6 +326,7 @@ private:
     std::array<KernelCandidates, 3> m_axes;
     std::vector<PlannedGrid> m_grids;
     double m_imageShare; ///< share of the projection's energy in the image
+    bool m_isAdaptive;
 
     std::optional<RenderPlan> m_best;
     /// The least time for all pictures that a plan within the tolerance takes.
@@ -366,7 +372,7 @@ void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
     // Both for the image without amplified detail.
     const double gain = scene::detailGain(scene.image);
     const double tolerance = scene.tolerance / gain, error = plan.predictedError / gain;
-    if (scene.interpolation.isUniform || plan.spectrum.width() < 2 || error >= tolerance)
+    if (!plan.isAdaptive || plan.spectrum.width() < 2 || error >= tolerance)
         return;
     const double rest = std::sqrt(tolerance * tolerance - error * error);
     plan.adaptiveError = gain * rest;

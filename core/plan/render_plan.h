@@ -36,8 +36,10 @@ struct RenderPlan {
     std::size_t bytes = 0;
     /// Why this plan was chosen: one line for the user.
     task::Reason reason = task::because::mostAccurate;
-    /// The part of `predictedError` that frames may make by narrower kernels, see
-    /// `widths::AdaptiveWidths`; 0: one kernel reads every frequency.
+    /// Whether each frame chooses the widths of its kernels, see `widths::AdaptiveWidths`.
+    bool isAdaptive = false;
+    /// The part of `predictedError` that frames may make by narrower kernels; 0: one
+    /// kernel reads every frequency.
     double adaptiveError = 0.0;
     /// The same, relative to the whole projection, of which the image may show a part.
     double adaptiveTolerance = 0.0;
@@ -46,12 +48,11 @@ struct RenderPlan {
 
 /// The kernel, padding of each axis and slice grid that take the least time for all pictures,
 /// preparation included, with a predicted error within the scene's tolerance. Cells are binary16 if
-/// these meet it or, where preparation takes most of the time, float. Unless one kernel reads
-/// everything, or there are few pictures, the plan
-/// takes half of the squared tolerance where it can; `adaptWidths` spends the rest. If no plan is
-/// within the tolerance, or none of those fits the budget: the most accurate that fits. Values that
-/// the scene's `interpolation` sets are not changed. *Throws* Error{outOfMemory} if nothing fits
-/// the budget, Error{usage} if the scene is invalid.
+/// these meet it or, where preparation takes most of the time, float. If the plan is
+/// adaptive, it takes half of the squared tolerance where it can; `adaptWidths` spends the rest. If
+/// no plan is within the tolerance, or none of those fits the budget: the most accurate that fits.
+/// Values that the scene's `interpolation` sets are not changed. *Throws* Error{outOfMemory} if
+/// nothing fits the budget, Error{usage} if the scene is invalid.
 RenderPlan planRender(const scene::Scene &scene, const field::Summary &field,
                       const Budget &budget = {});
 
@@ -66,9 +67,6 @@ struct Composition {
     /// How many pictures are made from one preparation. Default: the window, about ten seconds of
     /// turning.
     int pictures = 500;
-    /// Whether each frame chooses its widths. Preparing the data for that takes as long as they
-    /// save in about 50 frames.
-    bool isAdaptive() const { return pictures > 50; }
     /// The error of a picture over that of its worst field.
     double errorFactor() const { return std::sqrt(double(together)); }
 };
@@ -78,8 +76,8 @@ struct Composition {
 RenderPlan planRender(const scene::Scene &scene, std::span<const field::Summary> fields,
                       const Composition &composition, const Budget &budget = {});
 
-/// Spends the rest of the tolerance on narrower kernels and on leaving frequencies out. Each frame
-/// measures where. *Shape*: the fields of the plan.
+/// If the plan is adaptive, spends the rest of the tolerance on narrower kernels and on leaving
+/// frequencies out. Each frame measures where. *Shape*: the fields of the plan.
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
                  std::span<const field::Summary> fields);
 

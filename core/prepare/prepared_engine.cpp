@@ -91,8 +91,7 @@ FittingPlan planWithin(const scene::Scene &scene, ShadedFields fields,
         try {
             plan::RenderPlan plan =
                 plan::planRender(scene, summaries, composition, {bytes - std::min(bytes, held)});
-            if (composition.isAdaptive())
-                plan::adaptWidths(plan, scene, summaries);
+            plan::adaptWidths(plan, scene, summaries);
             if (reduction > 1) {
                 const volume::GridSize size = fitting.fields.front().values.lattice().size();
                 plan.bytes += held;
