@@ -92,6 +92,7 @@ const std::vector<std::pair<std::string, RunSuite>> &suites() {
         {"classes", alone(runClassesSuite)},
         {"shading", alone(runShadingSuite)},
         {"planes", alone(runPlanesSuite)},
+        {"panes", alone(runPanesSuite)},
         {"radiograph", alone(runRadiographSuite)},
         {"check", alone(runCheckSuite)},
         {"gpu", alone(runGpuSuite)},

@@ -33,6 +33,8 @@ void runShadingSuite(const Report &report);
 /// Cuts of 512^2 pixels through 512 x 512 x 256 samples, thin and as slabs, against the exact mean
 /// and maximum of the interpolated volume.
 void runPlanesSuite(const Report &report);
+/// Frames that fit panes of 600 x 760 to 1800 x 2000 pixels: plain, in two colors, with a light.
+void runPanesSuite(const Report &report);
 /// How much contrast processing adds to frames of 1800 x 2000 pixels, alternating with plain
 /// display.
 void runRadiographSuite(const Report &report);

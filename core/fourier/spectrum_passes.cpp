@@ -50,15 +50,17 @@ int modulo(int index, int period) {
     return (index % period + period) % period;
 }
 
-// Fills strips with those of `from`, with the middle one at index 0 and zeros in between.
-void placeStrips(const float *from, int count, float *strips, int padded) {
-    const int middle = count / 2, after = count - middle;
+// Transforms strips, the middle one at index 0, with zeros between the last and the first.
+const float *transformPadded(const StripTransform &transform, const float *from, int count,
+                             float *strips) {
+    const int padded = transform.length(), middle = count / 2, after = count - middle;
     std::memcpy(strips, from + std::size_t(middle) * stripFloats,
                 std::size_t(after) * stripFloats * sizeof(float));
-    std::memset(strips + std::size_t(after) * stripFloats, 0,
-                std::size_t(padded - count) * stripFloats * sizeof(float));
+    if (after == middle) // so that as many are known on both sides
+        std::fill_n(strips + std::size_t(after) * stripFloats, stripFloats, 0.0F);
     std::memcpy(strips + std::size_t(padded - middle) * stripFloats, from,
                 std::size_t(middle) * stripFloats * sizeof(float));
+    return transform.run(strips, strips + std::size_t(padded) * stripFloats, middle);
 }
 
 // Transforms the rows of planes along x. Sample n goes to (n - middle) modulo padded. The cells to
@@ -182,7 +184,8 @@ public:
     ColumnTransform(const SpectrumLayout &layout, const CellLayout &cells, std::byte *out,
                     float scale)
         : m_size(layout.box.size()), m_padded(layout.padded), m_cells(cells), m_out(out),
-          m_scale(scale), m_alongY(layout.padded.j), m_alongZ(layout.padded.k),
+          m_scale(scale), m_alongY(layout.padded.j, m_size.j / 2),
+          m_alongZ(layout.padded.k, m_size.k / 2),
           m_planes(system::allocatePages(planeBytes(layout), task::because::aTransform)),
           m_strips(2 * std::size_t(std::max(m_padded.j, m_padded.k)) * stripFloats),
           m_lines(std::size_t(rowsTogether) * m_padded.k * CellLayout::columnCells) {}
@@ -192,10 +195,8 @@ public:
         tbb::parallel_for(0, m_size.k, [&](int k) {
             progress.check();
             float *const strips = m_strips.local();
-            placeStrips(slab + std::size_t(k) * m_size.j * stripFloats, m_size.j, strips,
-                        m_padded.j);
-            const float *const result =
-                m_alongY.run(strips, strips + std::size_t(m_padded.j) * stripFloats);
+            const float *const result = transformPadded(
+                m_alongY, slab + std::size_t(k) * m_size.j * stripFloats, m_size.j, strips);
             for (int y = 0; y < m_padded.j; ++y)
                 streamLine(result + std::size_t(y) * stripFloats, planes(y, k),
                            stripFloats * sizeof(float));
@@ -228,9 +229,7 @@ private:
     // `lines`: [z][16 cells].
     void transformRow(int y, Cell *lines) {
         float *const strips = m_strips.local();
-        placeStrips(planes(y, 0), m_size.k, strips, m_padded.k);
-        const float *const result =
-            m_alongZ.run(strips, strips + std::size_t(m_padded.k) * stripFloats);
+        const float *const result = transformPadded(m_alongZ, planes(y, 0), m_size.k, strips);
         storeExchanged(result, m_padded.k, m_scale, lines, CellLayout::columnCells);
     }
 

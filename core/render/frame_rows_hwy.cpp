@@ -5,6 +5,7 @@
 // foreach_target must come first.
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <hwy/highway.h>
 #include <utility>
 
@@ -30,7 +31,9 @@ const float *transformedRows(const FrameJob &job, std::size_t image, int group, 
     const int half = job.columns / 2, known = std::min(half, job.stripCount * stripLanes);
     const float *const lines =
         job.lines[image] + std::size_t(group) * job.stripCount * stripLanes * stripFloats;
-    for (int k = 0; k <= half / 2; ++k) {
+    // Where neither X_k nor X_(h-k) is known, both are zero.
+    const int outer = std::min(known - 1, half / 2);
+    for (int k = 0; k <= outer; ++k) {
         const int other = half - k;
         for (std::size_t lane = 0; lane < stripLanes; lane += hn::Lanes(d)) {
             const auto load = [&](int column) -> StripComplex {
@@ -58,7 +61,7 @@ const float *transformedRows(const FrameJob &job, std::size_t image, int group, 
         }
     }
     // The real and imaginary parts of a strip are adjacent columns.
-    return runTransform(*job.halfColumns, strip, spare);
+    return runTransform(*job.halfColumns, strip, spare, outer);
 }
 
 // Sixteen by sixteen samples of each image, rows in order.

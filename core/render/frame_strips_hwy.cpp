@@ -151,42 +151,57 @@ void interpolateRows(const FrameJob &job, int strip, const Rows &rows, FrameScra
         interpolateBy<Cell>(rows.width, job, Batches(job, strip, rows), scratch);
 }
 
-template <class Cell> void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
-    const int outer = job.strips[strip].outerRow;
+// The first row of a tile of the width map.
+int firstRow(const FrameJob &job, std::size_t tile) {
+    return (int(tile) - job.widthMap->tiles) * widths::SliceTiles::rows;
+}
+
+// The last row of a strip that is not zero; -1: none.
+int lastRow(const FrameJob &job, int strip) {
+    const int inDisc = job.strips[strip].outerRow;
     if (job.widthMap == nullptr)
-        return interpolateRows<Cell>(job, strip, {-outer, outer, job.layout->width()}, scratch);
-    constexpr int tileRows = widths::SliceTiles::rows;
+        return inDisc;
+    int last = -1;
+    const auto widths = job.widthMap->strip(strip);
+    for (std::size_t tile = 0; tile < widths.size(); ++tile)
+        if (widths[tile] != 0)
+            last = std::max({last, -firstRow(job, tile), firstRow(job, tile + 1) - 1});
+    return std::min(inDisc, last);
+}
+
+// Sets the rows up to `last` on both sides.
+template <class Cell>
+void interpolateStrip(const FrameJob &job, int strip, int last, FrameScratch &scratch) {
+    if (job.widthMap == nullptr)
+        return interpolateRows<Cell>(job, strip, {-last, last, job.layout->width()}, scratch);
     static_assert(widths::SliceTiles::columns == stripLanes);
     const auto widths = job.widthMap->strip(strip);
-    const int begin = -job.widthMap->tiles * tileRows;
     for (std::size_t tile = 0, next = 0; tile < widths.size(); tile = next) {
         while (next < widths.size() && widths[next] == widths[tile])
             ++next;
-        const Rows rows{std::max(-outer, begin + int(tile) * tileRows),
-                        std::min(outer, begin + int(next) * tileRows - 1), widths[tile]};
+        const Rows rows{std::max(-last, firstRow(job, tile)),
+                        std::min(last, firstRow(job, next) - 1), widths[tile]};
         if (rows.first <= rows.last)
             interpolateRows<Cell>(job, strip, rows, scratch);
     }
 }
 
 void sliceOneStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
-    const StripBounds &bounds = job.strips[strip];
     const double start = frameClockSeconds();
-    // Rows beyond the disc are zero.
-    for (int c = 0; c < job.imageCount; ++c)
-        std::memset(scratch.strips[std::size_t(c)] + std::size_t(bounds.outerRow + 1) * stripFloats,
-                    0,
-                    std::size_t(job.rows - 2 * bounds.outerRow - 1) * stripFloats * sizeof(float));
-    if (job.layout->storage == fourier::Storage::binary16)
-        interpolateStrip<Half>(job, strip, scratch);
+    const int last = lastRow(job, strip);
+    if (last < 0)
+        clearRows(job, {0, 0, 0}, scratch);
+    else if (job.layout->storage == fourier::Storage::binary16)
+        interpolateStrip<Half>(job, strip, last, scratch);
     else
-        interpolateStrip<std::complex<float>>(job, strip, scratch);
+        interpolateStrip<std::complex<float>>(job, strip, last, scratch);
     scratch.sliceSeconds += frameClockSeconds() - start;
 
     const int imageRows = std::min(job.imageRows, job.rows);
     const std::size_t columns = std::size_t(job.stripCount) * stripLanes;
     for (std::size_t c = 0; c < std::size_t(job.imageCount); ++c) {
-        const float *const result = runTransform(*job.alongRows, scratch.strips[c], scratch.spare);
+        const float *const result =
+            runTransform(*job.alongRows, scratch.strips[c], scratch.spare, std::max(last, 0));
         for (int row = 0; row < imageRows; row += stripLanes) {
             const float *const from = result + std::size_t(row) * stripFloats;
             float *const to =

@@ -29,15 +29,17 @@ struct StripStage {
 /// long, without the transposition that the slice would then need before and after.
 class StripTransform {
 public:
-    explicit StripTransform(int length);
+    /// `outer`: see `run`; the first stage is the largest that can make use of it.
+    explicit StripTransform(int length, int outer = 0);
 
     int length() const { return m_length; }
     const std::vector<StripStage> &stages() const { return m_stages; }
     /// exp(+i 2 pi p j / (radix groups)), j = 1..radix-1, for p = 0..groups-1; real, imaginary.
     const std::vector<float> &twiddles() const { return m_twiddles; }
     /// Transforms `data` and returns the buffer that holds the result, `data` or `scratch`; the
-    /// other is overwritten. *Shape*: both: length() strips, 64-byte aligned.
-    float *run(float *data, float *scratch) const;
+    /// other is overwritten. The strips outer + 1 .. length - outer - 1 count as zero, whatever is
+    /// there. *Shape*: both buffers: length() strips, 64-byte aligned.
+    float *run(float *data, float *scratch, int outer) const;
 
 private:
     int m_length;

@@ -4,6 +4,7 @@
 #include <hwy/foreach_target.h>
 // foreach_target comes first.
 #include <cmath>
+#include <cstring>
 #include <hwy/highway.h>
 #include <utility>
 
@@ -14,8 +15,8 @@ namespace pellucid::fourier::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 #include "core/fourier/transforms/strip_transform_hwy.inc"
 
-float *runStripTransform(const StripTransform &plan, float *data, float *scratch) {
-    return runTransform(plan, data, scratch);
+float *runStripTransform(const StripTransform &plan, float *data, float *scratch, int outer) {
+    return runTransform(plan, data, scratch, outer);
 }
 
 } // namespace pellucid::fourier::HWY_NAMESPACE
@@ -26,8 +27,8 @@ namespace pellucid::fourier {
 
 HWY_EXPORT(runStripTransform);
 
-float *StripTransform::run(float *data, float *scratch) const {
-    return HWY_DYNAMIC_DISPATCH(runStripTransform)(*this, data, scratch);
+float *StripTransform::run(float *data, float *scratch, int outer) const {
+    return HWY_DYNAMIC_DISPATCH(runStripTransform)(*this, data, scratch, outer);
 }
 
 } // namespace pellucid::fourier
