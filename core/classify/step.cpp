@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -210,9 +211,10 @@ const std::vector<StepDescription> &stepDescriptions() {
 }
 
 const StepDescription &describe(StepKind kind) {
-    const auto &all = stepDescriptions();
-    return *std::find_if(all.begin(), all.end(),
-                         [&](const StepDescription &step) { return step.kind == kind; });
+    for (const StepDescription &step : stepDescriptions())
+        if (step.kind == kind)
+            return step;
+    throw std::logic_error("a kind of step has no description");
 }
 
 StepKind stepKindNamed(const std::string &name) {

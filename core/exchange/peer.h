@@ -14,6 +14,7 @@ enum class Protocol { dicom, web };
 enum class Authentication { none, basic, bearer, oauth };
 
 /// What a connection to a server needs, secrets included. Paths name files in PEM format.
+/// core/exchange/message.cpp lists the members for pellucid-net.
 struct Peer {
     Protocol protocol = Protocol::dicom;
     std::string host;

@@ -2,8 +2,10 @@
 #include "core/shading/shading.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -141,18 +143,19 @@ DepthCue cueFromText(const std::string &text) {
     DepthCue cue;
     if (text == "none")
         return cue;
+    static constexpr std::array<std::pair<const char *, CueKind>, 3> words{
+        {{"linear", CueKind::linear}, {"sine", CueKind::sine}, {"curve", CueKind::curve}}};
     const auto colon = text.find(':');
-    const std::string kind = text.substr(0, colon);
-    require(colon != std::string::npos && (kind == "linear" || kind == "sine" || kind == "curve"),
-            because::isNoCue(text));
+    const auto word = std::find_if(words.begin(), words.end(), [&](const auto &each) {
+        return text.compare(0, colon, each.first) == 0;
+    });
+    require(colon != std::string::npos && word != words.end(), because::isNoCue(text));
+    cue.kind = word->second;
     const std::string values = text.substr(colon + 1);
-    if (kind == "curve") {
-        cue.kind = CueKind::curve;
+    if (cue.kind == CueKind::curve)
         cue.curve = numbersOf(values, because::theCue(text));
-    } else {
-        cue.kind = kind == "linear" ? CueKind::linear : CueKind::sine;
+    else
         cue.strength = numberOf(values, because::theCue(text));
-    }
     validate(cue);
     return cue;
 }

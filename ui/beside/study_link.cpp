@@ -104,21 +104,19 @@ void StudyLink::follow() {
     pass([this] {
         if (!m_follower.document.isPreview() && sharesUnit()) {
             const scene::Scene &shown = m_leader.document.scene();
-            scene::Scene scene = m_follower.document.scene();
+            const scene::Scene &own = m_follower.document.scene();
+            scene::Scene scene = shown;
+            scene.camera = own.camera;
+            scene.isOfDifference = own.isOfDifference;
             // Points, strokes and cuts are places in one space.
-            scene.look = sharesSpace() ? shown.look : classify::withoutMarks(shown.look);
+            if (!sharesSpace())
+                scene.look = classify::withoutMarks(shown.look);
             dropMissing(scene.look, m_follower.document.segments().get());
-            scene.crop = shown.crop;
-            scene.shading = shown.shading;
-            scene.image = shown.image;
-            scene.tolerance = shown.tolerance;
-            scene.interpolation = shown.interpolation;
-            scene.tone = shown.tone;
             // A window of values without a unit is meaningful for its own volume only.
-            if (volume::isCalibrated(m_leader.document.volume()->unit())) {
-                scene.fieldWindow = shown.fieldWindow;
+            if (volume::isCalibrated(m_leader.document.volume()->unit()))
                 m_follower.document.setDisplayWindow(m_leader.document.displayWindow());
-            }
+            else
+                scene.fieldWindow = own.fieldWindow;
             if (!(scene == m_follower.document.scene()))
                 m_follower.document.setScene(scene);
         }

@@ -11,6 +11,7 @@
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 #include "ui/servers/earlier_studies.h"
+#include "ui/widgets/panel_ground.h"
 #include "ui/widgets/plain_label.h"
 #include "ui/widgets/question.h"
 
@@ -42,8 +43,7 @@ QString placeText(const EarlierStudy &one) {
 EarlierPanel::EarlierPanel(EarlierStudies &studies, QWidget *parent)
     : QWidget(parent), m_studies(studies), m_tree(new QTreeWidget), m_state(new PlainLabel),
       m_inAdvance(new QComboBox) {
-    setObjectName("earlierPanel");
-    setAttribute(Qt::WA_StyledBackground);
+    groundAsPanel(*this, "earlierPanel");
     m_tree->setObjectName("earlierTree");
     m_tree->setAccessibleName(tr("Prior studies"));
     m_tree->setHeaderHidden(true);
@@ -156,7 +156,7 @@ void EarlierPanel::list() {
     if (!silent.isEmpty())
         texts << QString::fromUtf8("\u26A0 ") + silent.join(", ");
     if (!m_studies.limited().isEmpty())
-        texts << tr("%1: more than listed").arg(m_studies.limited().join(", "));
+        texts << tr("%1: more results than shown").arg(m_studies.limited().join(", "));
     m_state->setToolTip(plainToolTip(reasons.join("\n")));
     m_state->setText(texts.join("\n"));
     m_state->setVisible(!texts.isEmpty());

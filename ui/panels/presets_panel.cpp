@@ -30,6 +30,7 @@
 #include "ui/panels/reasons.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/theme/theme.h"
+#include "ui/widgets/panel_ground.h"
 #include "ui/widgets/plain_label.h"
 #include "ui/widgets/question.h"
 
@@ -105,8 +106,7 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
       m_corner(new QWidget), m_listsAll(new QPushButton(tr("All"))), m_save(new QPushButton),
       m_gallery(new QListWidget), m_name(new QLineEdit), m_confirm(new QPushButton(tr("Save"))),
       m_nameRow(new QWidget), m_message(new PlainLabel), m_empty(new PlainLabel) {
-    setObjectName("presetsPanel");
-    setAttribute(Qt::WA_StyledBackground);
+    groundAsPanel(*this, "presetsPanel");
     m_gallery->setObjectName("presetGallery");
     m_gallery->setAccessibleName(tr("Presets"));
     m_gallery->setViewMode(QListView::IconMode);
@@ -372,8 +372,8 @@ void PresetsPanel::saveLook() {
             m_gallery->scrollToItem(item);
         const classify::Look &look = m_document.scene().look;
         if (!(classify::withoutMarks(look) == look)) {
-            m_message->setText(tr("Points, strokes and cuts belong to this study: the preset asks "
-                                  "for new points, and has no strokes and cuts"));
+            m_message->setText(tr("Points, strokes and cuts belong to this study and are not saved "
+                                  "in the preset. When you apply it, it asks for new points."));
             m_message->show();
         }
     });

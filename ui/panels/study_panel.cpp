@@ -26,6 +26,7 @@
 #include "ui/panels/study_row_painter.h"
 #include "ui/servers/server_search.h"
 #include "ui/settings/file_dialogs.h"
+#include "ui/widgets/panel_ground.h"
 #include "ui/widgets/plain_label.h"
 #include "ui/widgets/question.h"
 
@@ -48,8 +49,7 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, ServerSearch &
       m_search(new QLineEdit), m_tree(new QTreeView), m_corner(new QPushButton(tr("Import"))),
       m_empty(new PlainLabel), m_servers(servers), m_serverStates(new PlainLabel),
       m_logins(new QWidget) {
-    setObjectName("studyPanel");
-    setAttribute(Qt::WA_StyledBackground);
+    groundAsPanel(*this, "studyPanel");
     setAcceptDrops(true);
     m_search->setObjectName("studySearch");
     m_search->setPlaceholderText(tr("Search studies"));
@@ -197,7 +197,7 @@ void StudyPanel::showServers() {
             texts << tr("%1: searching").arg(name);
             break;
         case ServerState::Kind::answered:
-            texts << (state.hasMore ? tr("%1: more than listed").arg(name) : name);
+            texts << (state.hasMore ? tr("%1: more results than shown").arg(name) : name);
             break;
         case ServerState::Kind::failed:
             texts << QString::fromUtf8("\u26A0 ") + name;

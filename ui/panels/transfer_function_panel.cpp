@@ -19,6 +19,7 @@
 #include "ui/panels/curve_editor.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/limit_box.h"
+#include "ui/widgets/panel_ground.h"
 #include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
@@ -41,8 +42,7 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, QWidget *parent
       m_points(new QSpinBox), m_weight(new QDoubleSpinBox),
       m_low(new LimitBox("curveLowBox", -maxValue, maxValue, typicalRange)),
       m_high(new LimitBox("curveHighBox", -maxValue, maxValue, typicalRange)) {
-    setObjectName("transferFunctionPanel");
-    setAttribute(Qt::WA_StyledBackground);
+    groundAsPanel(*this, "transferFunctionPanel");
     using classify::TransferFunction;
     m_subject->setObjectName("transferFunctionSubject");
     m_subject->setProperty("role", "muted");
@@ -92,8 +92,8 @@ void TransferFunctionPanel::layOut() {
     bottom->setSpacing(2);
     bottom->addWidget(m_weight);
     bottom->addStretch();
-    QPushButton *reset =
-        addLink(bottom, tr("Reset"), "resetCurveButton", tr("Set all weights to 1"));
+    QPushButton *reset = addLink(bottom, tr("Reset"), "resetCurveButton",
+                                 tr("Set all weights to 1, over all values"));
     QPushButton *copyLink =
         addLink(bottom, tr("Copy"), "copyCurveButton", tr("Copy the weights as text"));
     QPushButton *pasteLink =

@@ -19,6 +19,7 @@
 #include "ui/panels/transfer_function_panel.h"
 #include "ui/views/projection_view.h"
 #include "ui/widgets/dock.h"
+#include "ui/widgets/panel_ground.h"
 
 namespace pellucid::ui {
 
@@ -31,7 +32,7 @@ constexpr int lowWindow = 960, tabsHeight = 300;
 // Lets a panel scroll, so that all docks fit in a height of 720 pixels.
 QWidget *scrolling(QWidget *panel) {
     auto *area = new QScrollArea;
-    area->setObjectName(panel->objectName() + "Area");
+    groundAsPanel(*area, panel->objectName() + "Area");
     area->setWidget(panel);
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
@@ -49,17 +50,27 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
       m_classes(new ClassesPanel(document)), m_function(new TransferFunctionPanel(document)),
       m_shading(new ShadingPanel(document)), m_quality(new QualityPanel(document)) {
     // At these heights, the docks fit in 900 pixels.
-    dock(window, tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 150);
-    dock(window, tr("RADIOGRAPH"), "radiographDock", scrolling(m_radiograph),
-         m_radiograph->corner(), 116);
-    dock(window, tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 140);
-    dock(window, tr("TRANSFER FUNCTION"), "transferFunctionDock", m_function, m_function->corner(),
-         165);
-    dock(window, tr("SHADING"), "shadingDock", scrolling(m_shading), m_shading->corner(), 145);
-    dock(window, tr("QUALITY"), "qualityDock", scrolling(m_quality), m_quality->corner(), 140);
+    dock(tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 150, InALowWindow::tab);
+    dock(tr("RADIOGRAPH"), "radiographDock", scrolling(m_radiograph), m_radiograph->corner(), 116,
+         InALowWindow::tab);
+    // Classes and the curve of the selected one are seen together.
+    dock(tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 140, InALowWindow::row);
+    dock(tr("TRANSFER FUNCTION"), "transferFunctionDock", m_function, m_function->corner(), 165,
+         InALowWindow::row);
+    dock(tr("SHADING"), "shadingDock", scrolling(m_shading), m_shading->corner(), 145,
+         InALowWindow::tab);
+    dock(tr("QUALITY"), "qualityDock", scrolling(m_quality), m_quality->corner(), 140,
+         InALowWindow::tab);
 
+    QList<QDockWidget *> rows;
+    QList<int> heights;
+    for (const Entry &entry : m_docks) {
+        rows << entry.dock;
+        heights << entry.height;
+    }
+    window.resizeDocks(rows, heights, Qt::Vertical);
     window.setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
-    for (QDockWidget *dock : m_docks) {
+    for (QDockWidget *dock : docks()) {
         const auto moved = [this] {
             if (m_isArranging)
                 return;
@@ -81,8 +92,15 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
             &QualityPanel::showError);
 }
 
+std::vector<QDockWidget *> LookDocks::docks() const {
+    std::vector<QDockWidget *> docks;
+    for (const Entry &entry : m_docks)
+        docks.push_back(entry.dock);
+    return docks;
+}
+
 void LookDocks::unfold(QWidget &panel) {
-    for (QDockWidget *dock : m_docks)
+    for (QDockWidget *dock : docks())
         if (dock->isAncestorOf(&panel)) {
             dock->show();
             dock->raise(); // in front of other tabs
@@ -92,12 +110,12 @@ void LookDocks::unfold(QWidget &panel) {
 
 // A tab names its dock.
 void LookDocks::showHeadings() {
-    for (QDockWidget *dock : m_docks)
+    for (QDockWidget *dock : docks())
         showHeading(*dock, dock->isFloating() || m_window.tabifiedDockWidgets(dock).isEmpty());
 }
 
 bool LookDocks::areTabs() const {
-    return !m_window.tabifiedDockWidgets(m_docks.front()).isEmpty();
+    return !m_window.tabifiedDockWidgets(m_docks.front().dock).isEmpty();
 }
 
 void LookDocks::fit(int windowHeight) {
@@ -108,7 +126,7 @@ void LookDocks::fit(int windowHeight) {
 }
 
 void LookDocks::reset(int windowHeight) {
-    for (QDockWidget *dock : m_docks) {
+    for (QDockWidget *dock : docks()) {
         dock->setFloating(false);
         dock->show();
         dock->widget()->show();
@@ -120,7 +138,7 @@ void LookDocks::reset(int windowHeight) {
 void LookDocks::arrange(bool asTabs) {
     const QScopedValueRollback arranging(m_isArranging, true);
     QList<QDockWidget *> shown;
-    for (QDockWidget *dock : m_docks) {
+    for (QDockWidget *dock : docks()) {
         // Before the window is shown, docks that nobody has hidden count as hidden, too.
         const bool isClosed =
             dock->testAttribute(Qt::WA_WState_ExplicitShowHide) && dock->isHidden();
@@ -128,36 +146,31 @@ void LookDocks::arrange(bool asTabs) {
             shown << dock;
         m_window.removeDockWidget(dock);
     }
-    // Classes and the curve of the selected one are seen together.
-    const std::vector<QDockWidget *> tabs{m_docks[0], m_docks[1], m_docks[4], m_docks[5]};
+    QDockWidget *const first = m_docks.front().dock;
     QList<QDockWidget *> rows;
     QList<int> heights;
-    for (std::size_t n = 0; n < m_docks.size(); ++n) {
-        QDockWidget *const dock = m_docks[n];
-        const bool isTab = asTabs && std::find(tabs.begin(), tabs.end(), dock) != tabs.end();
+    for (const auto &[dock, height, place] : m_docks) {
+        const bool isTab = asTabs && place == InALowWindow::tab;
         m_window.addDockWidget(Qt::RightDockWidgetArea, dock);
-        if (isTab && dock != m_docks.front())
-            m_window.tabifyDockWidget(m_docks.front(), dock);
+        if (isTab && dock != first)
+            m_window.tabifyDockWidget(first, dock);
         else {
             rows << dock;
-            heights << (isTab ? tabsHeight : m_heights[n]);
+            heights << (isTab ? tabsHeight : height);
         }
         dock->setVisible(shown.contains(dock));
     }
-    m_docks.front()->raise();
+    first->raise();
     showHeadings();
     m_window.resizeDocks(rows, heights, Qt::Vertical);
 }
 
-void LookDocks::dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,
-                     QWidget *corner, int height) {
-    QDockWidget *dock = makeDock(title, name, panel, corner);
+void LookDocks::dock(const QString &title, const char *name, QWidget *panel, QWidget *corner,
+                     int height, InALowWindow place) {
     panel->setMinimumWidth(panelWidth);
-    window.addDockWidget(Qt::RightDockWidgetArea, dock);
-    m_docks.push_back(dock);
-    m_heights.push_back(height);
-    window.resizeDocks(QList<QDockWidget *>(m_docks.begin(), m_docks.end()),
-                       QList<int>(m_heights.begin(), m_heights.end()), Qt::Vertical);
+    QDockWidget *const dock = makeDock(title, name, panel, corner);
+    m_window.addDockWidget(Qt::RightDockWidgetArea, dock);
+    m_docks.push_back({dock, height, place});
 }
 
 } // namespace pellucid::ui

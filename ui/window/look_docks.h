@@ -32,7 +32,7 @@ public:
     LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer, CardCopier &copier,
               ProjectionView &projection);
 
-    const std::vector<QDockWidget *> &docks() const { return m_docks; }
+    std::vector<QDockWidget *> docks() const;
     PresetsPanel &presets() { return *m_presets; }
     ClassesPanel &classes() { return *m_classes; }
     ShadingPanel &shading() { return *m_shading; }
@@ -47,9 +47,15 @@ public:
     void reset(int windowHeight);
 
 private:
-    /// `corner`: a widget beside the heading; may be null.
-    void dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,
-              QWidget *corner, int height);
+    enum class InALowWindow { tab, row };
+    struct Entry {
+        QDockWidget *dock;
+        int height;
+        InALowWindow place;
+    };
+    /// `corner`: a widget beside the heading; may be null. *Units*: `height`: logical pixels.
+    void dock(const QString &title, const char *name, QWidget *panel, QWidget *corner, int height,
+              InALowWindow place);
 
     bool areTabs() const;
     void arrange(bool asTabs);
@@ -63,8 +69,7 @@ private:
     TransferFunctionPanel *m_function;
     ShadingPanel *m_shading;
     QualityPanel *m_quality;
-    std::vector<QDockWidget *> m_docks;
-    std::vector<int> m_heights;
+    std::vector<Entry> m_docks;
     bool m_areMoved = false, m_isArranging = false;
 };
 

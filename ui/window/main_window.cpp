@@ -167,7 +167,8 @@ void MainWindow::createActions() {
     QMenu &list = *m_actions->menu("dockMenu");
     QAction *const reset = list.actions().front();
     std::vector<QDockWidget *> docks = m_docks->listed();
-    docks.insert(docks.end(), m_look->docks().begin(), m_look->docks().end());
+    const std::vector<QDockWidget *> ofLook = m_look->docks();
+    docks.insert(docks.end(), ofLook.begin(), ofLook.end());
     for (QDockWidget *dock : docks)
         list.insertAction(reset, dock->toggleViewAction());
     list.insertSeparator(reset);
