@@ -88,8 +88,8 @@ void addBatchCommand(CLI::App &app, const Context &context) {
             ->excludes(paths);
     c->add_option("--find", *terms,
                   "TERM=VALUE: retrieve only the studies that match; TERM is name, id, date, "
-                  "modality, study or accession; with study, also series (the UID of one of its "
-                  "series); default: all studies")
+                  "modality, study or accession; series (a series UID) may be added to study; "
+                  "default: all studies")
         ->needs(from);
     c->add_option("--out", o->out,
                   "Folder for the results; each study gets a folder of its own there")

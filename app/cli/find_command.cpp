@@ -104,7 +104,8 @@ void find(const Options &o, const Context &context) {
                 warn(failure->what());
         }
         if (outcome.reachedLimit)
-            warn(outcome.server + ": has more than these; --limit shows more");
+            warn(outcome.server +
+                 ": the server has more results than these; a higher --limit shows them");
         if (outcome.mayBeIncomplete)
             warn(outcome.server + ": " + task::Reason(task::because::listMayBeShort).english());
         if (outcome.withoutUid > 0)
@@ -151,9 +152,9 @@ void addFindCommand(CLI::App &app, const Context &context) {
     c->add_option("--modality", o->terms.modality, "Modality, such as CT, for studies and series");
     c->add_option("--study", o->terms.studyUid, "UID of the study");
     c->add_option("--series", o->terms.seriesUid, "UID of the series, for series and images");
-    CLI::Option *limit =
-        c->add_option("--limit", o->limit,
-                      "Maximum results of each server; default: that of the server; 0: no limit");
+    CLI::Option *limit = c->add_option(
+        "--limit", o->limit,
+        "Maximum results from each server; default: the limit set by server add; 0: no limit");
     c->add_flag("--json", o->json, "Print a JSON array");
     c->callback([o, context, limit] {
         o->hasLimit = limit->count() > 0;

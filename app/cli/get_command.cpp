@@ -47,12 +47,12 @@ nlohmann::json jsonOf(const RetrievalReport &report, const fs::path &folder) {
             {"corrected", report.corrected},   {"missing", missing}};
 }
 
-// "509 of 512, 100 of them were here; 42.0 MB, 8.4 MB/s"
+// "509 of 512, 100 of them already present; 42.0 MB, 8.4 MB/s"
 std::string summaryOf(const RetrievalReport &report) {
     const std::size_t here = report.state.present + report.state.received;
     std::string text = fmt::format("{} of {}", here, report.state.wanted);
     if (report.state.present > 0)
-        text += fmt::format(", {} of them were here", report.state.present);
+        text += fmt::format(", {} of them already present", report.state.present);
     return text + "; " + rateText(report.state.bytes, report.seconds);
 }
 

@@ -96,9 +96,10 @@ void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &sho
         series.insert(s.series);
     const std::size_t patients = catalogue.patients.size();
     if (isSeriesByDefault && series.size() > 1)
-        warn(fmt::format(
-            "series {} ({}) of {} series, {}; --series selects another, 'info' lists them",
-            shown.series->number, shown.series->uid, series.size(), counted(patients, "patient")));
+        warn(fmt::format("using series {} ({}), one of {} series of {}; --series selects another, "
+                         "'info' lists them",
+                         shown.series->number, shown.series->uid, series.size(),
+                         counted(patients, "patient")));
     const std::vector<dicom::VolumeEntry> &volumes = shown.series->volumes;
     if (isVolumeByDefault && volumes.size() > 1) {
         // Volumes of one file have no frames.
@@ -176,7 +177,7 @@ CLI::Validator notEmpty() {
 
 void addProtectionOption(CLI::App &command, bool &allowsUnprotected) {
     command.add_flag("--allow-unprotected", allowsUnprotected,
-                     "Go on even if this system cannot confine the processes that read files");
+                     "Run even if this system cannot confine the processes that read files");
 }
 
 void requireProtection(const std::string &command, bool allowsUnprotected) {
@@ -192,7 +193,8 @@ void requireProtection(const std::string &command, bool allowsUnprotected) {
 
 void addLargeOption(CLI::App &command, bool &large) {
     command.add_flag("--large", large,
-                     "Open images that are unusually large or larger than their files suggest");
+                     "Also open images that are unusually large, or whose stated size is large for "
+                     "the size of their file");
 }
 
 void addInputOptions(CLI::App &command, InputOptions &options) {

@@ -16,18 +16,18 @@ PELLUCID_REASON(notAllServersAnswered, "not all servers answered")
 PELLUCID_REASON(objectsAreOfAnotherPatient, "%1 objects name a patient other than the one that the server lists")
 PELLUCID_REASON(listMayBeShort, "the server has reached its limit: the list may be incomplete; narrow the search")
 PELLUCID_REASON(entriesHaveNoUid, "entries without a valid UID, which cannot be opened: %1")
-PELLUCID_REASON(replaceTheCorrected, "the server has corrected data of %1 objects since they were received; get with --replace retrieves them again")
+PELLUCID_REASON(replaceTheCorrected, "the server has corrected %1 objects since they were received; use 'get --replace' to retrieve them again")
 PELLUCID_REASON(passwordNeedsATerminal, "a password is needed, and there is no terminal to ask for it")
 
 // The decoding process
-PELLUCID_REASON(systemDoesNotProtectUnattended, "%1; %2 goes on only with --allow-unprotected")
+PELLUCID_REASON(systemDoesNotProtectUnattended, "%1; %2 runs only with --allow-unprotected")
 
 // Looks, classes and presets
 PELLUCID_REASON(classAwaitsPoints, "the class '%1' needs a point in the patient; set it with --point '%1=x,y,z'")
 
 // Recipes
 PELLUCID_REASON(noStudyMatches, "no study matches")
-PELLUCID_REASON(onlyResultsAreThere, "contains nothing outside the folder of results")
+PELLUCID_REASON(onlyResultsAreThere, "all its studies are in the folder of results (--out), which is not searched")
 // clang-format on
 
 } // namespace pellucid::task::because

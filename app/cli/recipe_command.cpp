@@ -31,7 +31,9 @@ void addRecipeCommand(CLI::App &app, const Context &) {
                 warn(output.name + ": " + task::Reason(because::videosNeedFfmpeg).english());
         std::puts(printable(*file + " is a recipe").c_str());
     });
-    CLI::App *explain = c->add_subcommand("explain", "Say what a recipe makes, a line each");
+    CLI::App *explain = c->add_subcommand(
+        "explain",
+        "Describe which series a recipe chooses and what it renders, one line per output");
     explain->add_option("RECIPE", *file, "The recipe, a JSON file")->required()->check(notEmpty());
     explain->callback([file] {
         for (const std::string &line : batch::explained(batch::readRecipe(*file)))

@@ -63,8 +63,9 @@ public:
         checkOutput(out, classify::isGrey(lookFor(m_options.scene, m_preset)) &&
                              shadingFor(m_options.scene, m_command, m_preset).isGrey());
         if (m_options.fit == "body" && hasSize() && m_command.count("--pixel-mm") > 0)
-            throw Error(ErrorCode::usage,
-                        because::inWords("--fit: leave out --pixel-mm: the size is given"));
+            throw Error(
+                ErrorCode::usage,
+                because::inWords("--fit body: --pixel-mm cannot be used when the size is given"));
         if (!m_options.views.empty())
             readViews(out);
         m_card = chooseCard(m_options.engine, frames());
@@ -362,9 +363,9 @@ void addRenderCommand(CLI::App &app, const Context &context) {
          "Engine that renders the images; default: auto, which uses the GPU for turntables")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     c->add_option("--check", o->check,
-                  "Pictures whose error is measured, by exact sums at selected frequencies: "
-                  "'none', 'all', or 'rest' (default): standalone pictures and, in a series, the "
-                  "first, the last and six others")
+                  "Which pictures have their error measured, by exact sums at selected "
+                  "frequencies: 'none', 'all', or 'rest' (default), which means single pictures, "
+                  "and the first, the last and six others of a turntable or of --matrix")
         ->transform(CLI::CheckedTransformer(
             std::map<std::string, error::CheckedPictures>{{"none", error::CheckedPictures::none},
                                                           {"rest", error::CheckedPictures::rest},
@@ -392,8 +393,8 @@ void addRenderCommand(CLI::App &app, const Context &context) {
             ->excludes(turntable);
     c->add_option(
          "--fit", o->fit,
-         "What fills the picture: 'volume', the whole volume from every side (default), or "
-         "'body', the body from its views")
+         "What the picture is fitted to: 'volume' (default), so that the whole volume fits from "
+         "every side, or 'body', so that the body fills the picture in the requested views")
         ->check(CLI::IsMember({"volume", "body"}))
         ->excludes(matrix);
     c->add_flag("--deidentify", o->isDeidentified,

@@ -135,8 +135,8 @@ void addLookOptions(CLI::App &command, SceneOptions &options) {
         ->check(notEmpty());
     command
         .add_option("--bezier-range", options.bezierRange,
-                    "LO,HI: the densities, from 0 to 1, that --bezier applies to; beyond, the "
-                    "weights are those of its ends")
+                    "LO,HI: the range of densities, from 0 to 1, that --bezier covers; outside it, "
+                    "the weight at the nearer end applies")
         ->check(notEmpty())
         ->needs("--bezier");
     command

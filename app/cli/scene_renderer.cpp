@@ -25,6 +25,8 @@ namespace {
 
 constexpr const char *whyExact =
     "no approximate engine meets the tolerance, so the exact reference is used";
+constexpr const char *whyNotOnCard =
+    "no approximate engine meets the tolerance, and the exact reference runs only on the processor";
 
 } // namespace
 
@@ -100,8 +102,7 @@ void SceneRenderer::useCard() {
     if (isExact()) {
         m_engineReason = whyExact;
         if (m_card.isRequired)
-            throw cardRefused(
-                {ErrorCode::noSuchDevice, because::inWords(m_engineReason + ", on the processor")});
+            throw cardRefused({ErrorCode::noSuchDevice, because::inWords(whyNotOnCard)});
         return;
     }
     if (!m_card.passes)

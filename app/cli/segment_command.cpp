@@ -132,8 +132,8 @@ private:
             for (std::size_t n = 0; n < counts.size(); ++n) {
                 m_segments[n].volumeMm3 = double(counts[n]) * volume().lattice().cellVolumeMm3();
                 if (counts[n] == 0)
-                    warn("no sample belongs at least half to '" + m_segments[n].name +
-                         "': it has no label");
+                    warn("no sample is at least half inside '" + m_segments[n].name +
+                         "', so it has no label");
             }
             return;
         }

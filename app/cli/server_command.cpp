@@ -270,7 +270,8 @@ void addServerCommand(CLI::App &app, const Context &context) {
                     "Character set, such as 'ISO_IR 100', if a DICOM server's answers "
                     "name none")
         ->excludes(web);
-    put->add_option("--connections", o->connections, "Most connections at once, 1 to 8; default 4")
+    put->add_option("--connections", o->connections,
+                    "Maximum number of simultaneous connections, 1 to 8; default 4")
         ->check(CLI::Range(1, archive::maxConnections));
     put->add_option("--limit", o->limit, "Maximum number of results; default 200; 0: no limit");
     put->add_flag("--uncompress", o->uncompress,

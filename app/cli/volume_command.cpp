@@ -123,11 +123,11 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
         c->get_option(name)->group(""); // refused, therefore not offered
     c->get_option("--class")
         ->description("Write the field of a standard class; with --spectrum: "
-                      "NAME[=WEIGHT[:#rrggbb]], may be repeated")
+                      "NAME[=WEIGHT][:#rrggbb], may be repeated")
         ->excludes(field)
         ->excludes(edges);
     c->get_option("--segment")
-        ->description("Write the field of a segment; with --spectrum: NAME[=WEIGHT[:#rrggbb]], may "
+        ->description("Write the field of a segment; with --spectrum: NAME[=WEIGHT][:#rrggbb], may "
                       "be repeated")
         ->excludes(field)
         ->excludes(edges)

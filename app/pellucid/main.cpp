@@ -76,8 +76,8 @@ int main(int argc, char **argv) {
     options.add_option("--engine", engine, "Engine that renders the projections: auto, cpu or gpu")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     options.add_option("PATH", paths,
-                       "Files, folders, a DICOMDIR, ZIP archives or NRRD files to open; or a link "
-                       "pellucid://open?server=NAME&studyUID=UID");
+                       "Files, folders, a DICOMDIR, ZIP archives, or volumes in NRRD, NIfTI or "
+                       "MetaImage; or a link pellucid://open?server=NAME&studyUID=UID");
     try {
         options.parse(argc, argv);
     } catch (const CLI::Success &success) {

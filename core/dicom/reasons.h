@@ -15,7 +15,7 @@ PELLUCID_REASON(isABrokenLink, "is a broken link")
 PELLUCID_REASON(existsAlready, "already exists")
 
 // Servers on the network
-PELLUCID_REASON(otherFiles, "other files, which are no images: %1")
+PELLUCID_REASON(otherFiles, "other files (not images): %1")
 
 // Memory
 PELLUCID_REASON(noMemoryForAVolume, "not enough memory for a volume of %1 x %2 x %3")
@@ -67,7 +67,7 @@ PELLUCID_REASON(without, "%1 is not used: %2")
 PELLUCID_REASON(missingSlices, "missing slices, interpolated: %1")
 PELLUCID_REASON(toldApartByNumber, "guessed: images at the same position were told apart by their numbers alone")
 PELLUCID_REASON(objectsOfStudyMissing, "the study is not complete: %1 of its objects are missing")
-PELLUCID_REASON(slicesOfSeries, "%1 of %2 slices are here")
+PELLUCID_REASON(slicesOfSeries, "%1 of %2 slices have arrived")
 PELLUCID_REASON(more, "%1 more")
 PELLUCID_REASON(unevenSlices, "uneven slice spacing, resampled to %1 mm; it changes at %2")
 PELLUCID_REASON(unevenAt, "%1 (%2 then %3 mm)")

@@ -24,7 +24,7 @@ public:
     MultipartReader(const std::string &contentType, Sink sink);
 
     void add(std::span<const std::byte> bytes);
-    /// Ends the body. *Returns* false if a part was still open: its end is missing.
+    /// Ends the body. *Returns* false if the last part was incomplete.
     bool finish();
 
 private:

@@ -14,10 +14,10 @@
 <context>
     <name>ProjectionTexts</name>
     <message numerus="yes">
-        <source>The picture differs from the exact one by %1 (relative L2, between %2), measured at %n frequencies, each summed exactly over the study.</source>
+        <source>The picture differs from the exact one by %1 (relative L2 error; interval %2), measured at %n frequencies, each summed exactly over the study.</source>
         <translation>
-            <numerusform>The picture differs from the exact one by %1 (relative L2, between %2), measured at %n frequency, summed exactly over the study.</numerusform>
-            <numerusform>The picture differs from the exact one by %1 (relative L2, between %2), measured at %n frequencies, each summed exactly over the study.</numerusform>
+            <numerusform>The picture differs from the exact one by %1 (relative L2 error; interval %2), measured at %n frequency, summed exactly over the study.</numerusform>
+            <numerusform>The picture differs from the exact one by %1 (relative L2 error; interval %2), measured at %n frequencies, each summed exactly over the study.</numerusform>
         </translation>
     </message>
 </context>
@@ -102,22 +102,22 @@
 <context>
     <name>pellucid::ui::ServerCommands</name>
     <message numerus="yes">
-        <source>The server has corrected data of this study since %n of its images were received:
+        <source>The server has corrected this study since %n of its images were received:
 
 %1
 
-Retrieve these images again, and replace those that are here?</source>
+Retrieve these images again, and replace the copies on this computer?</source>
         <translation>
-            <numerusform>The server has corrected data of this study since %n of its images was received:
+            <numerusform>The server has corrected this study since %n of its images was received:
 
 %1
 
-Retrieve this image again, and replace the one that is here?</numerusform>
-            <numerusform>The server has corrected data of this study since %n of its images were received:
+Retrieve this image again, and replace the copy on this computer?</numerusform>
+            <numerusform>The server has corrected this study since %n of its images were received:
 
 %1
 
-Retrieve these images again, and replace those that are here?</numerusform>
+Retrieve these images again, and replace the copies on this computer?</numerusform>
         </translation>
     </message>
 </context>

@@ -911,18 +911,8 @@
         <translation>%1 實測</translation>
     </message>
     <message>
-        <source>The picture differs from the exact one by at most this share (relative L2). It is measured when the view rests.</source>
-        <translation>影像與精確影像的差別至多為此比例（相對 L2）。檢視靜止後即進行實測。</translation>
-    </message>
-    <message>
         <source>%1 to %2</source>
         <translation>%1 至 %2</translation>
-    </message>
-    <message numerus="yes">
-        <source>The picture differs from the exact one by %1 (relative L2, between %2), measured at %n frequencies, each summed exactly over the study.</source>
-        <translation>
-            <numerusform>影像與精確影像相差 %1（相對 L2，介於 %2），在 %n 個頻率上實測，每個頻率皆對整個檢查精確加總。</numerusform>
-        </translation>
     </message>
     <message>
         <source>cancelled (F5 to recompute)</source>
@@ -931,6 +921,16 @@
     <message>
         <source>failed (F5 to try again)</source>
         <translation>失敗（按 F5 再試一次）</translation>
+    </message>
+    <message>
+        <source>The picture differs from the exact one by at most this fraction (relative L2 error). The error is measured when the view stops moving.</source>
+        <translation>影像與精確影像的差別至多為此比例（相對 L2 誤差）。檢視停止移動後即測量誤差。</translation>
+    </message>
+    <message numerus="yes">
+        <source>The picture differs from the exact one by %1 (relative L2 error; interval %2), measured at %n frequencies, each summed exactly over the study.</source>
+        <translation>
+            <numerusform>影像與精確影像相差 %1（相對 L2 誤差；區間 %2），在 %n 個頻率上實測，每個頻率皆對整個檢查精確加總。</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -1742,10 +1742,6 @@
         <translation>在壓縮檔中已損壞：%1</translation>
     </message>
     <message>
-        <source>is not the study that was open here</source>
-        <translation>不是先前在此開啟的檢查</translation>
-    </message>
-    <message>
         <source>not enough memory to start the decoder</source>
         <translation>記憶體不足以啟動解碼程式</translation>
     </message>
@@ -2530,10 +2526,6 @@
         <translation>窗的下限必須低於上限</translation>
     </message>
     <message>
-        <source>the whole volume at its finest step needs an image of more than %1 pixels a side; choose a size or a larger pixel</source>
-        <translation>以最細步距顯示整個體積時，影像每邊超過 %1 像素；請指定大小或較大的像素</translation>
-    </message>
-    <message>
         <source>unknown kernel &apos;%1&apos;: use nearest, trilinear, catmull-rom, b-spline, hamming-sinc, ES2 to ES7, KB2 to KB7 or LS2 to LS7</source>
         <translation>「%1」不是核函數；現有 nearest、trilinear、catmull-rom、b-spline、hamming-sinc、ES2 至 ES7、KB2 至 KB7 與 LS2 至 LS7</translation>
     </message>
@@ -3150,10 +3142,6 @@
         <translation>「%1」不是 DICOMweb 服務的位址；請用 https://HOST:PORT/PATH</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is not a name for a server</source>
-        <translation>「%1」不能作為伺服器的名稱</translation>
-    </message>
-    <message>
         <source>use 1 to %1 connections</source>
         <translation>請用 1 至 %1 條連線</translation>
     </message>
@@ -3258,20 +3246,8 @@
         <translation>細節的大小超過體積的半徑</translation>
     </message>
     <message>
-        <source>the number of answers must be at most %1</source>
-        <translation>答案數最多為 %1</translation>
-    </message>
-    <message>
         <source>the server sends more than was asked for</source>
         <translation>伺服器傳送的內容多於所要求者</translation>
-    </message>
-    <message>
-        <source>another object with its UID is here already</source>
-        <translation>已有另一個物件使用其 UID</translation>
-    </message>
-    <message>
-        <source>%1 of %2 slices are here</source>
-        <translation>已收到 %2 張切片中的 %1 張</translation>
     </message>
     <message>
         <source>the server failed to process the request</source>
@@ -3328,10 +3304,6 @@
     <message>
         <source>the login server does not publish its endpoints; enter the authorization URL and the token URL</source>
         <translation>登入伺服器未說明其網址；請輸入授權與權杖的網址</translation>
-    </message>
-    <message>
-        <source>the login server calls itself &apos;%1&apos;; enter this as the issuer if it is right</source>
-        <translation>登入伺服器自稱「%1」；若正確，請將其輸入為發行者</translation>
     </message>
     <message>
         <source>nobody logged in within %1 s</source>
@@ -3490,10 +3462,6 @@
         <translation>沒有符合的檢查</translation>
     </message>
     <message>
-        <source>contains nothing outside the folder of results</source>
-        <translation>在結果資料夾之外沒有任何內容</translation>
-    </message>
-    <message>
         <source>the member &apos;%1&apos; is given twice</source>
         <translation>成員「%1」出現兩次</translation>
     </message>
@@ -3582,10 +3550,6 @@
         <translation>此系統無法限制讀取檔案及與伺服器連線的處理程序：惡意檔案可執行您所能執行的一切</translation>
     </message>
     <message>
-        <source>%1; %2 goes on only with --allow-unprotected</source>
-        <translation>%1；%2 僅在給定 --allow-unprotected 時繼續執行</translation>
-    </message>
-    <message>
         <source>the server did not list it</source>
         <translation>伺服器未列出</translation>
     </message>
@@ -3606,20 +3570,12 @@
         <translation>伺服器要求本程式的憑證</translation>
     </message>
     <message>
-        <source>other files, which are no images: %1</source>
-        <translation>其他非影像的檔案：%1</translation>
-    </message>
-    <message>
         <source>has %1-bit samples, which are not supported</source>
         <translation>樣本為 %1 位元，不受支援</translation>
     </message>
     <message>
         <source>contours lie between the slices, up to %1 mm from the nearest: %2</source>
         <translation>輪廓位於切片之間，距最近的切片達 %1 mm：%2</translation>
-    </message>
-    <message>
-        <source>the segments are not on the volume&apos;s samples, up to %1 mm from them; they were interpolated</source>
-        <translation>分割不在體積的樣本上，相距達 %1 mm；已內插</translation>
     </message>
     <message>
         <source>several images have the same position, and nothing but their numbers tells them apart</source>
@@ -3754,26 +3710,6 @@
         <translation>本程式不接受的物件種類或編碼：%1</translation>
     </message>
     <message>
-        <source>the patient&apos;s name is &apos;%1&apos; here, and &apos;%2&apos; at the server</source>
-        <translation>病人姓名在本機為「%1」，在伺服器為「%2」</translation>
-    </message>
-    <message>
-        <source>the patient&apos;s ID is &apos;%1&apos; here, and &apos;%2&apos; at the server</source>
-        <translation>病歷號在本機為「%1」，在伺服器為「%2」</translation>
-    </message>
-    <message>
-        <source>the birth date is &apos;%1&apos; here, and &apos;%2&apos; at the server</source>
-        <translation>出生日期在本機為「%1」，在伺服器為「%2」</translation>
-    </message>
-    <message>
-        <source>the study date is &apos;%1&apos; here, and &apos;%2&apos; at the server</source>
-        <translation>檢查日期在本機為「%1」，在伺服器為「%2」</translation>
-    </message>
-    <message>
-        <source>the server has corrected data of %1 objects since they were received; get with --replace retrieves them again</source>
-        <translation>伺服器在接收後更正了 %1 個物件的資料；get 加上 --replace 可重新取回</translation>
-    </message>
-    <message>
         <source>the segments are coarser than the volume, or lie across its slices; they were interpolated</source>
         <translation>分割比體積粗，或橫跨其切片；已內插</translation>
     </message>
@@ -3892,6 +3828,70 @@
     <message>
         <source>the manual is not installed</source>
         <translation>未安裝使用手冊</translation>
+    </message>
+    <message>
+        <source>the server has corrected %1 objects since they were received; use &apos;get --replace&apos; to retrieve them again</source>
+        <translation>伺服器在接收後更正了 %1 個物件；請用「get --replace」重新取回</translation>
+    </message>
+    <message>
+        <source>%1; %2 runs only with --allow-unprotected</source>
+        <translation>%1；%2 僅在給定 --allow-unprotected 時執行</translation>
+    </message>
+    <message>
+        <source>all its studies are in the folder of results (--out), which is not searched</source>
+        <translation>其中的檢查都在結果資料夾（--out）中，該資料夾不會被搜尋</translation>
+    </message>
+    <message>
+        <source>the whole volume at this pixel size needs an image of more than %1 pixels a side; set a size or a larger pixel size</source>
+        <translation>以此像素大小顯示整個體積時，影像每邊超過 %1 像素；請設定影像大小或較大的像素大小</translation>
+    </message>
+    <message>
+        <source>other files (not images): %1</source>
+        <translation>其他檔案（非影像）：%1</translation>
+    </message>
+    <message>
+        <source>%1 of %2 slices have arrived</source>
+        <translation>已收到 %2 張切片中的 %1 張</translation>
+    </message>
+    <message>
+        <source>the segments do not lie on the volume&apos;s samples (up to %1 mm away); they were interpolated</source>
+        <translation>分割不在體積的樣本上（相距達 %1 mm）；已內插</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a valid server name; use 1 to 64 bytes, without control characters</source>
+        <translation>「%1」不是有效的伺服器名稱；請用 1 至 64 個位元組，不含控制字元</translation>
+    </message>
+    <message>
+        <source>the maximum number of results must be at most %1</source>
+        <translation>結果數的上限最多為 %1</translation>
+    </message>
+    <message>
+        <source>the login server reports the issuer &apos;%1&apos;; if that is correct, enter it as the issuer</source>
+        <translation>登入伺服器回報的發行者為「%1」；若正確，請將其輸入為發行者</translation>
+    </message>
+    <message>
+        <source>a different object with the same UID has already been received</source>
+        <translation>已收到 UID 相同的另一個物件</translation>
+    </message>
+    <message>
+        <source>the patient&apos;s name is &apos;%1&apos; on this computer, but &apos;%2&apos; on the server</source>
+        <translation>病人姓名在本機為「%1」，但在伺服器上為「%2」</translation>
+    </message>
+    <message>
+        <source>the patient&apos;s ID is &apos;%1&apos; on this computer, but &apos;%2&apos; on the server</source>
+        <translation>病歷號在本機為「%1」，但在伺服器上為「%2」</translation>
+    </message>
+    <message>
+        <source>the birth date is &apos;%1&apos; on this computer, but &apos;%2&apos; on the server</source>
+        <translation>出生日期在本機為「%1」，但在伺服器上為「%2」</translation>
+    </message>
+    <message>
+        <source>the study date is &apos;%1&apos; on this computer, but &apos;%2&apos; on the server</source>
+        <translation>檢查日期在本機為「%1」，但在伺服器上為「%2」</translation>
+    </message>
+    <message>
+        <source>is not the study of the last session</source>
+        <translation>不是上次工作階段的檢查</translation>
     </message>
 </context>
 <context>
@@ -5251,8 +5251,8 @@
         <translation>窗 %1</translation>
     </message>
     <message>
-        <source>Presets are for values in HU and SUV: other values mean something else in each study</source>
-        <translation>預設用於 HU 與 SUV 數值：其他數值在每個檢查中意義不同</translation>
+        <source>Window presets work only for HU and SUV: other values are not comparable between studies</source>
+        <translation>窗預設值僅適用於 HU 與 SUV：其他數值在不同檢查之間無法比較</translation>
     </message>
 </context>
 <context>
@@ -5310,10 +5310,6 @@ Open it side by side?</source>
         <translation>開啟</translation>
     </message>
     <message>
-        <source>%1: more than listed</source>
-        <translation>%1：尚有未列出者</translation>
-    </message>
-    <message>
         <source>Prior studies</source>
         <translation>先前檢查</translation>
     </message>
@@ -5328,6 +5324,10 @@ Open it side by side?</source>
     <message>
         <source>Possibly a different patient</source>
         <translation>可能為其他病人</translation>
+    </message>
+    <message>
+        <source>%1: more results than shown</source>
+        <translation>%1：結果多於所顯示者</translation>
     </message>
 </context>
 <context>
@@ -5595,10 +5595,6 @@ Open it side by side?</source>
         <translation>印表機無法使用</translation>
     </message>
     <message>
-        <source>An export is running: copy and print when it has ended</source>
-        <translation>正在匯出：請於結束後再複製或列印</translation>
-    </message>
-    <message>
         <source>There are no measurements to export yet</source>
         <translation>尚無測量可匯出</translation>
     </message>
@@ -5639,12 +5635,16 @@ Open it side by side?</source>
         <translation>正在寫入 %1</translation>
     </message>
     <message>
-        <source>Saved: %1; no sample belongs to %2</source>
-        <translation>已儲存：%1；沒有取樣屬於 %2</translation>
-    </message>
-    <message>
         <source>Open scene</source>
         <translation>開啟場景</translation>
+    </message>
+    <message>
+        <source>An export is running: wait until it ends before you copy or print</source>
+        <translation>正在匯出：請待其結束後再複製或列印</translation>
+    </message>
+    <message>
+        <source>Saved: %1; these classes are empty: %2</source>
+        <translation>已儲存：%1；這些類別是空的：%2</translation>
     </message>
 </context>
 <context>
@@ -6214,10 +6214,6 @@ Open it side by side?</source>
         <translation>刪除</translation>
     </message>
     <message>
-        <source>Points, strokes and cuts belong to this study: the preset asks for new points, and has no strokes and cuts</source>
-        <translation>點、筆畫與剪裁屬於此檢查：預設集會要求新的點，且不含筆畫與剪裁</translation>
-    </message>
-    <message>
         <source>All</source>
         <translation>全部</translation>
     </message>
@@ -6252,6 +6248,10 @@ Open it side by side?</source>
     <message>
         <source>Delete (built-in presets cannot be deleted)</source>
         <translation>刪除（內建預設集不可刪除）</translation>
+    </message>
+    <message>
+        <source>Points, strokes and cuts belong to this study and are not saved in the preset. When you apply it, it asks for new points.</source>
+        <translation>點、筆畫與剪裁屬於此檢查，不會存入預設集。套用預設集時，會要求新的點。</translation>
     </message>
 </context>
 <context>
@@ -6827,20 +6827,6 @@ The study is in the library. Open it?</source>
         <source>Corrected data</source>
         <translation>已更正的資料</translation>
     </message>
-    <message numerus="yes">
-        <source>The server has corrected data of this study since %n of its images were received:
-
-%1
-
-Retrieve these images again, and replace those that are here?</source>
-        <translation>
-            <numerusform>此檢查的 %n 張影像接收後，伺服器更正了資料：
-
-%1
-
-是否重新取回這些影像，並取代本機的影像？</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Replace</source>
         <translation>取代</translation>
@@ -6848,6 +6834,20 @@ Retrieve these images again, and replace those that are here?</source>
     <message>
         <source>Study received</source>
         <translation>已收到檢查</translation>
+    </message>
+    <message numerus="yes">
+        <source>The server has corrected this study since %n of its images were received:
+
+%1
+
+Retrieve these images again, and replace the copies on this computer?</source>
+        <translation>
+            <numerusform>此檢查的 %n 張影像接收後，伺服器更正了此檢查：
+
+%1
+
+是否重新取回這些影像，並取代本機上的複本？</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -7115,10 +7115,6 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>以 C-MOVE 傳送的其他主機，例如叢集的節點，以逗號分隔；通常留空</translation>
     </message>
     <message>
-        <source>Most connections at the same time while retrieving; fewer are used where more would not save time</source>
-        <translation>取回時同時連線的最大數目；更多連線並不省時之處則較少</translation>
-    </message>
-    <message>
         <source>Sends from</source>
         <translation>傳送來源</translation>
     </message>
@@ -7153,6 +7149,10 @@ Retrieve these images again, and replace those that are here?</source>
     <message>
         <source>CA certificates</source>
         <translation>CA 憑證</translation>
+    </message>
+    <message>
+        <source>Maximum number of simultaneous connections for retrieving; fewer are used if more would not save time</source>
+        <translation>取回時同時連線的最大數目；若更多連線並不省時，則較少</translation>
     </message>
 </context>
 <context>
@@ -7581,10 +7581,6 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>%1：搜尋中</translation>
     </message>
     <message>
-        <source>%1: more than listed</source>
-        <translation>%1：尚有未列出者</translation>
-    </message>
-    <message>
         <source>Retrieve from %1</source>
         <translation>自 %1 取回</translation>
     </message>
@@ -7599,6 +7595,10 @@ Retrieve these images again, and replace those that are here?</source>
     <message>
         <source>Open side by side</source>
         <translation>並排開啟</translation>
+    </message>
+    <message>
+        <source>%1: more results than shown</source>
+        <translation>%1：結果多於所顯示者</translation>
     </message>
 </context>
 <context>
@@ -7690,10 +7690,6 @@ Retrieve these images again, and replace those that are here?</source>
         <translation>重設</translation>
     </message>
     <message>
-        <source>Set all weights to 1</source>
-        <translation>權重全設為 1</translation>
-    </message>
-    <message>
         <source>Copy</source>
         <translation>複製</translation>
     </message>
@@ -7752,6 +7748,10 @@ Retrieve these images again, and replace those that are here?</source>
     <message>
         <source>Range of the curve</source>
         <translation>曲線的範圍</translation>
+    </message>
+    <message>
+        <source>Set all weights to 1, over all values</source>
+        <translation>所有權重設為 1，涵蓋所有數值</translation>
     </message>
 </context>
 <context>

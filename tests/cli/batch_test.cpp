@@ -467,7 +467,7 @@ TEST_F(Batch, RefusesWhatMakesNoSense) {
     EXPECT_EQ(height, 40);
     EXPECT_EQ(width, 40);
     expectOneLine(batch(made, folder / "captures", folder / "captures"), 3,
-                  "contains nothing outside the folder of results");
+                  "all its studies are in the folder of results (--out), which is not searched");
     // A part without studies is no failure.
     int none = 0;
     for (int shard = 0; shard < 50; ++shard)

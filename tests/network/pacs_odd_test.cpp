@@ -229,7 +229,8 @@ TEST_F(PacsScripted, ACorrectionIsNoticedAndReplaced) {
     EXPECT_EQ(noticed.corrected, 3U);
     ASSERT_EQ(noticed.corrections.size(), 1U);
     EXPECT_EQ(archive::reasonOf(noticed.corrections[0]).english(),
-              "the patient's name is 'M\u00FCller^Eva' here, and 'M\u00FCller^Ava' at the server");
+              "the patient's name is 'M\u00FCller^Eva' on this computer, but 'M\u00FCller^Ava' on "
+              "the server");
     EXPECT_EQ(namesHere(), std::set<std::string>{OddWebServer::name});
     const auto replaced = retrieve(archive::Existing::isReplaced);
     EXPECT_TRUE(replaced.isComplete());

@@ -220,8 +220,8 @@ void DisplayWindowDialog::showButtons() {
     m_add->setEnabled(m_document.volume() && m_presets.size() < maxWindowPresets &&
                       volume::isCalibrated(m_document.volume()->unit()));
     m_add->setToolTip(m_add->isEnabled() ? QString()
-                                         : tr("Presets are for values in HU and SUV: other values "
-                                              "mean something else in each study"));
+                                         : tr("Window presets work only for HU and SUV: other "
+                                              "values are not comparable between studies"));
 }
 
 } // namespace pellucid::ui

@@ -179,8 +179,8 @@ QWidget *ServersDialog::makeForm() {
                            tr("Other hosts from which it sends with C-MOVE, such as the nodes of a "
                               "cluster, separated by commas; usually empty"));
     m_connections = spinBox("connectionsBox", 1, archive::maxConnections,
-                            tr("Most connections at the same time while retrieving; fewer are "
-                               "used where more would not save time"));
+                            tr("Maximum number of simultaneous connections for retrieving; fewer "
+                               "are used if more would not save time"));
     m_limit = spinBox("limitBox", 0, 100000, tr("Maximum number of results; 0: no limit"));
     m_characterSet =
         lineEdit("characterSetEdit", tr("Character set, such as ISO_IR 100, if answers name none"));

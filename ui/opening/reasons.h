@@ -13,7 +13,7 @@ PELLUCID_REASON(sceneNeedsSegments, "needs segments that are not loaded: %1")
 
 // The study library, sessions and export
 PELLUCID_REASON(isNoSession, "is not a session file")
-PELLUCID_REASON(isAnotherStudy, "is not the study that was open here")
+PELLUCID_REASON(isAnotherStudy, "is not the study of the last session")
 // clang-format on
 
 } // namespace pellucid::task::because

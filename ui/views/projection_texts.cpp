@@ -69,13 +69,14 @@ QString errorFigure(const error::StatedError &error) {
 
 QString errorExplanation(const error::StatedError &error) {
     if (!error.isMeasured())
-        return ProjectionTexts::tr("The picture differs from the exact one by at most this share "
-                                   "(relative L2). It is measured when the view rests.");
+        return ProjectionTexts::tr(
+            "The picture differs from the exact one by at most this fraction "
+            "(relative L2 error). The error is measured when the view stops moving.");
     const QString interval =
         ProjectionTexts::tr("%1 to %2").arg(percentText(error.low), percentText(error.high));
     return ProjectionTexts::tr(
-               "The picture differs from the exact one by %1 (relative L2, between "
-               "%2), measured at %n frequencies, each summed exactly over the study.",
+               "The picture differs from the exact one by %1 (relative L2 error; "
+               "interval %2), measured at %n frequencies, each summed exactly over the study.",
                nullptr, error.frequencies)
         .arg(percentText(error.relative), interval);
 }

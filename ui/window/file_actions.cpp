@@ -173,7 +173,8 @@ void FileActions::withPicture(int scale, const QString &title,
     what.pane = panes.current();
     what.scale = scale;
     if (m_bench.exports.isRunning()) { // another job would cancel it
-        m_bench.notices.say(tr("An export is running: copy and print when it has ended"));
+        m_bench.notices.say(
+            tr("An export is running: wait until it ends before you copy or print"));
         return;
     }
     m_bench.notices.attempt([&] {
@@ -267,7 +268,7 @@ void FileActions::saveSegments() {
                 job.deliver([this, path, empty] {
                     reportSaved(path);
                     if (!empty.isEmpty())
-                        m_bench.notices.say(tr("Saved: %1; no sample belongs to %2")
+                        m_bench.notices.say(tr("Saved: %1; these classes are empty: %2")
                                                 .arg(QFileInfo(path).fileName(), empty.join(", ")));
                 });
             },

@@ -90,8 +90,8 @@ void ServerCommands::askToReplace(const QString &studyUid, const archive::Retrie
     ask(
         &m_window,
         {"correctedQuestion", tr("Corrected data"),
-         tr("The server has corrected data of this study since %n of its images were received:\n\n"
-            "%1\n\nRetrieve these images again, and replace those that are here?",
+         tr("The server has corrected this study since %n of its images were received:\n\n"
+            "%1\n\nRetrieve these images again, and replace the copies on this computer?",
             "", int(report.corrected))
              .arg(corrections.join("\n")),
          tr("Replace")},
