@@ -17,7 +17,7 @@ namespace {
 constexpr int frames = 48;
 constexpr std::array<std::array<int, 2>, 3> panes{{{600, 760}, {1200, 1500}, {1800, 2000}}};
 
-// The volume fits each pane, as in the window, whose pixels become finer.
+// The volume fits each pane, as in the window, so larger panes have finer pixels.
 void measurePanes(const Report &report, const std::string &name, const volume::Volume &volume,
                   const classify::Look &look, const shading::Shading &shading) {
     const auto shown =

@@ -130,8 +130,10 @@ scene::Scene sceneOf(const Output &output, const volume::Volume &volume) {
         } else {
             const double side = across / *output.pixelMm;
             if (side > scene::largestImageSize)
-                throw task::Error(task::ErrorCode::usage,
-                                  because::volumeNeedsALargerImage(scene::largestImageSize));
+                throw task::Error(
+                    task::ErrorCode::usage,
+                    because::volumeNeedsALargerImage(scene::largestImageSize,
+                                                     fmt::format("{:.3g}", *output.pixelMm)));
             camera.width = camera.height = scene::evenPixels(side);
         }
         // The whole volume from every side.

@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <tbb/parallel_for.h>
 
 namespace pellucid::error {
 
@@ -166,8 +167,9 @@ FoldedTails foldedTails(const picture::PeriodPicture &period, const PictureSlice
         }
         return sum * width * height;
     };
-    FoldedTails tails;
-    for (int row = 0; row < side; ++row)
+    std::array<FoldedTails, side> ofRows;
+    tbb::parallel_for(0, side, [&](int row) {
+        FoldedTails &tails = ofRows[std::size_t(row)];
         for (int column = 0; column < side; ++column) {
             double amplitudes = 0.0;
             for (int down = -1; down <= 1; ++down)
@@ -182,6 +184,12 @@ FoldedTails foldedTails(const picture::PeriodPicture &period, const PictureSlice
                 }
             tails.most += 2.0 * amplitudes * amplitudes;
         }
+    });
+    FoldedTails tails;
+    for (const FoldedTails &row : ofRows) {
+        tails.expected += row.expected;
+        tails.most += row.most;
+    }
     // |P|^2 is in units of the picture squared times mm^4, of a pixel's area squared.
     const double pixel = period.camera.pixelMm;
     tails.expected /= pixel * pixel;

@@ -5,9 +5,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <span>
-#include <tuple>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -33,8 +34,7 @@ constexpr std::size_t atOnce = 4096;
 // A sine and a cosine take as long as so many multiplications: 44 ns on one thread.
 constexpr double perSine = 500.0;
 
-// The others are ordered by the tiles that frames read with one kernel.
-constexpr int tile = 16;
+constexpr int tile = 16; // columns and rows that frames read with one kernel
 
 // The limits of the interval, in standard errors: of 240 draws in six pictures of head, chest and
 // MR, 1.7 % were outside; with 3, 3.7 %.
@@ -64,11 +64,19 @@ struct Energies {
     }
 };
 
-// A picture and the slice that it was made from.
+// A picture, the slice that it was made from, and what does not depend on exact values.
 struct Judged {
-    explicit Judged(const picture::PeriodPicture &of) : period(of), slice(of) {}
+    Judged(const picture::PeriodPicture &of, const scene::ImageDefinition &image,
+           const volume::Lattice &lattice)
+        : period(of), slice(of), folded(foldedTails(of, slice, image, lattice)) {
+        slice.forEach([&](int column, int row, double weight, double radius) {
+            (radius < 1.0 ? inBand : beyondBand) += weight * slice.energy(column, row);
+        });
+    }
     const picture::PeriodPicture &period;
     PictureSlice slice;
+    FoldedTails folded;
+    double inBand = 0.0, beyondBand = 0.0; ///< energies; beyond the band, everything is an error
 };
 
 // The frequencies of a view, and their exact values.
@@ -82,15 +90,15 @@ struct Sums {
     std::vector<Term> drawn;  ///< in pairs, each from a stratum of the same chance
 
     int count() const { return int(always.size() + drawn.size()); }
-    StatedError errorOf(const Judged &picture, const scene::ImageDefinition &image,
-                        const volume::Lattice &lattice) const;
+    StatedError errorOf(const Judged &picture) const;
 };
 
 class Sampler {
 public:
     Sampler(const picture::PeriodPicture &period, const scene::ImageDefinition &image,
             const ShownRows &rows, const CheckEffort &effort)
-        : m_judged(period), m_image(image), m_rows(rows), m_effort(effort), m_random(effort.seed) {}
+        : m_judged(period, image, rows.lattice()), m_image(image), m_rows(rows), m_effort(effort),
+          m_random(effort.seed) {}
 
     StatedError run(const task::Progress &progress,
                     const std::function<void(const StatedError &)> &refined) {
@@ -109,12 +117,12 @@ public:
             divide(all);
         add(all, sums.always, progress.part(0.0, sums.isComplete ? 1.0 : 0.1));
         if (sums.isComplete)
-            return sums.errorOf(m_judged, m_image, m_rows.lattice());
+            return sums.errorOf(m_judged);
         for (int done = 0, count = most / 4;; done = count, count *= 2) {
             count = std::min(count, most);
             add(draw((count - done) / 2), sums.drawn,
                 progress.part(0.1 + 0.9 * done / most, 0.1 + 0.9 * count / most));
-            const StatedError error = sums.errorOf(m_judged, m_image, m_rows.lattice());
+            const StatedError error = sums.errorOf(m_judged);
             if (count == most || error.high <= (1.0 + m_effort.within) * error.relative ||
                 error.high <= m_effort.enough)
                 return error;
@@ -124,35 +132,47 @@ public:
     }
 
 private:
+    // In order of the tiles that frames read with one kernel, so that neighbours are alike.
     std::vector<Frequency> frequenciesOfBand() const {
         const PictureSlice &slice = m_judged.slice;
-        std::vector<Frequency> all;
-        slice.forEach([&](int column, int row, double weight, double radius) {
-            if (radius < 1.0)
-                all.push_back({column, row, weight, radius, slice.energy(column, row)});
+        const int across = slice.columns() / 2 / tile + 1, half = slice.rows() / 2 / tile + 1;
+        const auto visit = [&](const auto &use) {
+            slice.forEach([&](int column, int row, double weight, double radius) {
+                if (radius < 1.0) // tiles begin at row 0, counted along V
+                    use(Frequency{column, row, weight, radius},
+                        std::size_t((half * tile - row) / tile * across + column / tile));
+            });
+        };
+        std::vector<std::size_t> next(std::size_t(2 * half + 1) * std::size_t(across) + 1);
+        visit([&](const Frequency &, std::size_t at) { ++next[at + 1]; });
+        std::partial_sum(next.begin(), next.end(), next.begin());
+        std::vector<Frequency> all(next.back());
+        visit([&](Frequency f, std::size_t at) {
+            f.energy = slice.energy(f.column, f.row);
+            all[next[at]++] = f;
         });
         return all;
     }
 
     // Leaves those that are always summed in `all`, and keeps the others to draw from.
     void divide(std::vector<Frequency> &all) {
-        const auto isNear = [&](const Frequency &f) {
-            return std::hypot(f.column, f.row) <= alwaysSteps;
-        };
-        const auto rest = std::stable_partition(all.begin(), all.end(), isNear);
-        const auto bright =
-            rest + std::ptrdiff_t(std::min(std::size_t(all.end() - rest), alwaysBrightest));
-        std::nth_element(rest, bright, all.end(), [](const Frequency &a, const Frequency &b) {
-            return a.energy > b.energy;
+        std::vector<bool> isAlways;
+        std::vector<std::size_t> rest;
+        for (std::size_t n = 0; n < all.size(); ++n) {
+            isAlways.push_back(std::hypot(all[n].column, all[n].row) <= alwaysSteps);
+            if (!isAlways.back())
+                rest.push_back(n);
+        }
+        const auto bright = rest.begin() + std::ptrdiff_t(std::min(rest.size(), alwaysBrightest));
+        std::nth_element(rest.begin(), bright, rest.end(), [&](std::size_t a, std::size_t b) {
+            return all[a].energy > all[b].energy;
         });
-        m_others.assign(bright, all.end());
-        all.erase(bright, all.end());
-        const auto placeOf = [](const Frequency &f) {
-            const int up = -f.row; // along V, from 0
-            return std::tuple((up >= 0 ? up : up - tile + 1) / tile, f.column / tile, up, f.column);
-        };
-        std::sort(m_others.begin(), m_others.end(),
-                  [&](const Frequency &a, const Frequency &b) { return placeOf(a) < placeOf(b); });
+        for (auto n = rest.begin(); n != bright; ++n)
+            isAlways[*n] = true;
+        std::vector<Frequency> always;
+        for (std::size_t n = 0; n < all.size(); ++n)
+            (isAlways[n] ? always : m_others).push_back(all[n]);
+        all = std::move(always);
         double around = 0.0;
         for (Frequency &f : m_others)
             around += f.chance = std::sqrt(m_judged.slice.energyAround(f.column, f.row));
@@ -233,15 +253,10 @@ Energies energiesOf(const PictureSlice &slice, const Sums::Term &term) {
     return energies;
 }
 
-StatedError Sums::errorOf(const Judged &picture, const scene::ImageDefinition &image,
-                          const volume::Lattice &lattice) const {
+StatedError Sums::errorOf(const Judged &picture) const {
     const PictureSlice &slice = picture.slice;
-    Energies all;
-    double whole = 0.0;
-    slice.forEach([&](int column, int row, double weight, double radius) {
-        // Beyond the band, everything is an error.
-        (radius < 1.0 ? whole : all.error) += weight * slice.energy(column, row);
-    });
+    const double whole = picture.inBand;
+    Energies all{.error = picture.beyondBand};
     for (const Term &term : always)
         all += term.at.weight * energiesOf(slice, term);
     Energies sum;
@@ -285,7 +300,7 @@ StatedError Sums::errorOf(const Judged &picture, const scene::ImageDefinition &i
         truth = whole > 0.0 ? shown * std::max(whole + all.exact - all.shown, 0.0) / whole : shown;
     }
     // No frequency of the period contains what folds back into it.
-    const FoldedTails folded = foldedTails(picture.period, slice, image, lattice);
+    const FoldedTails &folded = picture.folded;
     // The picture of the period is rounded otherwise than the shown one: a transform in float has
     // an error of at most 2^-24 a step.
     const double rounding = std::ldexp(std::log2(double(slice.columns()) * slice.rows()), -24) *

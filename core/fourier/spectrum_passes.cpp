@@ -56,7 +56,7 @@ const float *transformPadded(const StripTransform &transform, const float *from,
     const int padded = transform.length(), middle = count / 2, after = count - middle;
     std::memcpy(strips, from + std::size_t(middle) * stripFloats,
                 std::size_t(after) * stripFloats * sizeof(float));
-    if (after == middle) // so that as many are known on both sides
+    if (after == middle) // the transform reads `middle` strips on both sides of the first
         std::fill_n(strips + std::size_t(after) * stripFloats, stripFloats, 0.0F);
     std::memcpy(strips + std::size_t(padded - middle) * stripFloats, from,
                 std::size_t(middle) * stripFloats * sizeof(float));
@@ -184,8 +184,7 @@ public:
     ColumnTransform(const SpectrumLayout &layout, const CellLayout &cells, std::byte *out,
                     float scale)
         : m_size(layout.box.size()), m_padded(layout.padded), m_cells(cells), m_out(out),
-          m_scale(scale), m_alongY(layout.padded.j, m_size.j / 2),
-          m_alongZ(layout.padded.k, m_size.k / 2),
+          m_scale(scale), m_alongY(layout.padded.j), m_alongZ(layout.padded.k),
           m_planes(system::allocatePages(planeBytes(layout), task::because::aTransform)),
           m_strips(2 * std::size_t(std::max(m_padded.j, m_padded.k)) * stripFloats),
           m_lines(std::size_t(rowsTogether) * m_padded.k * CellLayout::columnCells) {}

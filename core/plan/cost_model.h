@@ -22,7 +22,7 @@ double frameTime(const SliceGrid &grid, const scene::Camera &camera, const volum
 double prepareTime(const volume::GridSize &padded);
 
 /// Whether frames that choose their widths save more time than it takes to prepare the data for it.
-/// *Shape*: `padded`: of the spectrum.
+/// `padded`: the padded sizes of the spectrum.
 bool widthsPay(const SliceGrid &grid, const scene::Camera &camera, const volume::Lattice &lattice,
                const volume::GridSize &padded, int pictures);
 

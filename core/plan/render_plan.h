@@ -36,7 +36,8 @@ struct RenderPlan {
     std::size_t bytes = 0;
     /// Why this plan was chosen: one line for the user.
     task::Reason reason = task::because::mostAccurate;
-    /// Whether each frame chooses the widths of its kernels, see `widths::AdaptiveWidths`.
+    /// Whether frames may choose the widths of their kernels, see `widths::AdaptiveWidths`; they do
+    /// if `adaptiveError` is above 0.
     bool isAdaptive = false;
     /// The part of `predictedError` that frames may make by narrower kernels; 0: one
     /// kernel reads every frequency.

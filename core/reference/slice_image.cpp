@@ -28,8 +28,8 @@ Period periodOf(const volume::Lattice &lattice, const scene::Camera &camera,
                 const scene::ImageDefinition &image) {
     const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
     double margin = 6.0 * fadingLength(image.rollOff);
-    // The lattice's own band is tapered too, and along an axis its tails lie on a line, where less
-    // cancels: with six times its length they were 2e-5 of a point.
+    // The lattice's own band is tapered too. Along an axis of the lattice its tails lie on one line
+    // and cancel less: at six fading lengths, 2e-5 of a point was cut off.
     if (image.reconstruction == scene::Reconstruction::bandLimited)
         margin = 8.0 * fadingLength(image.rollOff) *
                  std::max(1.0, lattice.longestStepMm() / camera.pixelMm);

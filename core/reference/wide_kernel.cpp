@@ -18,11 +18,11 @@ namespace {
 
 constexpr int width = 13;
 constexpr double padding = 2.0;
-constexpr int margin = width / 2 + 1; // cells beyond each end of a row
+constexpr int margin = width / 2; // cells beyond each end of a row
 constexpr double pi = std::numbers::pi;
 
 // The shape parameter of the kernel: 1 % below that of Potts and Tasche 2021 (sinh-type window),
-// which makes the largest error an eighth.
+// which leaves a sixth of the aliases.
 const double shape = 0.99 * pi * width * (1.0 - 0.5 / padding);
 
 double kernel(double t) {

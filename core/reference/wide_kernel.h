@@ -25,7 +25,7 @@ public:
     static std::size_t bytes(const volume::VoxelBox &box);
 
 private:
-    /// Where a row of cells starts. *Shape*: j and k wrap.
+    /// The index of cell (0, j, k). j and k are periodic.
     std::size_t rowAt(int j, int k) const;
 
     volume::Lattice m_lattice;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/vector_relational.hpp>
@@ -88,7 +89,8 @@ Camera defaultCamera(const volume::Lattice &lattice) {
     const double pixels = 2.0 * lattice.radiusMm() / camera.pixelMm;
     if (pixels > largestImageSize)
         throw task::Error(task::ErrorCode::usage,
-                          task::because::volumeNeedsALargerImage(largestImageSize));
+                          task::because::volumeNeedsALargerImage(
+                              largestImageSize, fmt::format("{:.3g}", camera.pixelMm)));
     camera.width = camera.height = evenPixels(pixels);
     return camera;
 }

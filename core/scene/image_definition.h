@@ -7,7 +7,8 @@ namespace pellucid::scene {
 /// along each axis of the lattice); beyond a cut face it has a single negative lobe, one sample
 /// wide. `linear` is the limit of a trilinear ray caster as its steps become finer. `bandLimited`
 /// is the sinc. `spline` is the interpolating cubic B-spline; it rings on both sides of a cut face,
-/// by +2.7 % two samples away. *Source*: Keys 1981. shaders/lib/factors.glsl repeats the order.
+/// by +2.7 % two samples away. The shader shaders/lib/factors.glsl has the same order. *Source*:
+/// Keys 1981.
 enum class Reconstruction { cubic, linear, bandLimited, spline };
 
 /// The definition of an image, independent of the method that computes it: the projection's

@@ -31,7 +31,7 @@ PELLUCID_REASON(exposureIsNotPlausible, "invalid exposure: the lower end of each
 PELLUCID_REASON(toleranceMustBePositive, "the tolerance must be positive")
 PELLUCID_REASON(paddingOutOfRange, "the padding must be between 1 and 4")
 PELLUCID_REASON(windowIsEmpty, "the window's low end must be below its high end")
-PELLUCID_REASON(volumeNeedsALargerImage, "the whole volume at this pixel size needs an image of more than %1 pixels a side; set a size or a larger pixel size")
+PELLUCID_REASON(volumeNeedsALargerImage, "the whole volume at a pixel size of %2 mm needs an image of more than %1 pixels a side; set a size or a larger pixel size")
 
 // What JSON should hold; `at`: where in it, or in which file
 PELLUCID_REASON(mustBeThreeRowsOfFour, "must be three rows of four numbers")

@@ -3842,10 +3842,6 @@
         <translation>其中的檢查都在結果資料夾（--out）中，該資料夾不會被搜尋</translation>
     </message>
     <message>
-        <source>the whole volume at this pixel size needs an image of more than %1 pixels a side; set a size or a larger pixel size</source>
-        <translation>以此像素大小顯示整個體積時，影像每邊超過 %1 像素；請設定影像大小或較大的像素大小</translation>
-    </message>
-    <message>
         <source>other files (not images): %1</source>
         <translation>其他檔案（非影像）：%1</translation>
     </message>
@@ -3892,6 +3888,10 @@
     <message>
         <source>is not the study of the last session</source>
         <translation>不是上次工作階段的檢查</translation>
+    </message>
+    <message>
+        <source>the whole volume at a pixel size of %2 mm needs an image of more than %1 pixels a side; set a size or a larger pixel size</source>
+        <translation>以 %2 mm 的像素大小顯示整個體積，影像每邊需要超過 %1 個像素；請設定影像大小或較大的像素大小</translation>
     </message>
 </context>
 <context>
@@ -7750,8 +7750,8 @@ Retrieve these images again, and replace the copies on this computer?</source>
         <translation>曲線的範圍</translation>
     </message>
     <message>
-        <source>Set all weights to 1, over all values</source>
-        <translation>所有權重設為 1，涵蓋所有數值</translation>
+        <source>Set all weights to 1 and cover all values</source>
+        <translation>將所有權重設為 1，並涵蓋所有數值</translation>
     </message>
 </context>
 <context>

@@ -18,9 +18,8 @@ namespace {
 
 constexpr int fewSlices = 6;
 // What a new volume brings with it.
-constexpr Changes ofVolume = Change::volume | Change::scene | Change::pose | Change::displayWindow |
-                             Change::crosshair | Change::cut | Change::segments | Change::exposure |
-                             Change::measurements | Change::selection;
+constexpr Changes ofVolume =
+    (viewChanges ^ Change::paneSize) | Change::measurements | Change::selection;
 
 QStringList filesOf(const StudySource &source) {
     QStringList files = source.files + source.lasting;

@@ -19,7 +19,7 @@
 #include "ui/language/shown_text.h"
 #include "ui/panels/class_group.h"
 #include "ui/panels/class_row.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
@@ -48,7 +48,7 @@ ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
       m_empty(new PlainLabel(tr("The transfer function applies to the whole volume. Add a class to "
                                 "show tissues separately."))),
       m_search(new QLineEdit), m_area(new QScrollArea) {
-    groundAsPanel(*this, "classesPanel");
+    setPanelBackground(*this, "classesPanel");
     m_add->setObjectName("addClassButton");
     m_add->setToolTip(tr("Add a tissue class"));
     m_add->setProperty("role", "link");
@@ -63,8 +63,8 @@ ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
     m_rows->setSpacing(1);
     m_rows->addWidget(m_empty);
     m_rows->addStretch();
-    groundAsPanel(*m_list, "classList");
-    groundAsPanel(*m_area, "classArea");
+    setPanelBackground(*m_list, "classList");
+    setPanelBackground(*m_area, "classArea");
     m_area->setWidget(m_list);
     m_area->setWidgetResizable(true);
     m_area->setFrameShape(QFrame::NoFrame);

@@ -11,7 +11,7 @@
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
 #include "ui/servers/earlier_studies.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 #include "ui/widgets/question.h"
 
@@ -43,7 +43,7 @@ QString placeText(const EarlierStudy &one) {
 EarlierPanel::EarlierPanel(EarlierStudies &studies, QWidget *parent)
     : QWidget(parent), m_studies(studies), m_tree(new QTreeWidget), m_state(new PlainLabel),
       m_inAdvance(new QComboBox) {
-    groundAsPanel(*this, "earlierPanel");
+    setPanelBackground(*this, "earlierPanel");
     m_tree->setObjectName("earlierTree");
     m_tree->setAccessibleName(tr("Prior studies"));
     m_tree->setHeaderHidden(true);

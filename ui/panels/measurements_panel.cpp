@@ -15,7 +15,7 @@
 #include "ui/document/document.h"
 #include "ui/language/measurement_text.h"
 #include "ui/language/shown_text.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
@@ -23,7 +23,7 @@ namespace pellucid::ui {
 MeasurementsPanel::MeasurementsPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_list(new QTreeWidget), m_hint(new PlainLabel),
       m_export(new QPushButton(tr("Export"))) {
-    groundAsPanel(*this, "measurementsPanel");
+    setPanelBackground(*this, "measurementsPanel");
     m_list->setObjectName("measurementList");
     m_list->setAccessibleName(tr("Measurements"));
     m_list->setHeaderHidden(true);

@@ -7,7 +7,7 @@
 #include <QToolButton>
 
 #include "ui/opening/phases.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
@@ -15,7 +15,7 @@ namespace pellucid::ui {
 PhaseBar::PhaseBar(Phases &phases, QWidget *parent)
     : QWidget(parent), m_phases(phases), m_play(new QToolButton),
       m_slider(new QSlider(Qt::Horizontal)), m_label(new PlainLabel) {
-    groundAsPanel(*this, "phaseBar");
+    setPanelBackground(*this, "phaseBar");
     m_play->setObjectName("playPhasesButton");
     m_play->setText(tr("Play"));
     m_play->setCheckable(true);

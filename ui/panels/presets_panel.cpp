@@ -30,7 +30,7 @@
 #include "ui/panels/reasons.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/theme/theme.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 #include "ui/widgets/question.h"
 
@@ -106,7 +106,7 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
       m_corner(new QWidget), m_listsAll(new QPushButton(tr("All"))), m_save(new QPushButton),
       m_gallery(new QListWidget), m_name(new QLineEdit), m_confirm(new QPushButton(tr("Save"))),
       m_nameRow(new QWidget), m_message(new PlainLabel), m_empty(new PlainLabel) {
-    groundAsPanel(*this, "presetsPanel");
+    setPanelBackground(*this, "presetsPanel");
     m_gallery->setObjectName("presetGallery");
     m_gallery->setAccessibleName(tr("Presets"));
     m_gallery->setViewMode(QListView::IconMode);

@@ -15,7 +15,7 @@
 #include "ui/language/shown_text.h"
 #include "ui/views/overlay.h"
 #include "ui/widgets/form.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
@@ -52,7 +52,7 @@ PlainLabel *addFigure(QFormLayout *form, const QString &text, const char *name,
 
 QualityPanel::QualityPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_more(new QPushButton(tr("More"))) {
-    groundAsPanel(*this, "qualityPanel");
+    setPanelBackground(*this, "qualityPanel");
     auto *form = new QFormLayout(this);
     form->setContentsMargins(14, 2, 14, 8);
     form->setHorizontalSpacing(12);

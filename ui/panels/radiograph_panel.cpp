@@ -9,7 +9,7 @@
 #include "core/classify/couch.h"
 #include "ui/document/document.h"
 #include "ui/document/region_commands.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 #include "ui/widgets/value_slider.h"
 
@@ -23,7 +23,7 @@ RadiographPanel::RadiographPanel(Document &document, QWidget *parent)
       m_detailMark(new PlainLabel), m_latitudeMark(new PlainLabel), m_corner(new QWidget),
       m_withoutCouch(new QCheckBox(tr("Without couch"))),
       m_automatic(new QPushButton(tr("Automatic"))) {
-    groundAsPanel(*this, "radiographPanel");
+    setPanelBackground(*this, "radiographPanel");
     m_automatic->setObjectName("automaticContrastButton");
     m_automatic->setToolTip(tr("Choose detail and latitude from the study"));
     m_automatic->setProperty("role", "link");

@@ -12,7 +12,7 @@
 #include "ui/document/document.h"
 #include "ui/language/names.h"
 #include "ui/language/shown_text.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
@@ -55,7 +55,7 @@ RegionBar::RegionBar(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_use(new QComboBox), m_where(new QComboBox),
       m_text(new PlainLabel), m_found(new PlainLabel), m_erases(new QCheckBox(tr("Erase"))),
       m_isBone(new QCheckBox(tr("Bone"))) {
-    groundAsPanel(*this, "regionBar");
+    setPanelBackground(*this, "regionBar");
     auto *row = new QHBoxLayout(this);
     row->setContentsMargins(12, 4, 12, 4);
     row->setSpacing(8);

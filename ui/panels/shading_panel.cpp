@@ -18,7 +18,7 @@
 #include "ui/panels/depth_curve.h"
 #include "ui/panels/light_sphere.h"
 #include "ui/widgets/form.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 #include "ui/widgets/value_slider.h"
 
@@ -63,7 +63,7 @@ ShadingPanel::ShadingPanel(Document &document, QWidget *parent)
       m_remove(makeLink(tr("Remove"), "removeLightButton", tr("Remove the selected light"))),
       m_color(makeLink({}, "lightColorButton", tr("Color of the selected light"))),
       m_follows(new QCheckBox(tr("Follows viewer"))) {
-    groundAsPanel(*this, "shadingPanel");
+    setPanelBackground(*this, "shadingPanel");
     nameControls();
     layOut();
     connectCue();

@@ -7,7 +7,7 @@
 
 #include "ui/language/shown_text.h"
 #include "ui/widgets/form.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
@@ -24,7 +24,7 @@ QPushButton *button(const QString &text, const char *name, const QString &tip) {
 
 StartPage::StartPage(QWidget *parent)
     : QWidget(parent), m_resume(button({}, "resumeButton", {})), m_recent(new QVBoxLayout) {
-    groundAsPanel(*this, "startPage");
+    setPanelBackground(*this, "startPage");
     auto *title = new PlainLabel(tr("Open a study"));
     title->setProperty("role", "title");
     auto *hint =

@@ -26,7 +26,7 @@
 #include "ui/panels/study_row_painter.h"
 #include "ui/servers/server_search.h"
 #include "ui/settings/file_dialogs.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 #include "ui/widgets/question.h"
 
@@ -49,7 +49,7 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, ServerSearch &
       m_search(new QLineEdit), m_tree(new QTreeView), m_corner(new QPushButton(tr("Import"))),
       m_empty(new PlainLabel), m_servers(servers), m_serverStates(new PlainLabel),
       m_logins(new QWidget) {
-    groundAsPanel(*this, "studyPanel");
+    setPanelBackground(*this, "studyPanel");
     setAcceptDrops(true);
     m_search->setObjectName("studySearch");
     m_search->setPlaceholderText(tr("Search studies"));

@@ -19,7 +19,7 @@
 #include "ui/panels/curve_editor.h"
 #include "ui/widgets/form.h"
 #include "ui/widgets/limit_box.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
@@ -42,7 +42,7 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, QWidget *parent
       m_points(new QSpinBox), m_weight(new QDoubleSpinBox),
       m_low(new LimitBox("curveLowBox", -maxValue, maxValue, typicalRange)),
       m_high(new LimitBox("curveHighBox", -maxValue, maxValue, typicalRange)) {
-    groundAsPanel(*this, "transferFunctionPanel");
+    setPanelBackground(*this, "transferFunctionPanel");
     using classify::TransferFunction;
     m_subject->setObjectName("transferFunctionSubject");
     m_subject->setProperty("role", "muted");
@@ -93,7 +93,7 @@ void TransferFunctionPanel::layOut() {
     bottom->addWidget(m_weight);
     bottom->addStretch();
     QPushButton *reset = addLink(bottom, tr("Reset"), "resetCurveButton",
-                                 tr("Set all weights to 1, over all values"));
+                                 tr("Set all weights to 1 and cover all values"));
     QPushButton *copyLink =
         addLink(bottom, tr("Copy"), "copyCurveButton", tr("Copy the weights as text"));
     QPushButton *pasteLink =

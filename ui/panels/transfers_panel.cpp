@@ -13,7 +13,7 @@
 #include "ui/servers/server_book.h"
 #include "ui/servers/study_receiver.h"
 #include "ui/servers/transfer_queue.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 #include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
@@ -42,7 +42,7 @@ TransfersPanel::TransfersPanel(TransferQueue &queue, StudyReceiver &receiver, Se
           new PlainLabel(tr("Nothing has been retrieved yet. Search for a study, and double-click "
                             "one that a server has."))),
       m_corner(new QPushButton(tr("Clear"))) {
-    groundAsPanel(*this, "transfersPanel");
+    setPanelBackground(*this, "transfersPanel");
     m_tree->setObjectName("transfersTree");
     m_tree->setAccessibleName(tr("Transfers"));
     m_tree->setHeaderHidden(true);

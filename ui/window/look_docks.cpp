@@ -19,20 +19,20 @@
 #include "ui/panels/transfer_function_panel.h"
 #include "ui/views/projection_view.h"
 #include "ui/widgets/dock.h"
-#include "ui/widgets/panel_ground.h"
+#include "ui/widgets/panel_background.h"
 
 namespace pellucid::ui {
 
 namespace {
 
 constexpr int panelWidth = 300;
-// In a lower window, the panels would not fit below each other.
-constexpr int lowWindow = 960, tabsHeight = 300;
+// In a shorter window, the panels would not fit below each other.
+constexpr int shortWindow = 960, tabsHeight = 300;
 
 // Lets a panel scroll, so that all docks fit in a height of 720 pixels.
 QWidget *scrolling(QWidget *panel) {
     auto *area = new QScrollArea;
-    groundAsPanel(*area, panel->objectName() + "Area");
+    setPanelBackground(*area, panel->objectName() + "Area");
     area->setWidget(panel);
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
@@ -50,17 +50,17 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
       m_classes(new ClassesPanel(document)), m_function(new TransferFunctionPanel(document)),
       m_shading(new ShadingPanel(document)), m_quality(new QualityPanel(document)) {
     // At these heights, the docks fit in 900 pixels.
-    dock(tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 150, InALowWindow::tab);
+    dock(tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 150, WhenShort::tab);
     dock(tr("RADIOGRAPH"), "radiographDock", scrolling(m_radiograph), m_radiograph->corner(), 116,
-         InALowWindow::tab);
+         WhenShort::tab);
     // Classes and the curve of the selected one are seen together.
-    dock(tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 140, InALowWindow::row);
+    dock(tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 140, WhenShort::row);
     dock(tr("TRANSFER FUNCTION"), "transferFunctionDock", m_function, m_function->corner(), 165,
-         InALowWindow::row);
+         WhenShort::row);
     dock(tr("SHADING"), "shadingDock", scrolling(m_shading), m_shading->corner(), 145,
-         InALowWindow::tab);
+         WhenShort::tab);
     dock(tr("QUALITY"), "qualityDock", scrolling(m_quality), m_quality->corner(), 140,
-         InALowWindow::tab);
+         WhenShort::tab);
 
     QList<QDockWidget *> rows;
     QList<int> heights;
@@ -119,7 +119,7 @@ bool LookDocks::areTabs() const {
 }
 
 void LookDocks::fit(int windowHeight) {
-    const bool asTabs = windowHeight < lowWindow;
+    const bool asTabs = windowHeight < shortWindow;
     if (!m_areMoved && asTabs != areTabs())
         arrange(asTabs);
     showHeadings(); // also of a layout that was restored
@@ -132,7 +132,7 @@ void LookDocks::reset(int windowHeight) {
         dock->widget()->show();
     }
     m_areMoved = false;
-    arrange(windowHeight < lowWindow);
+    arrange(windowHeight < shortWindow);
 }
 
 void LookDocks::arrange(bool asTabs) {
@@ -150,7 +150,7 @@ void LookDocks::arrange(bool asTabs) {
     QList<QDockWidget *> rows;
     QList<int> heights;
     for (const auto &[dock, height, place] : m_docks) {
-        const bool isTab = asTabs && place == InALowWindow::tab;
+        const bool isTab = asTabs && place == WhenShort::tab;
         m_window.addDockWidget(Qt::RightDockWidgetArea, dock);
         if (isTab && dock != first)
             m_window.tabifyDockWidget(first, dock);
@@ -166,7 +166,7 @@ void LookDocks::arrange(bool asTabs) {
 }
 
 void LookDocks::dock(const QString &title, const char *name, QWidget *panel, QWidget *corner,
-                     int height, InALowWindow place) {
+                     int height, WhenShort place) {
     panel->setMinimumWidth(panelWidth);
     QDockWidget *const dock = makeDock(title, name, panel, corner);
     m_window.addDockWidget(Qt::RightDockWidgetArea, dock);

@@ -47,15 +47,15 @@ public:
     void reset(int windowHeight);
 
 private:
-    enum class InALowWindow { tab, row };
+    enum class WhenShort { tab, row };
     struct Entry {
         QDockWidget *dock;
         int height;
-        InALowWindow place;
+        WhenShort place;
     };
     /// `corner`: a widget beside the heading; may be null. *Units*: `height`: logical pixels.
     void dock(const QString &title, const char *name, QWidget *panel, QWidget *corner, int height,
-              InALowWindow place);
+              WhenShort place);
 
     bool areTabs() const;
     void arrange(bool asTabs);

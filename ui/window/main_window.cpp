@@ -186,13 +186,14 @@ void MainWindow::createActions() {
     connect(m_pair, &StudyPair::besideOpened, menus,
             [this, menus] { menus->addBeside(*m_pair->beside()); });
 
-    document.whenever(Change::volume | Change::scene | Change::displayWindow | Change::cut |
-                          Change::segments | Change::selection | Change::currentSource,
-                      m_actions, [this, cine](Changes changes) {
-                          if (changes & Change::volume)
-                              cine->stop();
-                          m_actions->refresh();
-                      });
+    // While a view moves, no action changes.
+    constexpr Changes moves =
+        Change::pose | Change::moving | Change::paneSize | Change::crosshair | Change::exposure;
+    document.whenever(~moves, m_actions, [this, cine](Changes changes) {
+        if (changes & Change::volume)
+            cine->stop();
+        m_actions->refresh();
+    });
     connect(cine, &Cine::playingChanged, m_actions, &ActionTable::refresh);
     connect(&m_bench.study.phases, &Phases::changed, m_actions, &ActionTable::refresh);
     connect(&m_bench.card, &GraphicsCard::changed, m_actions, &ActionTable::refresh);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fourier/transforms/strip_transform.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -12,7 +11,7 @@ namespace {
 
 // Large radices make fewer passes over the data. 16 becomes 4 x 4 instead of 8 x 2, because a radix
 // of 4 needs no multiplications inside.
-std::vector<int> radices(int length, int outer) {
+std::vector<int> radices(int length) {
     std::vector<int> result;
     for (const int odd : {9, 7, 5, 3})
         for (; length % odd == 0; length /= odd)
@@ -27,21 +26,14 @@ std::vector<int> radices(int length, int outer) {
         result.push_back(4);
     if (twos == 1)
         result.push_back(2);
-    // A stage that reads two inputs of each butterfly must come first.
-    const auto best = std::max_element(result.begin(), result.end(), [&](int a, int b) {
-        const auto worth = [&](int radix) { return outer < length / radix ? radix : 0; };
-        return worth(a) < worth(b);
-    });
-    if (best != result.end())
-        std::rotate(result.begin(), best, best + 1);
     return result;
 }
 
 } // namespace
 
-StripTransform::StripTransform(int length, int outer) : m_length(length) {
+StripTransform::StripTransform(int length) : m_length(length) {
     int remaining = length, stride = 1;
-    for (const int radix : radices(length, outer)) {
+    for (const int radix : radices(length)) {
         const int groups = remaining / radix;
         m_stages.push_back({radix, groups, stride, m_twiddles.size()});
         for (int p = 0; p < groups; ++p)

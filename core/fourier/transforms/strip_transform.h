@@ -29,8 +29,7 @@ struct StripStage {
 /// long, without the transposition that the slice would then need before and after.
 class StripTransform {
 public:
-    /// `outer`: see `run`; the first stage is the largest that can make use of it.
-    explicit StripTransform(int length, int outer = 0);
+    explicit StripTransform(int length);
 
     int length() const { return m_length; }
     const std::vector<StripStage> &stages() const { return m_stages; }

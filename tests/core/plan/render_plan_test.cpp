@@ -130,6 +130,25 @@ TEST(RenderPlan, TakesHalfOfTheSquaredToleranceUnlessOneKernelReadsEverything) {
     }
 }
 
+TEST(RenderPlan, FramesChooseWidthsWhereThatSavesTime) {
+    const volume::Lattice lattice = volume::Lattice::centred({64, 64, 64}, {1, 1, 1});
+    const auto summary = field::summarise(test::noiseField(lattice));
+    auto scene = sceneFor(lattice);
+    const auto isAdaptive = [&](int pictures) {
+        plan::Composition composition;
+        composition.pictures = pictures;
+        return plan::planRender(scene, {&summary, 1}, composition).isAdaptive;
+    };
+    EXPECT_FALSE(isAdaptive(1));
+    EXPECT_TRUE(isAdaptive(500));
+    scene.camera.pixelMm *= 0.1; // most of the slice is beyond the samples' band
+    scene.camera.width = 1000;
+    scene.camera.height = 1100;
+    EXPECT_TRUE(isAdaptive(1));
+    scene.interpolation.isUniform = true;
+    EXPECT_FALSE(isAdaptive(500));
+}
+
 TEST(RenderPlan, LeavesErrorForNarrowKernels) {
     const volume::Lattice lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
     const auto adaptiveErrorOf = [&](const classify::DensityField &field, double pixelMm) {

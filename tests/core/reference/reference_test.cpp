@@ -31,8 +31,9 @@ TEST(DirectSum, OneVoxelIsAPhaseFactor) {
 }
 
 TEST(WideKernel, AgreesWithTheDirectSum) {
-    // The wide kernel's aliases at width 12, padding 2 are near 1e-12 in the middle and grow toward
-    // the faces; 1e-10 leaves room for a field that fills its lattice.
+    // The wide kernel's aliases at width 13, padding 2 are near 2e-13 in the middle and grow to
+    // 1e-11 toward the faces, along each axis; 1e-10 leaves room for a field that fills its
+    // lattice.
     const auto lattice = test::tiltedLattice({17, 12, 9}, {0.8, 1.1, 3.0}, 25.0);
     const auto field = test::noiseField(lattice);
     const reference::WideKernel wide(field.values, field.support);
