@@ -146,6 +146,13 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
     LookRows(suite, name, subject, look, note).report(report);
 }
 
+classify::Look boneAndSoftTissue() {
+    classify::Look look;
+    look.classes = {{.name = "Bone", .low = 200.0, .high = 3071.0, .color = {1.0, 0.9, 0.7}},
+                    {.name = "Soft", .low = -200.0, .high = 150.0, .color = {0.2, 0.5, 0.7}}};
+    return look;
+}
+
 std::vector<shading::Light> threeLights(bool colored) {
     std::vector<shading::Light> lights{{{1, 0, 0}}, {{-0.5, 0.866, 0}}, {{-0.5, -0.866, 0}}};
     if (colored) {

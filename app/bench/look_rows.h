@@ -22,6 +22,9 @@ struct LookSubject {
 void reportLook(const Report &report, const std::string &suite, const std::string &name,
                 const LookSubject &subject, const classify::Look &look, const std::string &note);
 
+/// Two classes, each in its color.
+classify::Look boneAndSoftTissue();
+
 /// Three lights across the view, 120 degrees apart, as in figure 8 of Totsuka 1993; white or in its
 /// colors.
 std::vector<shading::Light> threeLights(bool colored);

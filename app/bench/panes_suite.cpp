@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/bench/look_rows.h"
 #include "app/bench/measure.h"
 #include "app/bench/suites.h"
 #include "core/phantom/phantom.h"
@@ -45,9 +46,7 @@ void measurePanes(const Report &report, const std::string &name, const volume::V
 } // namespace
 
 void runPanesSuite(const Report &report) {
-    classify::Look colored;
-    colored.classes = {{.name = "Bone", .low = 200.0, .high = 3071.0, .color = {1.0, 0.9, 0.7}},
-                       {.name = "Soft", .low = -200.0, .high = 150.0, .color = {0.2, 0.5, 0.7}}};
+    const classify::Look colored = boneAndSoftTissue();
     shading::Shading lit;
     lit.lights = {{.direction = {0.5, 0.5, 1.0}}};
     for (const auto &[name, kind, size] :

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "app/bench/look_rows.h"
 #include "app/bench/measure.h"
 #include "app/bench/suites.h"
 #include "core/phantom/phantom.h"
@@ -75,9 +76,7 @@ void runRadiographSuite(const Report &report) {
     const volume::Volume volume = phantom::makePhantom(
         phantom::Kind::chest,
         phantom::phantomLattice(phantom::Kind::chest, {.size = volume::GridSize{512, 512, 256}}));
-    classify::Look colored;
-    colored.classes = {{.name = "Bone", .low = 200.0, .high = 3071.0, .color = {1.0, 0.9, 0.7}},
-                       {.name = "Soft", .low = -200.0, .high = 150.0, .color = {0.2, 0.5, 0.7}}};
+    const classify::Look colored = boneAndSoftTissue();
     const double fits = 2.0 * volume.lattice().radiusMm() / width;
     measureCase(report, "grey, volume fits 1800x2000", volume, {}, fits);
     measureCase(report, "grey, enlarged twice", volume, {}, 0.5 * fits);

@@ -36,8 +36,8 @@ public:
     Process &operator=(Process &&other) noexcept;
 
     int socket() const { return m_socket.get(); }
-    /// Waits briefly for the process to end, after its socket has closed. *Returns* the number of
-    /// the signal that ended it, 0 if it exited by itself, or nothing if it is still running.
+    /// Waits briefly for the process to end, after its socket has closed. *Returns* the signal that
+    /// killed it, 0 if it exited; nothing while it still runs.
     std::optional<int> endSignal();
     /// Closes the socket, so that the process ends by itself; kills it if it takes longer.
     void endWithin(std::chrono::milliseconds patience);

@@ -39,8 +39,8 @@ struct RenderPlan {
     /// Whether frames may choose the widths of their kernels, see `widths::AdaptiveWidths`; they do
     /// if `adaptiveError` is above 0.
     bool isAdaptive = false;
-    /// The part of `predictedError` that frames may make by narrower kernels; 0: one
-    /// kernel reads every frequency.
+    /// The part of `predictedError` that frames may make by narrower kernels; 0: one kernel reads
+    /// every frequency.
     double adaptiveError = 0.0;
     /// The same, relative to the whole projection, of which the image may show a part.
     double adaptiveTolerance = 0.0;
@@ -49,9 +49,9 @@ struct RenderPlan {
 
 /// The kernel, padding of each axis and slice grid that take the least time for all pictures,
 /// preparation included, with a predicted error within the scene's tolerance. Cells are binary16 if
-/// these meet it or, where preparation takes most of the time, float. If the plan is
-/// adaptive, it takes half of the squared tolerance where it can; `adaptWidths` spends the rest. If
-/// no plan is within the tolerance, or none of those fits the budget: the most accurate that fits.
+/// these meet it or, where preparation takes most of the time, float. If the plan is adaptive, it
+/// takes half of the squared tolerance where it can; `adaptWidths` spends the rest. If no plan is
+/// within the tolerance, or none of those fits the budget: the most accurate that fits.
 /// Values that the scene's `interpolation` sets are not changed. *Throws* Error{outOfMemory} if
 /// nothing fits the budget, Error{usage} if the scene is invalid.
 RenderPlan planRender(const scene::Scene &scene, const field::Summary &field,

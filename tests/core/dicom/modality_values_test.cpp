@@ -19,7 +19,7 @@ struct Stored {
     std::optional<int> padding, paddingLimit;
 };
 
-// Nothing if a value does not fit.
+// Empty if one of the values does not fit 16 bits.
 std::optional<std::vector<std::int16_t>> valuesOf(const Stored &stored) {
     decoder::DecodedFile file;
     file.header.rows = 1;
