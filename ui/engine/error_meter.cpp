@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/system/log.h"
+#include "core/task/background.h"
 #include "ui/language/failure.h"
 
 namespace pellucid::ui {
@@ -33,7 +34,9 @@ void ErrorMeter::cancel() {
     m_next.reset();
 }
 
+// A frame of a view that moves takes every processor at once, whatever the measurement is at.
 void ErrorMeter::run(const std::stop_token &stop) {
+    task::lowerPriority();
     for (;;) {
         std::optional<Picture> picture;
         std::stop_token cancelled;
@@ -45,7 +48,7 @@ void ErrorMeter::run(const std::stop_token &stop) {
             m_current = std::stop_source();
             cancelled = m_current.get_token();
         }
-        measureOne(*picture, cancelled);
+        task::onThisThread([&] { measureOne(*picture, cancelled); });
     }
 }
 

@@ -14,8 +14,8 @@
 
 namespace pellucid::ui {
 
-/// Measures the error of a picture that rests, on a thread of its own. Only the latest picture
-/// counts, and a view that moves ends the measurement.
+/// Measures the error of a picture that rests, on one thread of the lowest priority: frames do not
+/// wait for it. Only the latest picture counts, and a view that moves ends the measurement.
 class ErrorMeter : public QObject {
     Q_OBJECT
 public:

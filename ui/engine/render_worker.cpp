@@ -85,7 +85,12 @@ std::future<picture::PeriodPicture>
 RenderWorker::period(std::shared_ptr<render::ProjectionEngine> engine, const scene::Camera &camera,
                      const scene::ImageDefinition &image, const shading::Shading &shading) {
     return onThread(std::packaged_task<picture::PeriodPicture()>(
-        [engine = std::move(engine), camera, image, shading] {
+        [this, engine = std::move(engine), camera, image, shading] {
+            {
+                const std::lock_guard lock(m_mutex);
+                if (m_next)
+                    throw task::Cancelled();
+            }
             return engine->renderPeriod(camera, image, shading);
         }));
 }

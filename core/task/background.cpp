@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/task/background.h"
+
+#ifdef __linux__
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+#include <tbb/task_arena.h>
+
+namespace pellucid::task {
+
+void lowerPriority() {
+#ifdef __linux__
+    // Of the thread alone: on Linux each has its own.
+    setpriority(PRIO_PROCESS, id_t(gettid()), 19);
+#endif
+}
+
+void onThisThread(const std::function<void()> &work) {
+    tbb::task_arena(1).execute(work);
+}
+
+} // namespace pellucid::task

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <tbb/parallel_for.h>
+
+#include "core/task/background.h"
+
+namespace pellucid {
+
+namespace {
+
+TEST(Background, LowersThePriorityOfItsThreadAlone) {
+    const int before = getpriority(PRIO_PROCESS, id_t(gettid()));
+    int lowered = 0;
+    std::jthread([&] {
+        task::lowerPriority();
+        lowered = getpriority(PRIO_PROCESS, id_t(gettid()));
+    }).join();
+    EXPECT_EQ(lowered, 19);
+    EXPECT_EQ(getpriority(PRIO_PROCESS, id_t(gettid())), before);
+}
+
+// A thread of the pool has the priority of others.
+TEST(Background, ParallelWorkStaysOnTheThread) {
+    const std::thread::id here = std::this_thread::get_id();
+    std::atomic<int> elsewhere = 0, all = 0;
+    task::onThisThread([&] {
+        tbb::parallel_for(0, 5000, [&](int) {
+            ++all;
+            if (std::this_thread::get_id() != here)
+                ++elsewhere;
+        });
+    });
+    EXPECT_EQ(all, 5000);
+    EXPECT_EQ(elsewhere, 0);
+}
+
+} // namespace
+} // namespace pellucid
