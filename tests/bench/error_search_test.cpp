@@ -377,5 +377,32 @@ TEST(ErrorSearch, PointsWhoseTailsLieOnALine) {
         }
 }
 
+// The line of a pattern in the lattice's own roll-off: the tails of all its samples add up. The
+// exact image must be of a period that is long enough for them.
+TEST(ErrorSearch, PatternsWhoseTailsAddUp) {
+    constexpr int side = 32;
+    const auto lattice = volume::Lattice::centred({side, side, side}, {1, 1, 1});
+    for (const bool inBoth : {false, true}) {
+        std::vector<float> samples;
+        for (int k = 0; k < side; ++k)
+            for (int j = 0; j < side; ++j)
+                for (int i = 0; i < side; ++i)
+                    samples.push_back(i % 2 == 1 && (j % 2 == 1 || !inBoth) ? 1.0F : 0.0F);
+        bench::Trial trial{
+            "", "",
+            classify::densityField(
+                volume::Volume(lattice, std::move(samples), volume::ValueUnit::none), {0.0, 1.0}),
+            sceneFor(lattice, scene::viewOrientation(scene::StandardView::top), 1e-5)};
+        trial.scene.camera.pixelMm *= 0.95;
+        trial.scene.camera.width = trial.scene.camera.height =
+            2 * int(std::ceil(0.5 * trial.scene.camera.width / 0.95));
+        trial.scene.image.reconstruction = scene::Reconstruction::bandLimited;
+        trial.scene.interpolation.isUniform = true;
+        const auto verdict = bench::judge(trial);
+        EXPECT_LE(verdict.measured, verdict.predicted) << inBoth;
+        EXPECT_LE(verdict.measured, verdict.stated.high) << inBoth;
+    }
+}
+
 } // namespace
 } // namespace pellucid
