@@ -156,10 +156,10 @@ bool SceneRenderer::mayPlanCloser() const {
            m_scene.plannedFor != scene::PlannedFor::volume;
 }
 
-classify::ShownFields SceneRenderer::studyFields() const {
-    return m_fields.channels.empty()
-               ? fieldsFor(m_scene, m_subject.volume, m_subject.segments, m_context)
-               : m_fields;
+const classify::ShownFields &SceneRenderer::studyFields() {
+    if (m_fields.channels.empty())
+        m_fields = fieldsFor(m_scene, m_subject.volume, m_subject.segments, m_context);
+    return m_fields;
 }
 
 // The plan is for the whole volume. The error of a part that contains little is known only after

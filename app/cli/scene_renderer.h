@@ -111,7 +111,7 @@ private:
     void measure(const scene::Camera &camera);
     void takeErrors();
     std::string missedText(double error, bool isWhole) const;
-    classify::ShownFields studyFields() const;
+    const classify::ShownFields &studyFields();
 
     scene::Scene m_scene;
     scene::Scene m_planned; ///< with a smaller tolerance, if a part of the volume needs one
@@ -124,7 +124,7 @@ private:
     task::Progress m_progress;
     classify::FieldWindow m_window;
     std::size_t m_held = 0;         ///< bytes of the volume, its fields and their preparation
-    classify::ShownFields m_fields; ///< until an engine takes them; with steps, longer
+    classify::ShownFields m_fields; ///< of the study; may be empty while an engine is made
     std::string m_whyEmpty;         ///< a warning, or empty
     plan::Budget m_budget;
     std::optional<prepare::PreparedEngine> m_prepared; ///< on the processor

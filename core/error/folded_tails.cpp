@@ -32,7 +32,7 @@ std::array<double, directions> edgeEnergies(const PictureSlice &slice, double ro
     for (int row = -rows / 2 + 1; row < rows / 2; ++row)
         for (int column = 0; column < columns / 2; ++column) {
             const double u = 2.0 * column / columns, v = 2.0 * row / rows,
-                         radius = std::hypot(u, v);
+                         radius = std::sqrt(u * u + v * v);
             if (radius < first || radius > last)
                 continue;
             const double factor = scene::rollOffFactor(rollOff, radius);
@@ -61,30 +61,39 @@ std::vector<Source> sourcesOf(const picture::PeriodPicture &period) {
     const int columns = period.image.width, rows = period.image.height;
     const auto channels = std::size_t(period.image.channels);
     std::array<Source, std::size_t(side) * side> blocks{};
-    const auto at = [&](int row, int column, std::size_t c) {
-        return double(
-            period.image.samples[(std::size_t((row + rows) % rows) * std::size_t(columns) +
-                                  std::size_t((column + columns) % columns)) *
-                                     channels +
-                                 c]);
-    };
-    double all = 0.0;
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column) {
-            double energy = 0.0;
-            for (std::size_t c = 0; c < channels; ++c) {
-                const double here = 2.0 * at(row, column, c),
-                             across = at(row, column - 1, c) + at(row, column + 1, c) - here,
-                             down = at(row - 1, column, c) + at(row + 1, column, c) - here;
-                energy += across * across + down * down;
+    // A row of blocks at a time.
+    tbb::parallel_for(0, side, [&](int blockRow) {
+        const auto firstOf = [&](int block) { return (block * rows + side - 1) / side; };
+        for (int row = firstOf(blockRow); row < firstOf(blockRow + 1); ++row) {
+            const auto at = [&](int r) {
+                return period.image.samples.data() +
+                       std::size_t((r + rows) % rows) * std::size_t(columns) * channels;
+            };
+            const float *const above = at(row - 1), *const here = at(row),
+                               *const below = at(row + 1);
+            for (int column = 0; column < columns; ++column) {
+                const auto left = std::size_t(column > 0 ? column - 1 : columns - 1) * channels,
+                           middle = std::size_t(column) * channels,
+                           right = std::size_t(column + 1 < columns ? column + 1 : 0) * channels;
+                double energy = 0.0;
+                for (std::size_t c = 0; c < channels; ++c) {
+                    const double twice = 2.0 * double(here[middle + c]),
+                                 across = double(here[left + c]) + double(here[right + c]) - twice,
+                                 down =
+                                     double(above[middle + c]) + double(below[middle + c]) - twice;
+                    energy += across * across + down * down;
+                }
+                Source &block =
+                    blocks[std::size_t(blockRow) * side + std::size_t(column * side / columns)];
+                block.x += energy * column;
+                block.y += energy * row;
+                block.share += energy;
             }
-            Source &block = blocks[std::size_t(row * side / rows) * side +
-                                   std::size_t(column * side / columns)];
-            block.x += energy * column;
-            block.y += energy * row;
-            block.share += energy;
-            all += energy;
         }
+    });
+    double all = 0.0;
+    for (const Source &block : blocks)
+        all += block.share;
     std::vector<Source> sources;
     for (const Source &block : blocks)
         if (block.share > 1e-9 * all)

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include <tbb/parallel_for.h>
+
 #include "core/fourier/transforms/transform.h"
 #include "core/scene/reasons.h"
 #include "core/task/error.h"
@@ -25,16 +27,26 @@ PictureSlice::PictureSlice(const picture::PeriodPicture &period)
         for (std::size_t c = 0; c < channels; ++c) {
             auto &values = m_values[c];
             values.resize(std::size_t(m_rows) * std::size_t(m_stride));
-            for (int row = 0; row < m_rows; ++row) {
+            tbb::parallel_for(0, m_rows, [&](int row) {
                 auto *const to = reinterpret_cast<double *>(
                     values.data() + std::size_t(row) * std::size_t(m_stride));
                 const float *const from = period.image.samples.data() +
                                           std::size_t(row) * std::size_t(m_columns) * channels + c;
                 for (int column = 0; column < m_columns; ++column)
                     to[column] = double(from[std::size_t(column) * channels]);
-            }
+            });
             fourier::forwardTransform3d(values.data(), {m_columns, m_rows, 1}, m_stride, m_rows);
         }
+        m_energies.resize(std::size_t(m_rows) * std::size_t(m_stride));
+        tbb::parallel_for(0, m_rows, [&](int row) {
+            for (std::size_t n = 0, at = std::size_t(row) * std::size_t(m_stride);
+                 n < std::size_t(m_stride); ++n, ++at) {
+                double energy = 0.0;
+                for (const auto &values : m_values)
+                    energy += std::norm(values[at]);
+                m_energies[at] = m_pixelArea * m_pixelArea * energy;
+            }
+        });
     });
 }
 
@@ -43,20 +55,14 @@ std::complex<double> PictureSlice::phaseOf(int column, int row) const {
     return std::polar(1.0, -2.0 * std::numbers::pi * turns);
 }
 
-double PictureSlice::energy(int column, int row) const {
-    const std::size_t at = indexOf(column, row % m_rows);
-    double energy = 0.0;
-    for (const auto &values : m_values)
-        energy += std::norm(values[at]);
-    return m_pixelArea * m_pixelArea * energy;
-}
-
 double PictureSlice::energyAround(int column, int row) const {
+    const auto wrapped = [&](int r) { return r >= m_rows ? r - m_rows : r; };
     double sum = 0.0;
     for (int r = -1; r <= 1; ++r)
         for (int c = -1; c <= 1; ++c)
             // Left of column 0 is the mirror image.
-            sum += column + c < 0 ? energy(-column - c, -row - r) : energy(column + c, row + r);
+            sum += column + c < 0 ? energy(1, wrapped(-row - r))
+                                  : energy(column + c, wrapped(row + r));
     return sum / 9.0;
 }
 

@@ -32,8 +32,8 @@ public:
                 if (isEdge && row < 0)
                     continue; // its mirror image is there
                 const bool isOwnMirror = isEdge && (row == 0 || row == m_rows / 2);
-                use(column, row, isOwnMirror ? 1.0 : 2.0,
-                    std::hypot(2.0 * column / m_columns, 2.0 * row / m_rows));
+                const double x = 2.0 * column / m_columns, y = 2.0 * row / m_rows;
+                use(column, row, isOwnMirror ? 1.0 : 2.0, std::sqrt(x * x + y * y));
             }
     }
     /// P at a column and a row, which run along U and against V. *Units*: of the picture, times
@@ -43,7 +43,7 @@ public:
                phaseOf(column, row);
     }
     /// |P|^2 of all channels together.
-    double energy(int column, int row) const;
+    double energy(int column, int row) const { return m_energies[indexOf(column, row)]; }
     /// The mean of `energy` over a frequency and its eight neighbours.
     double energyAround(int column, int row) const;
     /// The energy of a picture over that of its frequencies (Parseval), 1/(mm^2).
@@ -78,6 +78,7 @@ private:
     double m_firstU, m_firstV; ///< of the first pixel, mm
     double m_pixelArea, m_wholeEnergy = 0.0;
     std::vector<std::vector<std::complex<double>>> m_values; ///< by channel
+    std::vector<double> m_energies;                          ///< of all channels
 };
 
 } // namespace pellucid::error

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <queue>
 #include <random>
 #include <span>
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
 
 #include "core/error/exact_frequencies.h"
 #include "core/error/folded_tails.h"
@@ -113,15 +115,23 @@ public:
         const int most = std::max(m_effort.atLeast, affordable) / 8 * 8;
         // Drawing half of a few takes about as long as summing them all.
         sums.isComplete = all.size() <= std::size_t(std::max(m_effort.atLeast, 2 * affordable));
-        if (!sums.isComplete)
-            divide(all);
-        add(all, sums.always, progress.part(0.0, sums.isComplete ? 1.0 : 0.1));
-        if (sums.isComplete)
+        if (sums.isComplete) {
+            add(all, sums.always, progress);
             return sums.errorOf(m_judged);
+        }
+        divide(all);
         for (int done = 0, count = most / 4;; done = count, count *= 2) {
             count = std::min(count, most);
-            add(draw((count - done) / 2), sums.drawn,
-                progress.part(0.1 + 0.9 * done / most, 0.1 + 0.9 * count / most));
+            // Those that are always summed, and the first draw, are read together.
+            std::vector<Frequency> next = std::exchange(all, {});
+            const std::size_t always = next.size();
+            for (const Frequency &drawn : draw((count - done) / 2))
+                next.push_back(drawn);
+            std::vector<Sums::Term> terms;
+            add(next, terms, progress.part(double(done) / most, double(count) / most));
+            const auto firstDrawn = terms.begin() + std::ptrdiff_t(always);
+            sums.always.insert(sums.always.end(), terms.begin(), firstDrawn);
+            sums.drawn.insert(sums.drawn.end(), firstDrawn, terms.end());
             const StatedError error = sums.errorOf(m_judged);
             if (count == most || error.high <= (1.0 + m_effort.within) * error.relative ||
                 error.high <= m_effort.enough)
@@ -156,26 +166,38 @@ private:
 
     // Leaves those that are always summed in `all`, and keeps the others to draw from.
     void divide(std::vector<Frequency> &all) {
-        std::vector<bool> isAlways;
-        std::vector<std::size_t> rest;
-        for (std::size_t n = 0; n < all.size(); ++n) {
-            isAlways.push_back(std::hypot(all[n].column, all[n].row) <= alwaysSteps);
-            if (!isAlways.back())
-                rest.push_back(n);
-        }
-        const auto bright = rest.begin() + std::ptrdiff_t(std::min(rest.size(), alwaysBrightest));
-        std::nth_element(rest.begin(), bright, rest.end(), [&](std::size_t a, std::size_t b) {
-            return all[a].energy > all[b].energy;
-        });
-        for (auto n = rest.begin(); n != bright; ++n)
-            isAlways[*n] = true;
+        const auto isNearZero = [](const Frequency &f) {
+            return double(f.column) * f.column + double(f.row) * f.row <= alwaysSteps * alwaysSteps;
+        };
+        // The brightest of the others so far, the darkest of them first.
+        using Bright = std::pair<double, std::size_t>;
+        std::priority_queue<Bright, std::vector<Bright>, std::greater<>> brightest;
         std::vector<Frequency> always;
-        for (std::size_t n = 0; n < all.size(); ++n)
-            (isAlways[n] ? always : m_others).push_back(all[n]);
-        all = std::move(always);
+        for (std::size_t n = 0; n < all.size(); ++n) {
+            if (isNearZero(all[n])) {
+                always.push_back(all[n]);
+                all[n].weight = 0.0;
+            } else if (brightest.size() < alwaysBrightest ||
+                       all[n].energy > brightest.top().first) {
+                brightest.emplace(all[n].energy, n);
+                if (brightest.size() > alwaysBrightest)
+                    brightest.pop();
+            }
+        }
+        for (; !brightest.empty(); brightest.pop()) {
+            Frequency &bright = all[brightest.top().second];
+            always.push_back(bright);
+            bright.weight = 0.0;
+        }
+        std::erase_if(all, [](const Frequency &f) { return f.weight == 0.0; });
+        m_others = std::exchange(all, std::move(always));
+        tbb::parallel_for(std::size_t(0), m_others.size(), [&](std::size_t n) {
+            Frequency &f = m_others[n];
+            f.chance = std::sqrt(m_judged.slice.energyAround(f.column, f.row));
+        });
         double around = 0.0;
-        for (Frequency &f : m_others)
-            around += f.chance = std::sqrt(m_judged.slice.energyAround(f.column, f.row));
+        for (const Frequency &f : m_others)
+            around += f.chance;
         const double even = 1.0 / double(m_others.size());
         for (Frequency &f : m_others)
             f.chance = 0.5 * even + 0.5 * (around > 0.0 ? f.chance / around : even);

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cassert>
 #include <csetjmp>
+#include <cstdint>
+#include <cstring>
 #include <new>
 #include <string>
 #include <vector>
@@ -77,14 +79,19 @@ void writePng(const std::filesystem::path &path, std::span<const std::uint8_t> r
               int width) {
     assert(rgba.size() == std::size_t(height) * width * 4);
     const std::size_t pixels = rgba.size() / 4;
-    unsigned colored = 0; // without a branch: vector code
+    const auto pixelAt = [&](std::size_t n) {
+        std::uint32_t pixel = 0;
+        std::memcpy(&pixel, rgba.data() + 4 * n, sizeof pixel);
+        return pixel;
+    };
+    std::uint32_t colored = 0; // without a branch: vector code
     for (std::size_t n = 0; n < pixels; ++n)
-        colored |=
-            unsigned(rgba[4 * n] ^ rgba[4 * n + 1]) | unsigned(rgba[4 * n] ^ rgba[4 * n + 2]);
-    if (colored == 0) {
+        colored |= pixelAt(n) ^ pixelAt(n) >> 8U;
+    if ((colored & 0xffffU) == 0) {
         std::vector<std::uint8_t> grey(pixels);
+        std::uint8_t *const to = grey.data();
         for (std::size_t n = 0; n < pixels; ++n)
-            grey[n] = rgba[4 * n];
+            to[n] = std::uint8_t(pixelAt(n));
         write(path, grey, height, width, grey8);
         return;
     }
