@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/image_output.h"
 #include "app/cli/json_text.h"
 #include "app/cli/terminal.h"
 #include "core/scene/scene.h"
@@ -47,10 +48,12 @@ void BatchReport::finished(const std::string &key, const batch::DoneRecord &reco
     const std::lock_guard lock(m_mutex);
     ++m_done;
     double error = 0.0;
-    bool isImprecise = false;
+    bool isImprecise = false, isMeasured = false;
     std::vector<std::string> reported; // what concerns all outputs, once
     for (const batch::DoneRecord::MadeOutput &output : record.outputs) {
         const double known = output.measuredError.value_or(output.predictedError);
+        if (known >= error)
+            isMeasured = output.measuredError.has_value();
         error = std::max(error, known);
         // The tolerance of the exact method is no target.
         isImprecise = isImprecise ||
@@ -64,8 +67,8 @@ void BatchReport::finished(const std::string &key, const batch::DoneRecord &reco
     m_imprecise += isImprecise ? 1 : 0;
     if (m_isJson)
         m_finished.push_back({key, record.seriesUid, error, seconds, std::move(reported)});
-    printLine(fmt::format("{}: outputs: {}; {:.2f} s, error at most {:.2g}", key,
-                          record.outputs.size(), seconds, error));
+    printLine(fmt::format("{}: outputs: {}; {:.2f} s, {}", key, record.outputs.size(), seconds,
+                          errorText(error, isMeasured)));
 }
 
 // The lock is held, and the study counted.

@@ -81,10 +81,14 @@ void writeImage(const fs::path &path, const picture::ProjectionImage &image,
     }
 }
 
+std::string errorText(double error, bool isMeasured) {
+    return isMeasured ? fmt::format("error {:.2g}, measured", error)
+                      : fmt::format("error at most {:.2g}", error);
+}
+
 std::string derivationText(const error::StatedError &error) {
-    return fmt::format("{}, error {} (relative L2)", dicom::CaptureLabels().derivation,
-                       error.isMeasured() ? fmt::format("{:.2g}, measured", error.relative)
-                                          : fmt::format("at most {:.2g}", error.relative));
+    return fmt::format("{}, {} (relative L2)", dicom::CaptureLabels().derivation,
+                       errorText(error.relative, error.isMeasured()));
 }
 
 nlohmann::json measuredJson(const std::optional<error::StatedError> &error) {

@@ -29,6 +29,9 @@ void writeImage(const std::filesystem::path &path, const picture::ProjectionImag
                 const scene::Scene &scene, const volume::Lattice &patient,
                 const dicom::CaptureLabels &labels);
 
+/// "error 0.0003, measured", "error at most 0.0011".
+std::string errorText(double error, bool isMeasured);
+
 /// How a picture was derived, for its Derivation Description.
 std::string derivationText(const error::StatedError &error);
 /// A measured error with its interval; null if there is none.

@@ -15,6 +15,7 @@
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
 #include "app/cli/look_options.h"
+#include "app/cli/option_words.h"
 #include "app/cli/scene_fields.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/scene_renderer.h"
@@ -43,8 +44,7 @@ using task::ErrorCode;
 struct Options {
     SceneOptions scene;
     InputOptions input;
-    std::string out, engine = "auto", views, fit;
-    error::CheckedPictures check = error::CheckedPictures::rest;
+    std::string out, engine = "auto", views, fit, check = "rest";
     int threads = 0, frames = 0;
     std::uint64_t memory = 0;
     bool json = false, isDeidentified = false;
@@ -207,7 +207,8 @@ private:
     }
 
     SceneRenderer::Check checkOf(std::size_t picture) const {
-        return error::isChecked(m_options.check, picture, std::size_t(frames()))
+        return error::isChecked(meaningOf(m_options.check, error::checkedPictures), picture,
+                                std::size_t(frames()))
                    ? SceneRenderer::Check::measure
                    : SceneRenderer::Check::none;
     }
@@ -366,10 +367,7 @@ void addRenderCommand(CLI::App &app, const Context &context) {
                   "Which pictures have their error measured, by exact sums at selected "
                   "frequencies: 'none', 'all', or 'rest' (default), which means single pictures, "
                   "and the first, the last and six others of a turntable or of --matrix")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, error::CheckedPictures>{{"none", error::CheckedPictures::none},
-                                                          {"rest", error::CheckedPictures::rest},
-                                                          {"all", error::CheckedPictures::all}}));
+        ->check(CLI::IsMember(wordsOf(error::checkedPictures)));
     c->add_option("--threads", o->threads, "Maximum number of threads; default: all processors")
         ->check(CLI::Range(1, 1024));
     c->add_option("--memory", o->memory,

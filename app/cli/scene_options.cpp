@@ -12,6 +12,7 @@
 
 #include "app/cli/input.h"
 #include "app/cli/look_options.h"
+#include "app/cli/option_words.h"
 #include "app/cli/segment_options.h"
 #include "core/classify/couch.h"
 #include "core/files/read_text.h"
@@ -71,13 +72,6 @@ CLI::Validator finite() {
                                                          : std::string();
             },
             ""};
-}
-
-std::vector<std::string> toleranceNames() {
-    std::vector<std::string> names;
-    for (const auto &[name, tolerance] : scene::namedTolerances)
-        names.emplace_back(name);
-    return names;
 }
 
 void addCameraOptions(CLI::App &command, SceneOptions &options) {
@@ -211,7 +205,7 @@ void addQualityOptions(CLI::App &command, SceneOptions &options) {
         ->check(finite());
     CLI::Option *quality =
         command.add_option("--quality", options.quality, "Named tolerance; default standard")
-            ->check(CLI::IsMember(toleranceNames()));
+            ->check(CLI::IsMember(wordsOf(scene::namedTolerances)));
     command.add_option("--tolerance", options.tolerance, "Largest relative L2 error of the image")
         ->check(positive())
         ->excludes(quality);
@@ -370,9 +364,7 @@ void setQuality(scene::Scene &scene, const SceneOptions &o, const CLI::App &comm
     if (isGiven(command, "--roll-off"))
         scene.image.rollOff = o.rollOff;
     if (isGiven(command, "--quality"))
-        for (const auto &[name, tolerance] : scene::namedTolerances)
-            if (o.quality == name)
-                scene.tolerance = tolerance;
+        scene.tolerance = meaningOf(o.quality, scene::namedTolerances);
     if (isGiven(command, "--tolerance"))
         scene.tolerance = o.tolerance;
     if (isGiven(command, "--kernel"))

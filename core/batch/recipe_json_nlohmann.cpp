@@ -43,10 +43,6 @@ constexpr JsonWords<Format, 7> formats{{{"png", Format::png},
                                         {"dicom", Format::capture},
                                         {"dicom-loop", Format::captureLoop},
                                         {"mp4", Format::video}}};
-using error::CheckedPictures;
-constexpr JsonWords<CheckedPictures, 3> checks{{{"none", CheckedPictures::none},
-                                                {"rest", CheckedPictures::rest},
-                                                {"all", CheckedPictures::all}}};
 constexpr JsonWords<Fit, 2> fits{{{"volume", Fit::volume}, {"body", Fit::body}}};
 constexpr std::size_t maxNameBytes = 60;
 
@@ -155,7 +151,7 @@ private:
         if (const JsonValue tolerance = in["tolerance"])
             output.tolerance = toleranceFrom(tolerance);
         if (const JsonValue check = in["check"])
-            output.check = check.meaning(checks);
+            output.check = check.meaning(error::checkedPictures);
     }
 
     static double toleranceFrom(const JsonValue &in) {

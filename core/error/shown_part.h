@@ -6,8 +6,15 @@
 
 namespace pellucid::error {
 
-/// Whether the picture of a camera shows all of a box of samples, each as wide as a step.
-bool showsAllOf(const volume::VoxelBox &box, const volume::Lattice &lattice,
-                const scene::Camera &camera);
+/// The share of the rectangle around a projected box of samples, each as wide as a step, that a
+/// picture shows; 1 if it shows all of it.
+double shownShare(const volume::VoxelBox &box, const volume::Lattice &lattice,
+                  const scene::Camera &camera);
+
+/// Whether it shows all of it.
+inline bool showsAllOf(const volume::VoxelBox &box, const volume::Lattice &lattice,
+                       const scene::Camera &camera) {
+    return shownShare(box, lattice, camera) == 1.0;
+}
 
 } // namespace pellucid::error

@@ -17,6 +17,7 @@
 #include "core/error/exact_frequencies.h"
 #include "core/error/folded_tails.h"
 #include "core/error/picture_slice.h"
+#include "core/error/shown_part.h"
 
 namespace pellucid::error {
 
@@ -69,8 +70,9 @@ struct Energies {
 // A picture, the slice that it was made from, and what does not depend on exact values.
 struct Judged {
     Judged(const picture::PeriodPicture &of, const scene::ImageDefinition &image,
-           const volume::Lattice &lattice)
-        : period(of), slice(of), folded(foldedTails(of, slice, image, lattice)) {
+           const ShownRows &rows)
+        : period(of), slice(of), folded(foldedTails(of, slice, image, rows.lattice())),
+          share(shownShare(rows.box(), rows.lattice(), of.shownCamera())) {
         slice.forEach([&](int column, int row, double weight, double radius) {
             (radius < 1.0 ? inBand : beyondBand) += weight * slice.energy(column, row);
         });
@@ -78,6 +80,7 @@ struct Judged {
     const picture::PeriodPicture &period;
     PictureSlice slice;
     FoldedTails folded;
+    double share;                          ///< of the body that is shown
     double inBand = 0.0, beyondBand = 0.0; ///< energies; beyond the band, everything is an error
 };
 
@@ -99,7 +102,7 @@ class Sampler {
 public:
     Sampler(const picture::PeriodPicture &period, const scene::ImageDefinition &image,
             const ShownRows &rows, const CheckEffort &effort)
-        : m_judged(period, image, rows.lattice()), m_image(image), m_rows(rows), m_effort(effort),
+        : m_judged(period, image, rows), m_image(image), m_rows(rows), m_effort(effort),
           m_random(effort.seed) {}
 
     StatedError run(const task::Progress &progress,
@@ -313,11 +316,12 @@ StatedError Sums::errorOf(const Judged &picture) const {
         const double share = all.error > 0.0 ? std::sqrt(variance) / draws / all.error : 0.0,
                      width = std::exp(limits * std::sqrt(std::log1p(share * share))),
                      shown = PictureSlice::energyInPart(picture.period);
-        error = slice.energyUnit() * all.error;
+        const double everywhere = slice.energyUnit() * all.error;
         // A part of the error may lie beside the part that is shown, within the period: no more
-        // than is there.
-        low = std::max(0.0, error / width - (slice.wholeEnergy() - shown));
-        high = error * width;
+        // than is there. Rounding and aliases are wherever the body is.
+        low = std::max(0.0, everywhere / width - (slice.wholeEnergy() - shown));
+        high = everywhere * width;
+        error = std::max(low, picture.share * everywhere);
         // The energy of the picture, corrected by that of the frequencies.
         truth = whole > 0.0 ? shown * std::max(whole + all.exact - all.shown, 0.0) / whole : shown;
     }

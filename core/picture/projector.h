@@ -17,6 +17,14 @@ struct PeriodPicture {
     int left = 0, top = 0, width = 0, height = 0;
     /// The size of the picture of `Projector::render`. Pixels beyond a period repeat others.
     int pictureWidth = width, pictureHeight = height;
+
+    /// The camera of the picture of `Projector::render`.
+    scene::Camera shownCamera() const {
+        scene::Camera shown = camera;
+        shown.width = pictureWidth;
+        shown.height = pictureHeight;
+        return shown;
+    }
 };
 
 /// Makes projections of its fields: an engine that slices their spectra

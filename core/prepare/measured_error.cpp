@@ -6,6 +6,10 @@
 
 namespace pellucid::prepare {
 
+scene::Camera checkedCamera(const scene::Camera &camera, const volume::Lattice &lattice) {
+    return scene::withPixelsOf(camera, 0.25 * lattice.shortestStepMm());
+}
+
 error::StatedError measuredError(const StudyFields &study, const shading::ShadingScale &scale,
                                  const picture::PeriodPicture &period,
                                  const scene::ImageDefinition &image,
@@ -27,10 +31,11 @@ error::StatedError measuredError(render::ProjectionEngine &engine,
                                  const scene::ImageDefinition &image,
                                  const shading::Shading &shading, const error::CheckEffort &effort,
                                  const task::Progress &progress) {
+    const volume::Lattice &lattice = study.channels.front().values.lattice();
     return measuredError([&](const task::Progress &) { return study; },
-                         shading::shadingScale(study.channels.front().values.lattice()),
-                         engine.renderPeriod(camera, image, shading), image, shading, effort,
-                         progress);
+                         shading::shadingScale(lattice),
+                         engine.renderPeriod(checkedCamera(camera, lattice), image, shading), image,
+                         shading, effort, progress);
 }
 
 } // namespace pellucid::prepare

@@ -95,6 +95,14 @@ Camera defaultCamera(const volume::Lattice &lattice) {
     return camera;
 }
 
+Camera withPixelsOf(Camera camera, double pixelMm) {
+    const double factor = std::max(1.0, pixelMm / camera.pixelMm);
+    camera.width = std::max(1, int(std::lround(camera.width / factor)));
+    camera.height = std::max(1, int(std::lround(camera.height / factor)));
+    camera.pixelMm *= factor;
+    return camera;
+}
+
 int evenPixels(double pixels) {
     // Without this margin, rounding could push an exact integer to the next even size.
     const int size = int(std::ceil(pixels - 1e-6));

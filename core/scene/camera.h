@@ -65,6 +65,9 @@ ProjectedBox projectBox(const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
 /// `largestImageSize`.
 Camera defaultCamera(const volume::Lattice &lattice);
 
+/// The same part of the patient, up to a pixel, in pixels that are no smaller than `pixelMm`.
+Camera withPixelsOf(Camera camera, double pixelMm);
+
 /// The smallest even number of pixels, 2 or more, that covers `pixels`. An excess below 1e-6 is
 /// rounding.
 int evenPixels(double pixels);

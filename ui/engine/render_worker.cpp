@@ -122,14 +122,9 @@ void RenderWorker::run(const std::stop_token &stop) {
         if (!request)
             continue;
         scene::Camera &camera = request->camera;
-        const double factor = std::max(request->reduction.draft ? 2.0 : 1.0,
-                                       request->reduction.finestPixelMm / camera.pixelMm);
-        if (factor > 1.0) {
-            // The reduced image covers the same part of the patient, up to a pixel.
-            camera.width = std::max(1, int(std::lround(camera.width / factor)));
-            camera.height = std::max(1, int(std::lround(camera.height / factor)));
-            camera.pixelMm *= factor;
-        }
+        camera = scene::withPixelsOf(camera,
+                                     std::max(request->reduction.draft ? 2.0 * camera.pixelMm : 0.0,
+                                              request->reduction.finestPixelMm));
         makeFrame(*request);
     }
 }

@@ -210,9 +210,10 @@ void ProjectionFrames::measureError() {
     if (!m_prepared->canBeLit)
         shading.lights.clear();
     const scene::ImageDefinition &image = m_document.scene().image;
-    m_meter.measure({m_worker.period(engine, m_frame->camera, image, shading), m_prepared->study,
-                     shading::shadingScale(m_document.volume()->lattice()), image, shading,
-                     m_frame->number});
+    const volume::Lattice &lattice = m_document.volume()->lattice();
+    const scene::Camera camera = prepare::checkedCamera(m_frame->camera, lattice);
+    m_meter.measure({m_worker.period(engine, camera, image, shading), m_prepared->study,
+                     shading::shadingScale(lattice), image, shading, m_frame->number});
 }
 
 DescribedFrame ProjectionFrames::described() const {

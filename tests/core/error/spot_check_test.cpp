@@ -9,6 +9,7 @@
 
 #include "core/error/checked_pictures.h"
 #include "core/error/shown_part.h"
+#include "core/prepare/measured_error.h"
 #include "core/prepare/prepared_engine.h"
 #include "core/reference/wide_kernel.h"
 #include "core/scene/planning_scene.h"
@@ -227,6 +228,31 @@ TEST(SpotCheck, MeasuresWhatACoarsePictureLacks) {
     const auto stated = prepare::measuredError(*engine, {{field}, {}}, scene.camera, scene.image);
     EXPECT_GT(truth, 0.01);
     EXPECT_NEAR(stated.relative, truth, 0.1 * truth);
+}
+
+// A period of its small pixels would be of 1,800 x 1,800 pixels. The error of the whole period was
+// once said of the part.
+TEST(SpotCheck, OfAZoomedPictureIsThatOfItsPart) {
+    const auto lattice = volume::Lattice::centred({64, 64, 64}, {1, 1, 1});
+    const auto field = fieldOf(lattice, kinds[5].value);
+    scene::Scene scene = sceneOf(lattice, 1.1e-3);
+    scene.interpolation.isUniform = true;
+    const auto engine = prepare::prepareEngine({scene, classify::ShownFields{{field}, {}}}).engine;
+    scene::Camera camera = scene.camera;
+    camera.pixelMm /= 16.0;
+    camera.width = camera.height = 160;
+    const scene::Camera checked = prepare::checkedCamera(camera, lattice);
+    EXPECT_EQ(checked.pixelMm, 0.25);
+    EXPECT_EQ(checked.width, 40);
+    const auto stated = prepare::measuredError(*engine, {{field}, {}}, camera, scene.image);
+    const double truth = test::relativeL2(
+        engine->render(camera, scene.image).samples,
+        reference::WideKernel(field.values, field.support).image(camera, scene.image));
+    EXPECT_LE(truth, stated.high);
+    EXPECT_GT(stated.relative, truth / 3.0);
+    EXPECT_LT(stated.relative, 3.0 * truth);
+    EXPECT_GT(stated.frequencies, 0);
+    EXPECT_LT(error::shownShare(lattice.bounds(), lattice, camera), 0.05);
 }
 
 TEST(SpotCheck, OfAnEmptyPictureIsZero) {
