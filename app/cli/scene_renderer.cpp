@@ -148,12 +148,17 @@ bool SceneRenderer::boundMeetsTolerance() const {
     return known && known->relative <= m_scene.tolerance;
 }
 
-// Whether the last picture misses the tolerance although the plan keeps it, and a closer plan may
+// The error that must not exceed the tolerance. Where in the body an error lies is not known: all
+// of it may be in the part that is shown.
+double SceneRenderer::judgedError() const {
+    return m_wasWhole ? m_lastError.relative : m_lastError.high;
+}
+
+// Whether the last picture may miss the tolerance although the plan keeps it, and a closer plan may
 // help.
 bool SceneRenderer::mayPlanCloser() const {
-    return m_lastError.isMeasured() && m_lastError.relative > m_scene.tolerance &&
-           boundMeetsTolerance() && m_scene.interpolation.isPlanned() &&
-           m_scene.plannedFor != scene::PlannedFor::volume;
+    return m_lastError.isMeasured() && judgedError() > m_scene.tolerance && boundMeetsTolerance() &&
+           m_scene.interpolation.isPlanned() && m_scene.plannedFor != scene::PlannedFor::volume;
 }
 
 const classify::ShownFields &SceneRenderer::studyFields() {
@@ -168,7 +173,7 @@ picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera, Check
     m_progress.check();
     picture::ProjectionImage image = make(camera, check);
     for (int tries = 0; tries < 3 && mayPlanCloser(); ++tries) {
-        m_planned.tolerance *= 0.8 * m_scene.tolerance / m_lastError.relative;
+        m_planned.tolerance *= 0.8 * m_scene.tolerance / judgedError();
         prepare();
         image = make(camera, check);
     }

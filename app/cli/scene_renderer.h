@@ -105,6 +105,7 @@ private:
     bool isExact() const { return m_prepared->exact != nullptr; }
     bool boundMeetsTolerance() const;
     std::size_t bytesForLight() const;
+    double judgedError() const;
     bool mayPlanCloser() const;
     picture::ProjectionImage make(const scene::Camera &camera, Check check);
     std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera);

@@ -106,6 +106,7 @@ TEST_F(Cli, PlansAPartOfAPictureMoreClosely) {
         const double error = test::relativeL2(image, exact.image(scene.camera, scene.image));
         EXPECT_LE(error, 1.1 * report["measured_error"]["high"].get<double>()) << pan;
         EXPECT_LE(report["measured_error"]["relative_l2"], scene.tolerance) << pan;
+        EXPECT_LE(error, scene.tolerance) << pan;
     }
     EXPECT_LT(planned[84.0], 0.7 * planned[56.0]); // the middle is not planned again
 }
