@@ -237,9 +237,10 @@ Verdict judge(const Trial &trial) {
     // length shows what they do.
     int margin =
         reference::periodOf(trial.field.values.lattice(), scene.camera, scene.image).columns;
-    for (double before = 0.0; measured > std::min(0.5 * predicted, stated.high) &&
-                              std::abs(measured - before) > 0.1 * measured;
-         margin *= 2) {
+    double before = 0.0;
+    for (int doublings = 0; doublings < 3 && measured > std::min(0.5 * predicted, stated.high) &&
+                            std::abs(measured - before) > 0.1 * measured;
+         ++doublings, margin *= 2) {
         before = measured;
         measured = errorWithin(margin);
     }

@@ -1,16 +1,19 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a user would install instead: pictures of a study by Pellucid, plastimatch and VTK.
+"""Pellucid beside what a user would install instead: pictures by plastimatch and VTK.
 
-Each program makes a turntable of pictures from files to files, in turns. All read the same field
-from 0 to 1; Pellucid reads the study itself. Each program's error is measured against its own model:
-Pellucid's by Pellucid, plastimatch's against exact sums of constant voxels along its own rays, VTK's
-against sums of trilinear samples, up to a factor, because it shows no units.
+Each program makes a turntable of a study as picture files, in turns. Pellucid reads the study, and
+its time contains the check of its own errors; the others read the field of the study, from 0 to 1.
+Plastimatch makes pictures in perspective. Each program is measured against its own model: Pellucid by
+its own check, the worst picture that it checks; plastimatch's first picture against exact sums of
+constant voxels along its own rays; VTK's against sums of trilinear samples, up to a factor, because
+it shows no units.
 
-Needs Debian's plastimatch, python3-vtk9, python3-numpy and xvfb; a program that is not installed is
-left out."""
+Needs Debian's python3-numpy, plastimatch and python3-vtk9, and a display for VTK. A program that is
+missing is left out."""
 
 import argparse
+import importlib.util
 import json
 import os
 import pathlib
@@ -23,7 +26,7 @@ import time
 
 import numpy as np
 
-RAYS = 400  # over which errors are measured
+RAYS = 400  # of random pixels; errors vary by a twentieth with the seed
 SEED = 1
 
 
@@ -60,7 +63,8 @@ class Field:
         return float(np.dot(self.values[k, j, i], np.diff(t)[inside]) * np.linalg.norm(direction))
 
     def trilinear_sum(self, source, direction, step=0.05):
-        """Trilinear samples along a ray, every `step` of the shortest side of a voxel."""
+        """Trilinear samples along a ray, every `step` of the shortest side of a voxel: a tenth of
+        that step changes the sum by less than 1e-4."""
         reach = 0.5 * float(np.linalg.norm(np.array(self.size) * self.spacing))
         unit = direction / np.linalg.norm(direction)
         nearest = float(np.dot(self.center - source, unit))
@@ -83,7 +87,7 @@ def timed(command, environment=None):
     begin = time.monotonic()
     done = subprocess.run(command, env={**os.environ, **(environment or {})}, capture_output=True, text=True)
     if done.returncode != 0:
-        sys.exit(f"peers.py: {command[0]} failed: {done.stderr.strip().splitlines()[-1:]}")
+        sys.exit(f"peers.py: {command[0]} failed: {(done.stderr.strip().splitlines() or ['no message'])[-1]}")
     return time.monotonic() - begin, done.stdout
 
 
@@ -100,7 +104,7 @@ class Pellucid:
         self.measured = json.loads(out)["measured_error"]
         return seconds
 
-    def error(self, field):
+    def error(self):
         return self.measured["relative_l2"] if self.measured else None
 
 
@@ -111,6 +115,7 @@ class Plastimatch:
         self.field_path, self.field, self.folder, self.side = field_path, field, folder, side
 
     def run(self, pictures, threads):
+        # Its detector is 1.5 times as far as the body, by default.
         extent = 1.5 * float(np.linalg.norm(np.array(self.field.size) * self.field.spacing))
         seconds, _ = timed(
             ["plastimatch", "drr", "-i", "exact", "-P", "none", "-t", "pfm", "-r", f"{self.side} {self.side}",
@@ -119,42 +124,46 @@ class Plastimatch:
             {"OMP_NUM_THREADS": str(threads)} if threads else None)
         return seconds
 
-    def error(self, field):
-        head, _, data = pathlib.Path(f"{self.folder}/plastimatch_0000.pfm").read_bytes().partition(b"-1")
+    def error(self):
+        field = self.field
+        data = pathlib.Path(f"{self.folder}/plastimatch_0000.pfm").read_bytes()
         picture = np.frombuffer(data[-4 * self.side * self.side:], "<f4").reshape(self.side, self.side)
         lines = pathlib.Path(f"{self.folder}/plastimatch_0000.txt").read_text().splitlines()
-        numbers = [[float(x) for x in line.split()] for line in lines if line[:1] == " " or line[:1] == "-"]
+        numbers = [[float(x) for x in line.split()] for line in lines if line[:1] == " "]
         middle, distance = numbers[0], numbers[5][0]
         turn = np.array(numbers[7:11])
-        perMm = numbers[11][0]
+        per_mm = numbers[11][0]
         source = -turn[:3, :3].T @ turn[:3, 3]
         exact, shown = [], []
         random = np.random.default_rng(SEED)
         for row, column in random.integers(0, self.side, (RAYS, 2)):
-            ray = turn[:3, :3].T @ np.array([(column - middle[1]) / perMm, (row - middle[0]) / perMm, distance])
+            ray = turn[:3, :3].T @ np.array([(column - middle[1]) / per_mm, (row - middle[0]) / per_mm, distance])
             exact.append(field.box_sum(source, ray))
-            shown.append(10 * picture[row, column])  # of cm
+            shown.append(10 * picture[row, column])  # plastimatch sums in cm
         return relative(shown, exact)
 
 
 class Vtk:
     name, model = "VTK, additive", "sums of trilinear samples, up to a factor"
 
-    def __init__(self, field_path, folder, side):
-        self.field_path, self.folder, self.side = field_path, folder, side
+    def __init__(self, field_path, field, folder, side):
+        self.field_path, self.field, self.folder, self.side = field_path, field, folder, side
 
     def run(self, pictures, threads):
-        command = [sys.executable, __file__, "--vtk", self.field_path, self.folder, str(self.side), str(pictures)]
-        if "DISPLAY" not in os.environ:
-            command = ["xvfb-run", "-a", *command]
+        # The brightest line along x or y is white.
+        white = max(float(self.field.values.sum(axis=2 - d).max()) * self.field.spacing[d] for d in (0, 1))
+        command = [sys.executable, __file__, "--vtk", self.field_path, self.folder, str(self.side), str(pictures),
+                   str(white)]
         return timed(command, {"LP_NUM_THREADS": str(threads)} if threads else None)[0]
 
-    def error(self, field):
+    def error(self):
+        field = self.field
         picture = np.load(f"{self.folder}/vtk.npy")
         pixel = field.size[0] * field.spacing[0] / self.side
         exact, shown = [], []
         random = np.random.default_rng(SEED)
         for row, column in random.integers(0, self.side, (RAYS, 2)):
+            # The camera is in front; rows go up.
             u = (column - 0.5 * (self.side - 1)) * pixel
             v = (row - 0.5 * (self.side - 1)) * pixel
             exact.append(field.trilinear_sum(field.center + np.array([u, -1000.0, v]), np.array([0.0, 1.0, 0.0])))
@@ -168,7 +177,7 @@ def relative(shown, exact):
     return float(np.linalg.norm(shown - exact) / np.linalg.norm(exact))
 
 
-def render_with_vtk(field_path, folder, side, pictures):
+def render_with_vtk(field_path, folder, side, pictures, white):
     """A process of its own, as a user would write it."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
@@ -187,13 +196,11 @@ def render_with_vtk(field_path, folder, side, pictures):
     mapper.AutoAdjustSampleDistancesOff()
     step = min(image.GetSpacing())
     mapper.SetSampleDistance(step)
-    # White is the brightest that a row of samples can be.
-    depth = max(n * s for n, s in zip(image.GetDimensions(), image.GetSpacing()))
     color, opacity = vtkColorTransferFunction(), vtkPiecewiseFunction()
     color.AddRGBPoint(0, 1, 1, 1)
     color.AddRGBPoint(1, 1, 1, 1)
-    opacity.AddPoint(0, 1.5 * step / depth)
-    opacity.AddPoint(1, 1.5 * step / depth)
+    opacity.AddPoint(0, step / white)
+    opacity.AddPoint(1, step / white)
     look = vtkVolumeProperty()
     look.SetColor(color)
     look.SetScalarOpacity(opacity)
@@ -245,11 +252,8 @@ def main():
         programs = [Pellucid(options.cli, options.study, folder, options.side)]
         if shutil.which("plastimatch"):
             programs.append(Plastimatch(field_path, field, folder, options.side))
-        try:
-            import vtkmodules  # noqa: F401
-            programs.append(Vtk(field_path, folder, options.side))
-        except ImportError:
-            pass
+        if importlib.util.find_spec("vtkmodules") and "DISPLAY" in os.environ:
+            programs.append(Vtk(field_path, field, folder, options.side))
         print(f"{'program':17} {'pictures':>8} {'threads':>7} {'seconds':>8} {'error':>8}  error against")
         for pictures in options.pictures:
             for threads in (1, 0):
@@ -258,7 +262,7 @@ def main():
                     for program in programs:
                         seconds[program].append(program.run(pictures, threads))
                 for program in programs:
-                    error = program.error(field)
+                    error = program.error()
                     print(f"{program.name:17} {pictures:8} {threads or 'all':>7} "
                           f"{statistics.median(seconds[program]):8.2f} "
                           f"{'-' if error is None else format(error, '8.1e'):>8}  {program.model}", flush=True)
@@ -266,6 +270,6 @@ def main():
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--vtk"]:
-        render_with_vtk(sys.argv[2], sys.argv[3], int(sys.argv[4]), int(sys.argv[5]))
+        render_with_vtk(sys.argv[2], sys.argv[3], int(sys.argv[4]), int(sys.argv[5]), float(sys.argv[6]))
     else:
         main()

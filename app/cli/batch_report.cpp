@@ -47,14 +47,14 @@ void BatchReport::finished(const std::string &key, const batch::DoneRecord &reco
                            double seconds) {
     const std::lock_guard lock(m_mutex);
     ++m_done;
-    double error = 0.0;
-    bool isImprecise = false, isMeasured = false;
+    error::StatedError worst;
+    bool isImprecise = false;
     std::vector<std::string> reported; // what concerns all outputs, once
     for (const batch::DoneRecord::MadeOutput &output : record.outputs) {
         const double known = output.measuredError.value_or(output.predictedError);
-        if (known >= error)
-            isMeasured = output.measuredError.has_value();
-        error = std::max(error, known);
+        if (known >= worst.relative)
+            worst = {known, output.measuredError ? error::StatedError::Kind::measured
+                                                 : error::StatedError::Kind::bound};
         // The tolerance of the exact method is no target.
         isImprecise = isImprecise ||
                       (output.tolerance != scene::referenceTolerance && known > output.tolerance);
@@ -66,9 +66,9 @@ void BatchReport::finished(const std::string &key, const batch::DoneRecord &reco
     }
     m_imprecise += isImprecise ? 1 : 0;
     if (m_isJson)
-        m_finished.push_back({key, record.seriesUid, error, seconds, std::move(reported)});
+        m_finished.push_back({key, record.seriesUid, worst.relative, seconds, std::move(reported)});
     printLine(fmt::format("{}: outputs: {}; {:.2f} s, {}", key, record.outputs.size(), seconds,
-                          errorText(error, isMeasured)));
+                          errorText(worst)));
 }
 
 // The lock is held, and the study counted.

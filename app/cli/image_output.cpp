@@ -81,14 +81,13 @@ void writeImage(const fs::path &path, const picture::ProjectionImage &image,
     }
 }
 
-std::string errorText(double error, bool isMeasured) {
-    return isMeasured ? fmt::format("error {:.2g}, measured", error)
-                      : fmt::format("error at most {:.2g}", error);
+std::string errorText(const error::StatedError &error) {
+    return error.isMeasured() ? fmt::format("error {:.2g}, measured", error.relative)
+                              : fmt::format("error at most {:.2g}", error.relative);
 }
 
 std::string derivationText(const error::StatedError &error) {
-    return fmt::format("{}, {} (relative L2)", dicom::CaptureLabels().derivation,
-                       errorText(error.relative, error.isMeasured()));
+    return fmt::format("{}, {} (relative L2)", dicom::CaptureLabels().derivation, errorText(error));
 }
 
 nlohmann::json measuredJson(const std::optional<error::StatedError> &error) {

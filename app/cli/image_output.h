@@ -30,7 +30,7 @@ void writeImage(const std::filesystem::path &path, const picture::ProjectionImag
                 const dicom::CaptureLabels &labels);
 
 /// "error 0.0003, measured", "error at most 0.0011".
-std::string errorText(double error, bool isMeasured);
+std::string errorText(const error::StatedError &error);
 
 /// How a picture was derived, for its Derivation Description.
 std::string derivationText(const error::StatedError &error);

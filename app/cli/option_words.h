@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <string>
 #include <vector>
 
@@ -16,11 +18,12 @@ template <class Table> std::vector<std::string> wordsOf(const Table &table) {
 
 /// The meaning of one of these words. *Requires*: the table has the word.
 template <class Table> auto meaningOf(const std::string &given, const Table &table) {
-    auto found = table.front();
-    for (const auto &row : table)
-        if (const auto &[word, meaning] = row; word == given)
-            found = row;
-    const auto &[word, meaning] = found;
+    const auto row = std::find_if(table.begin(), table.end(), [&](const auto &candidate) {
+        const auto &[word, meaning] = candidate;
+        return word == given;
+    });
+    assert(row != table.end());
+    const auto &[word, meaning] = *row;
     return meaning;
 }
 

@@ -168,14 +168,17 @@ const classify::ShownFields &SceneRenderer::studyFields() {
 }
 
 // The plan is for the whole volume. The error of a part that contains little is known only after
-// rendering it; if it misses the tolerance, plan again with a smaller one.
+// rendering it; if it may miss the tolerance, plan again with a smaller one, while that helps.
 picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera, Check check) {
     m_progress.check();
     picture::ProjectionImage image = make(camera, check);
     for (int tries = 0; tries < 3 && mayPlanCloser(); ++tries) {
-        m_planned.tolerance *= 0.8 * m_scene.tolerance / judgedError();
+        const double before = judgedError();
+        m_planned.tolerance *= 0.8 * m_scene.tolerance / before;
         prepare();
         image = make(camera, check);
+        if (judgedError() > 0.8 * before)
+            break; // what is left is not of the plan
     }
     takeErrors();
     return image;
@@ -261,7 +264,7 @@ std::vector<std::string> SceneRenderer::warnings() const {
 }
 
 std::string SceneRenderer::warningOfView() const {
-    return missedText(m_lastError.relative, m_wasWhole);
+    return missedText(judgedError(), m_wasWhole);
 }
 
 std::string SceneRenderer::warningOfViews() const {
@@ -277,13 +280,13 @@ std::string SceneRenderer::missedText(double error, bool isWhole) const {
                ? fmt::format("the tolerance of {:.2g} is not met: {:.2g} was measured for this "
                              "picture",
                              m_scene.tolerance, error)
-               : fmt::format("the tolerance of {:.2g} is met for the whole volume, but {:.2g} "
-                             "was measured for this part",
+               : fmt::format("the tolerance of {:.2g} is met for the whole volume, but the error "
+                             "of this part may be up to {:.2g}",
                              m_scene.tolerance, error);
 }
 
 void SceneRenderer::takeErrors() {
-    m_viewError = std::max(m_viewError, m_lastError.relative);
+    m_viewError = std::max(m_viewError, judgedError());
     if (m_lastError.isMeasured() && (!m_measured || m_lastError.relative > m_measured->relative))
         m_measured = m_lastError;
     m_isWhole = m_isWhole && m_wasWhole;

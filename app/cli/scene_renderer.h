@@ -53,9 +53,9 @@ public:
     void requireRoomFor(const scene::Camera &camera) const;
     /// Whether the error of a picture is measured, or only bounded.
     enum class Check { none, measure };
-    /// A picture whose measured error exceeds the tolerance is planned again, more closely. The
-    /// error is always measured if the fields were reduced to fit the memory.
-    /// *Throws* Error{outOfMemory}, Cancelled.
+    /// A picture whose measured error exceeds the tolerance is planned again, more closely; of a
+    /// part of the body, it is the upper limit that counts. The error is always measured if the
+    /// fields were reduced to fit the memory. *Throws* Error{outOfMemory}, Cancelled.
     picture::ProjectionImage image(const scene::Camera &camera, Check check = Check::none);
     /// The scene's own exposure or, measured once, that of the study.
     const scene::Exposure &exposure();
@@ -91,9 +91,8 @@ public:
     /// The error of the last picture as measured, or the bound.
     const error::StatedError &lastError() const { return m_lastError; }
 
-    /// For all pictures together: the largest error that is known of one, the largest measured
-    /// error, and whether each showed the whole volume.
-    double largestError() const { return m_viewError; }
+    /// For all pictures together: the largest measured error, and whether each showed the whole
+    /// volume.
     const std::optional<error::StatedError> &largestMeasured() const { return m_measured; }
     bool wereWhole() const { return m_isWhole; }
 
@@ -124,9 +123,10 @@ private:
     Context m_context;
     task::Progress m_progress;
     classify::FieldWindow m_window;
-    std::size_t m_held = 0;         ///< bytes of the volume, its fields and their preparation
-    classify::ShownFields m_fields; ///< of the study; may be empty while an engine is made
-    std::string m_whyEmpty;         ///< a warning, or empty
+    std::size_t m_held = 0; ///< bytes of the volume, its fields and their preparation
+    classify::ShownFields
+        m_fields;           ///< of the study; empty from when an engine takes them until a check
+    std::string m_whyEmpty; ///< a warning, or empty
     plan::Budget m_budget;
     std::optional<prepare::PreparedEngine> m_prepared; ///< on the processor
     std::shared_ptr<gpu::GpuEngine> m_onCard;          ///< the same on the card, if used

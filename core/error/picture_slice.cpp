@@ -12,7 +12,7 @@
 
 namespace pellucid::error {
 
-PictureSlice::PictureSlice(const picture::PeriodPicture &period)
+PictureSlice::PictureSlice(const picture::PeriodPicture &period, const task::Progress &progress)
     : m_columns(period.image.width), m_rows(period.image.height), m_stride(m_columns / 2 + 1),
       m_columnPerMm(1.0 / (m_columns * period.camera.pixelMm)),
       m_rowPerMm(1.0 / (m_rows * period.camera.pixelMm)),
@@ -25,6 +25,7 @@ PictureSlice::PictureSlice(const picture::PeriodPicture &period)
     task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
         m_values.resize(channels);
         for (std::size_t c = 0; c < channels; ++c) {
+            progress.check();
             auto &values = m_values[c];
             values.resize(std::size_t(m_rows) * std::size_t(m_stride));
             tbb::parallel_for(0, m_rows, [&](int row) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/picture/projector.h"
+#include "core/task/progress.h"
 
 namespace pellucid::error {
 
@@ -14,8 +15,9 @@ namespace pellucid::error {
 /// double precision, so that whatever happened to the picture is in it.
 class PictureSlice {
 public:
-    /// *Throws* Error{outOfMemory}.
-    explicit PictureSlice(const picture::PeriodPicture &period);
+    /// *Throws* Error{outOfMemory}, Cancelled.
+    explicit PictureSlice(const picture::PeriodPicture &period,
+                          const task::Progress &progress = {});
 
     int columns() const { return m_columns; }
     int rows() const { return m_rows; }

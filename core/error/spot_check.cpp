@@ -70,9 +70,12 @@ struct Energies {
 // A picture, the slice that it was made from, and what does not depend on exact values.
 struct Judged {
     Judged(const picture::PeriodPicture &of, const scene::ImageDefinition &image,
-           const ShownRows &rows)
-        : period(of), slice(of), folded(foldedTails(of, slice, image, rows.lattice())),
-          share(shownShare(rows.box(), rows.lattice(), of.shownCamera())) {
+           const ShownRows &rows, const task::Progress &progress)
+        : period(of), slice(of, progress), folded(foldedTails(of, slice, image, rows.lattice())),
+          share(
+              std::max(shownShare(rows.box(), rows.lattice(), of.shownCamera()),
+                       double(of.width) * of.height / (double(of.image.width) * of.image.height))) {
+        progress.check();
         slice.forEach([&](int column, int row, double weight, double radius) {
             (radius < 1.0 ? inBand : beyondBand) += weight * slice.energy(column, row);
         });
@@ -80,7 +83,9 @@ struct Judged {
     const picture::PeriodPicture &period;
     PictureSlice slice;
     FoldedTails folded;
-    double share;                          ///< of the body that is shown
+    /// Of the error that is expected in the part that is shown: aliases are where the body is,
+    /// rounding is everywhere in the period.
+    double share;
     double inBand = 0.0, beyondBand = 0.0; ///< energies; beyond the band, everything is an error
 };
 
@@ -95,14 +100,18 @@ struct Sums {
     std::vector<Term> drawn;  ///< in pairs, each from a stratum of the same chance
 
     int count() const { return int(always.size() + drawn.size()); }
-    StatedError errorOf(const Judged &picture) const;
+    struct Estimate {
+        StatedError error;
+        double width = 1.0; ///< the factor from the sampled energy of the error to its limits
+    };
+    Estimate errorOf(const Judged &picture) const;
 };
 
 class Sampler {
 public:
     Sampler(const picture::PeriodPicture &period, const scene::ImageDefinition &image,
-            const ShownRows &rows, const CheckEffort &effort)
-        : m_judged(period, image, rows), m_image(image), m_rows(rows), m_effort(effort),
+            const ShownRows &rows, const CheckEffort &effort, const task::Progress &progress)
+        : m_judged(period, image, rows, progress), m_image(image), m_rows(rows), m_effort(effort),
           m_random(effort.seed) {}
 
     StatedError run(const task::Progress &progress,
@@ -120,9 +129,10 @@ public:
         sums.isComplete = all.size() <= std::size_t(std::max(m_effort.atLeast, 2 * affordable));
         if (sums.isComplete) {
             add(all, sums.always, progress);
-            return sums.errorOf(m_judged);
+            return sums.errorOf(m_judged).error;
         }
         divide(all);
+        progress.check();
         for (int done = 0, count = most / 4;; done = count, count *= 2) {
             count = std::min(count, most);
             // Those that are always summed, and the first draw, are read together.
@@ -135,8 +145,8 @@ public:
             const auto firstDrawn = terms.begin() + std::ptrdiff_t(always);
             sums.always.insert(sums.always.end(), terms.begin(), firstDrawn);
             sums.drawn.insert(sums.drawn.end(), firstDrawn, terms.end());
-            const StatedError error = sums.errorOf(m_judged);
-            if (count == most || error.high <= (1.0 + m_effort.within) * error.relative ||
+            const auto [error, width] = sums.errorOf(m_judged);
+            if (count == most || std::sqrt(width) <= 1.0 + m_effort.within ||
                 error.high <= m_effort.enough)
                 return error;
             if (refined)
@@ -172,7 +182,7 @@ private:
         const auto isNearZero = [](const Frequency &f) {
             return double(f.column) * f.column + double(f.row) * f.row <= alwaysSteps * alwaysSteps;
         };
-        // The brightest of the others so far, the darkest of them first.
+        // A min-heap: the darkest of the brightest is on top.
         using Bright = std::pair<double, std::size_t>;
         std::priority_queue<Bright, std::vector<Bright>, std::greater<>> brightest;
         std::vector<Frequency> always;
@@ -278,7 +288,7 @@ Energies energiesOf(const PictureSlice &slice, const Sums::Term &term) {
     return energies;
 }
 
-StatedError Sums::errorOf(const Judged &picture) const {
+Sums::Estimate Sums::errorOf(const Judged &picture) const {
     const PictureSlice &slice = picture.slice;
     const double whole = picture.inBand;
     Energies all{.error = picture.beyondBand};
@@ -296,6 +306,7 @@ StatedError Sums::errorOf(const Judged &picture) const {
         // The sum of a pair has this variance.
         variance += (a.error - b.error) * (a.error - b.error);
     }
+    double width = 1.0;
     // Energies in the part that is shown.
     double error = 0.0, low = 0.0, high = 0.0, truth = 0.0;
     if (isComplete) {
@@ -314,11 +325,11 @@ StatedError Sums::errorOf(const Judged &picture) const {
         all += (1.0 / draws) * sum;
         // Sums of a few large terms are skewed: their logarithm is nearly normal.
         const double share = all.error > 0.0 ? std::sqrt(variance) / draws / all.error : 0.0,
-                     width = std::exp(limits * std::sqrt(std::log1p(share * share))),
                      shown = PictureSlice::energyInPart(picture.period);
+        width = std::exp(limits * std::sqrt(std::log1p(share * share)));
         const double everywhere = slice.energyUnit() * all.error;
         // A part of the error may lie beside the part that is shown, within the period: no more
-        // than is there. Rounding and aliases are wherever the body is.
+        // than is there.
         low = std::max(0.0, everywhere / width - (slice.wholeEnergy() - shown));
         high = everywhere * width;
         error = std::max(low, picture.share * everywhere);
@@ -339,8 +350,9 @@ StatedError Sums::errorOf(const Judged &picture) const {
     };
     // Whether the two add up or cancel is not known.
     const double least = std::max(0.0, std::sqrt(low) - most), greatest = std::sqrt(high) + most;
-    return {relative(error + folded.expected + repeated), StatedError::Kind::measured,
-            relative(least * least), relative(greatest * greatest + repeated), count()};
+    return {{relative(error + folded.expected + repeated), StatedError::Kind::measured,
+             relative(least * least), relative(greatest * greatest + repeated), count()},
+            width};
 }
 
 } // namespace
@@ -349,7 +361,7 @@ StatedError spotCheck(const picture::PeriodPicture &period, const scene::ImageDe
                       const ShownRows &rows, const CheckEffort &effort,
                       const task::Progress &progress,
                       const std::function<void(const StatedError &)> &refined) {
-    return Sampler(period, image, rows, effort).run(progress, refined);
+    return Sampler(period, image, rows, effort, progress).run(progress, refined);
 }
 
 } // namespace pellucid::error

@@ -20,7 +20,7 @@ struct CheckEffort {
     double multiplications = 5e8;
     /// At least this many, however large the field is. *Requires*: 256 or more.
     int atLeast = 1024;
-    /// The estimate is good enough once its limits are within this share of it.
+    /// The estimate is good enough once chance moves its limits by less than this share of it.
     double within = 1.0 / 3.0;
     /// It is also good enough once its upper limit is at most this.
     double enough = 0.0;
@@ -37,8 +37,9 @@ struct CheckEffort {
 /// together: kernels of different width make errors in patches. The interval is that of the spread
 /// of these pairs. Everything that happened to the picture is in P': the spectrum, the kernels, the
 /// transform, the graphics card. *Shape*: `period` is the whole period of the picture, in its
-/// camera. `refined` is called with each estimate but the last. *Throws* Cancelled within
-/// milliseconds, Error{outOfMemory}.
+/// camera. For a part of the body, `relative` is what is expected if the error is spread evenly;
+/// `low` and `high` allow it anywhere. `refined` is called with each estimate but the last.
+/// *Throws* Cancelled within a transform of the picture, Error{outOfMemory}.
 StatedError spotCheck(const picture::PeriodPicture &period, const scene::ImageDefinition &image,
                       const ShownRows &rows, const CheckEffort &effort = {},
                       const task::Progress &progress = {},

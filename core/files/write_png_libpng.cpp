@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <csetjmp>
 #include <cstdint>
@@ -79,12 +80,14 @@ void writePng(const std::filesystem::path &path, std::span<const std::uint8_t> r
               int width) {
     assert(rgba.size() == std::size_t(height) * width * 4);
     const std::size_t pixels = rgba.size() / 4;
+    static_assert(std::endian::native == std::endian::little); // red is the lowest byte
     const auto pixelAt = [&](std::size_t n) {
         std::uint32_t pixel = 0;
         std::memcpy(&pixel, rgba.data() + 4 * n, sizeof pixel);
         return pixel;
     };
-    std::uint32_t colored = 0; // without a branch: vector code
+    // Red or green, and green or blue, differ. Without a branch: vector code.
+    std::uint32_t colored = 0;
     for (std::size_t n = 0; n < pixels; ++n)
         colored |= pixelAt(n) ^ pixelAt(n) >> 8U;
     if ((colored & 0xffffU) == 0) {

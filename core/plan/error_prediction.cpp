@@ -232,8 +232,9 @@ CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice
 namespace {
 
 // Rounding errors are uniform up to half a unit in the last place, 2^-11 of the leading power of
-// two; over the mantissas that is 0.73 * 2^-11/sqrt(3). At most, it is 2^-11. In float it is the
-// transform that rounds: 2^-24 in each of log2(512^3) = 27 steps, which add up like their root.
+// two; over the mantissas that is 0.73 * 2^-11/sqrt(3). At most, it is 2^-11. In float the
+// transform rounds, in log2(512^3) = 27 steps: 27 roundings of up to 2^-24 add in quadrature to
+// 3e-7.
 constexpr double meanRounding16 = 2.1e-4, mostRounding16 = 4.9e-4, rounding32 = 3e-7;
 
 // The share of pairs of the energy that lie in one layer across an axis.

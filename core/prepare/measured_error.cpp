@@ -7,7 +7,7 @@
 namespace pellucid::prepare {
 
 scene::Camera checkedCamera(const scene::Camera &camera, const volume::Lattice &lattice) {
-    return scene::withPixelsOf(camera, 0.25 * lattice.shortestStepMm());
+    return scene::withPixelsAtLeast(camera, scene::finestPixelMm(lattice));
 }
 
 error::StatedError measuredError(const StudyFields &study, const shading::ShadingScale &scale,

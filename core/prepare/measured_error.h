@@ -13,8 +13,8 @@ namespace pellucid::prepare {
 /// *Throws* Error{outOfMemory}, Cancelled.
 using StudyFields = std::function<classify::ShownFields(const task::Progress &)>;
 
-/// The camera of the picture whose error is measured: pixels smaller than a quarter of a voxel show
-/// only the smoothness of the reconstruction, and a period of them would not fit into memory.
+/// The camera of the picture whose error is measured: its pixels are no smaller than
+/// `scene::finestPixelMm`, because a period of smaller ones might not fit into memory.
 scene::Camera checkedCamera(const scene::Camera &camera, const volume::Lattice &lattice);
 
 /// The error of a picture of these fields, measured, see `error::spotCheck`. *Units*: `scale`: that
@@ -26,8 +26,8 @@ measuredError(const StudyFields &study, const shading::ShadingScale &scale,
               const task::Progress &progress = {},
               const std::function<void(const error::StatedError &)> &refined = {});
 
-/// The same for the picture that an engine makes of these fields, at their own scale, for
-/// `checkedCamera`.
+/// The same for the picture that an engine makes of these fields, at their own scale. Renders the
+/// period with `checkedCamera(camera)`.
 error::StatedError measuredError(render::ProjectionEngine &engine,
                                  const classify::ShownFields &study, const scene::Camera &camera,
                                  const scene::ImageDefinition &image,

@@ -95,7 +95,7 @@ Camera defaultCamera(const volume::Lattice &lattice) {
     return camera;
 }
 
-Camera withPixelsOf(Camera camera, double pixelMm) {
+Camera withPixelsAtLeast(Camera camera, double pixelMm) {
     const double factor = std::max(1.0, pixelMm / camera.pixelMm);
     camera.width = std::max(1, int(std::lround(camera.width / factor)));
     camera.height = std::max(1, int(std::lround(camera.height / factor)));

@@ -66,7 +66,12 @@ ProjectedBox projectBox(const glm::dvec3 &lowMm, const glm::dvec3 &highMm,
 Camera defaultCamera(const volume::Lattice &lattice);
 
 /// The same part of the patient, up to a pixel, in pixels that are no smaller than `pixelMm`.
-Camera withPixelsOf(Camera camera, double pixelMm);
+Camera withPixelsAtLeast(Camera camera, double pixelMm);
+
+/// A quarter of a voxel: smaller pixels show only the smoothness of the reconstruction.
+inline double finestPixelMm(const volume::Lattice &lattice) {
+    return 0.25 * lattice.shortestStepMm();
+}
 
 /// The smallest even number of pixels, 2 or more, that covers `pixels`. An excess below 1e-6 is
 /// rounding.

@@ -13,7 +13,7 @@ namespace {
 
 // Lines that are measured in a slice, in pairs from one stratum.
 constexpr int linesDrawn = 64;
-// The margin of the estimated error, in standard errors: 1 of 700 normal estimates exceeds it.
+// The margin of the estimated error, in standard errors: 1 of 740 normal estimates exceeds it.
 constexpr double standardErrors = 3.0;
 // If none of n lines is bright, at most this many in n of all lines are, with 99 % confidence:
 // -ln .01.

@@ -377,8 +377,8 @@ TEST(ErrorSearch, PointsWhoseTailsLieOnALine) {
         }
 }
 
-// The line of a pattern in the lattice's own roll-off: the tails of all its samples add up. The
-// exact image must be of a period that is long enough for them.
+// The line of a pattern in the lattice's own roll-off: the tails of all its samples add up, so
+// the exact image needs a long period.
 TEST(ErrorSearch, PatternsWhoseTailsAddUp) {
     constexpr int side = 32;
     const auto lattice = volume::Lattice::centred({side, side, side}, {1, 1, 1});

@@ -34,7 +34,7 @@ void ErrorMeter::cancel() {
     m_next.reset();
 }
 
-// A frame of a view that moves takes every processor at once, whatever the measurement is at.
+// The measurement never delays a frame: it yields every processor.
 void ErrorMeter::run(const std::stop_token &stop) {
     task::lowerPriority();
     for (;;) {

@@ -32,7 +32,7 @@ public:
         std::uint64_t number = 0; ///< of the picture
     };
     void measure(Picture picture);
-    /// Ends the measurement within milliseconds.
+    /// Ends the measurement soon; does not wait.
     void cancel();
 
 signals:

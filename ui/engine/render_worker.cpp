@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 #include "core/task/error.h"
@@ -122,9 +121,9 @@ void RenderWorker::run(const std::stop_token &stop) {
         if (!request)
             continue;
         scene::Camera &camera = request->camera;
-        camera = scene::withPixelsOf(camera,
-                                     std::max(request->reduction.draft ? 2.0 * camera.pixelMm : 0.0,
-                                              request->reduction.finestPixelMm));
+        camera = scene::withPixelsAtLeast(
+            camera, std::max(request->reduction.draft ? 2.0 * camera.pixelMm : 0.0,
+                             request->reduction.finestPixelMm));
         makeFrame(*request);
     }
 }

@@ -83,8 +83,8 @@ public:
                                                   const scene::Camera &camera,
                                                   const scene::ImageDefinition &image,
                                                   const shading::Shading &shading);
-    /// The same for the whole period of a picture. *Throws* Cancelled if a frame is asked for
-    /// before it begins.
+    /// The same for the whole period of a picture. *Throws* Cancelled if a frame is waiting
+    /// when it would begin.
     std::future<picture::PeriodPicture> period(std::shared_ptr<render::ProjectionEngine> engine,
                                                const scene::Camera &camera,
                                                const scene::ImageDefinition &image,

@@ -21,9 +21,8 @@ constexpr int restMs = 120;
 // A hand that rests for so long has come to look.
 constexpr int checkMs = 300;
 // With one kernel, or on the card, a frame costs as much as its pixels. Its pixels are then no
-// smaller than a quarter of a voxel, or 1/4096 of the volume's diameter if that is less: smaller
-// ones would show only the smoothness of the reconstruction.
-constexpr double pixelsPerVoxel = 4.0, pixelsAcross = 4096.0;
+// smaller than `scene::finestPixelMm`, or so many across the volume if those are smaller.
+constexpr double pixelsAcross = 4096.0;
 
 QImage imageOf(const picture::ProjectionImage &image, const picture::Display &display) {
     const auto rgba = picture::compose(image, display);
@@ -132,7 +131,7 @@ void ProjectionFrames::request(bool moving) {
     // The picture that this one is compared with may be read by one kernel.
     const bool isAdaptive = plan.adaptiveError > 0.0 && !m_onCard && !m_isComparing;
     const double finest = isAdaptive ? 0.0
-                                     : std::min(lattice.shortestStepMm() / pixelsPerVoxel,
+                                     : std::min(scene::finestPixelMm(lattice),
                                                 2.0 * lattice.radiusMm() / pixelsAcross);
     shading::Shading shading = m_document.scene().shading;
     if (shading.isLit() && !m_prepared->canBeLit) // until light is prepared, the shading stays

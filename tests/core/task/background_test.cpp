@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include "core/task/background.h"
 
@@ -30,7 +31,9 @@ TEST(Background, LowersThePriorityOfItsThreadAlone) {
 TEST(Background, ParallelWorkStaysOnTheThread) {
     const std::thread::id here = std::this_thread::get_id();
     std::atomic<int> elsewhere = 0, all = 0;
+    int most = 0;
     task::onThisThread([&] {
+        most = tbb::this_task_arena::max_concurrency();
         tbb::parallel_for(0, 5000, [&](int) {
             ++all;
             if (std::this_thread::get_id() != here)
@@ -38,6 +41,7 @@ TEST(Background, ParallelWorkStaysOnTheThread) {
         });
     });
     EXPECT_EQ(all, 5000);
+    EXPECT_EQ(most, 1);
     EXPECT_EQ(elsewhere, 0);
 }
 
