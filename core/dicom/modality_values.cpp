@@ -81,7 +81,7 @@ bool writeWhole(std::span<const std::uint16_t> in, bool isSigned, const Padding 
     const std::int32_t flip = isSigned ? 0x8000 : 0; // extends the sign
     while (!in.empty()) {
         const std::size_t count = std::min(in.size(), codes.size());
-        // A copy, because the decoder may still change the samples: none is read twice.
+        // The decoder may still change the samples, so each is read once, into a copy.
         std::memcpy(code, in.data(), count * sizeof(std::uint16_t));
         std::atomic_signal_fence(std::memory_order_seq_cst);
         std::int32_t misfits = 0;

@@ -83,7 +83,7 @@ struct Judged {
     const picture::PeriodPicture &period;
     PictureSlice slice;
     FoldedTails folded;
-    /// Of the error that is expected in the part that is shown: aliases are where the body is,
+    /// The share of the error to expect in the shown part. Aliases are where the body is, and
     /// rounding is everywhere in the period.
     double share;
     double inBand = 0.0, beyondBand = 0.0; ///< energies; beyond the band, everything is an error

@@ -37,7 +37,7 @@ public:
 
     int socket() const { return m_socket.get(); }
     /// Waits briefly for the process to end, after its socket has closed. *Returns* the signal that
-    /// killed it, 0 if it exited; nothing while it still runs.
+    /// killed it, or 0 if it exited by itself; empty while it runs.
     std::optional<int> endSignal();
     /// Closes the socket, so that the process ends by itself; kills it if it takes longer.
     void endWithin(std::chrono::milliseconds patience);

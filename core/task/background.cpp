@@ -11,7 +11,7 @@ namespace pellucid::task {
 
 void lowerPriority() {
 #ifdef __linux__
-    // Of the thread alone: on Linux each has its own.
+    // On Linux, each thread has its own priority.
     setpriority(PRIO_PROCESS, id_t(gettid()), 19);
 #endif
 }
