@@ -29,6 +29,8 @@ public:
         QSvgRenderer(drawing).render(painter, rect);
     }
     QPixmap pixmap(const QSize &size, QIcon::Mode mode, QIcon::State state) override {
+        if (size.isEmpty()) // of a button that a narrow window has squeezed
+            return {};
         QPixmap pixmap(size);
         pixmap.fill(Qt::transparent);
         QPainter painter(&pixmap);
