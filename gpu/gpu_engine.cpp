@@ -36,6 +36,10 @@ std::shared_ptr<GpuEngine> GpuEngine::withoutLight() const {
     return engine;
 }
 
+std::shared_ptr<GpuEngine> GpuEngine::withOneWidth() const {
+    return std::make_shared<GpuEngine>(m_textures, m_channelWeights, m_setup->fieldOfView());
+}
+
 render::EngineParts GpuEngine::parts() const {
     return {m_textures->spectra(), m_channelWeights, m_setup->fieldOfView(),
             m_setup->adaptiveWidths()};

@@ -32,6 +32,8 @@ public:
     std::shared_ptr<GpuEngine>
     withChannelWeights(std::vector<render::ChannelWeights> channelWeights) const;
     std::shared_ptr<GpuEngine> withoutLight() const;
+    /// With one kernel for every frequency.
+    std::shared_ptr<GpuEngine> withOneWidth() const;
 
     task::Reason description() const override;
     render::EngineParts parts() const override;

@@ -148,17 +148,20 @@ bool SceneRenderer::boundMeetsTolerance() const {
     return known && known->relative <= m_scene.tolerance;
 }
 
-// The error that must not exceed the tolerance. Where in the body an error lies is not known: all
-// of it may be in the part that is shown.
-double SceneRenderer::judgedError() const {
-    return m_wasWhole ? m_lastError.relative : m_lastError.high;
+// Whether the last picture may miss the tolerance although the plan keeps it.
+bool SceneRenderer::missesTolerance() const {
+    return m_lastError.isMeasured() && judgedError() > m_scene.tolerance && boundMeetsTolerance();
 }
 
-// Whether the last picture may miss the tolerance although the plan keeps it, and a closer plan may
-// help.
 bool SceneRenderer::mayPlanCloser() const {
-    return m_lastError.isMeasured() && judgedError() > m_scene.tolerance && boundMeetsTolerance() &&
-           m_scene.interpolation.isPlanned() && m_scene.plannedFor != scene::PlannedFor::volume;
+    return missesTolerance() && m_scene.interpolation.isPlanned() &&
+           m_scene.plannedFor != scene::PlannedFor::volume;
+}
+
+void SceneRenderer::useOneWidth() {
+    m_prepared = prepare::withOneWidth(*m_prepared);
+    if (m_onCard)
+        m_onCard = m_onCard->withOneWidth();
 }
 
 const classify::ShownFields &SceneRenderer::studyFields() {
@@ -168,10 +171,15 @@ const classify::ShownFields &SceneRenderer::studyFields() {
 }
 
 // The plan is for the whole volume. The error of a part that contains little is known only after
-// rendering it; if it may miss the tolerance, plan again with a smaller one, while that helps.
+// rendering it; if it may miss the tolerance, render it with one kernel, then plan again, while
+// that helps.
 picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera, Check check) {
     m_progress.check();
     picture::ProjectionImage image = make(camera, check);
+    if (missesTolerance() && prepare::choosesWidths(*m_prepared)) {
+        useOneWidth();
+        image = make(camera, check);
+    }
     for (int tries = 0; tries < 3 && mayPlanCloser(); ++tries) {
         const double before = judgedError();
         m_planned.tolerance *= 0.8 * m_scene.tolerance / before;

@@ -104,8 +104,10 @@ private:
     bool isExact() const { return m_prepared->exact != nullptr; }
     bool boundMeetsTolerance() const;
     std::size_t bytesForLight() const;
-    double judgedError() const;
+    double judgedError() const { return m_lastError.judged(m_wasWhole); }
+    bool missesTolerance() const;
     bool mayPlanCloser() const;
+    void useOneWidth();
     picture::ProjectionImage make(const scene::Camera &camera, Check check);
     std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera);
     void measure(const scene::Camera &camera);

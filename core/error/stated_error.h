@@ -16,6 +16,9 @@ struct StatedError {
     int frequencies = 0; ///< that were summed for a measurement
 
     static StatedError atMost(double bound) { return {.relative = bound, .high = bound}; }
+    /// The figure that must not exceed a tolerance. Where in the body an error lies is not known:
+    /// all of it may be in the part that a picture shows.
+    double judged(bool isWhole) const { return isWhole ? relative : high; }
     bool isMeasured() const { return kind == Kind::measured; }
     bool operator==(const StatedError &) const = default;
 };

@@ -380,4 +380,11 @@ void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
     plan.predictedError = scene.tolerance;
 }
 
+RenderPlan withOneWidth(RenderPlan plan) {
+    plan.predictedError = std::sqrt(std::max(0.0, plan.predictedError * plan.predictedError -
+                                                      plan.adaptiveError * plan.adaptiveError));
+    plan.adaptiveError = plan.adaptiveTolerance = 0.0;
+    return plan;
+}
+
 } // namespace pellucid::plan

@@ -47,6 +47,9 @@ struct RenderPlan {
     scene::ImageDefinition image; ///< for which these are
 };
 
+/// The same plan with one kernel for every frequency.
+RenderPlan withOneWidth(RenderPlan plan);
+
 /// The kernel, padding of each axis and slice grid that take the least time for all pictures,
 /// preparation included, with a predicted error within the scene's tolerance. Cells are binary16 if
 /// these meet it or, where preparation takes most of the time, float. If the plan is adaptive, it

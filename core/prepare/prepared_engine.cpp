@@ -62,6 +62,13 @@ ShadedFields reduced(const ShadedFields &fields, int reduction, const shading::S
     return shadedFields(std::move(means), shading, fields.scale);
 }
 
+std::shared_ptr<render::CpuEngine> engineOf(render::EngineParts parts) {
+    auto engine = std::make_shared<render::CpuEngine>(std::move(parts.spectra), parts.fieldOfView);
+    engine->setWidths(std::move(parts.adaptive));
+    engine->setChannelWeights(std::move(parts.channelWeights));
+    return engine;
+}
+
 } // namespace
 
 void requireWithin(std::size_t needed, const plan::Budget &budget) {
@@ -152,10 +159,7 @@ std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan:
     }
     render::EngineSpectra spectra = spectraOf(std::move(channels), plan, progress);
     auto widths = adaptiveWidths(spectra, plan, progress);
-    auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
-    engine->setWidths(std::move(widths));
-    engine->setChannelWeights(std::move(weights));
-    return engine;
+    return engineOf({std::move(spectra), std::move(weights), plan.fieldOfView, std::move(widths)});
 }
 
 PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progress) {
@@ -214,12 +218,19 @@ std::optional<error::StatedError> boundOf(const PreparedEngine &prepared,
     return error::StatedError::atMost(prepared.plan.predictedError * gain);
 }
 
+PreparedEngine withOneWidth(const PreparedEngine &prepared) {
+    PreparedEngine uniform = prepared;
+    uniform.plan = plan::withOneWidth(prepared.plan);
+    render::EngineParts parts = prepared.engine->parts();
+    parts.adaptive.reset();
+    uniform.engine = engineOf(std::move(parts));
+    return uniform;
+}
+
 PreparedEngine withoutLight(const PreparedEngine &prepared) {
     render::EngineParts parts = prepared.engine->parts();
     parts.spectra.gradients.clear();
-    auto engine = std::make_shared<render::CpuEngine>(std::move(parts.spectra), parts.fieldOfView);
-    engine->setWidths(std::move(parts.adaptive));
-    engine->setChannelWeights(std::move(parts.channelWeights));
+    auto engine = engineOf(std::move(parts));
     PreparedEngine unlit = prepared;
     unlit.bytes = engine->bytes();
     unlit.plan.bytes -= prepared.bytes - unlit.bytes;

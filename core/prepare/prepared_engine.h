@@ -91,6 +91,14 @@ PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progre
 std::optional<error::StatedError> boundOf(const PreparedEngine &prepared,
                                           const scene::ImageDefinition &image);
 
+/// Whether frames choose the widths of their kernels, within the tolerance of the whole volume.
+inline bool choosesWidths(const PreparedEngine &prepared) {
+    return prepared.plan.adaptiveError > 0.0;
+}
+
+/// The same engine with one kernel for every frequency: slower, and more accurate.
+PreparedEngine withOneWidth(const PreparedEngine &prepared);
+
 /// The same engine without its lights; its error is at most what it was with them.
 PreparedEngine withoutLight(const PreparedEngine &prepared);
 

@@ -111,6 +111,31 @@ TEST_F(Cli, PlansAPartOfAPictureMoreClosely) {
     EXPECT_LT(planned[84.0], 0.7 * planned[56.0]); // the middle is not planned again
 }
 
+// The plan of the workstation's scene stays, because one engine serves every view; a part that may
+// miss the tolerance is read by one kernel.
+TEST_F(Cli, ReadsAPartOfAWorkstationsPictureByOneKernel) {
+    const fs::path series = phantomFolder("--kind head --size 160x160x40"),
+                   file = folder / "part.json";
+    const auto figures = [&](double pixelMm, double panMm) {
+        scene::Scene scene;
+        scene.camera = {
+            scene::viewOrientation(scene::StandardView::front), pixelMm, 40, 40, {panMm, 0.0}};
+        scene.plannedFor = scene::PlannedFor::volume;
+        std::ofstream(file) << scene::toJson(scene);
+        const auto r = cli("render " + quoted(series) + " -o " + quoted(folder / "part.npy") +
+                           " --json --scene " + quoted(file));
+        EXPECT_EQ(r.exitCode, 0) << r.error;
+        return json::parse(r.out);
+    };
+    const json whole = figures(10.0, 0.0), beside = figures(0.5, 80.0);
+    EXPECT_GT(whole["plan"]["kernel_widths"].size(), 1u);
+    EXPECT_EQ(beside["plan"]["kernel_widths"].size(), 1u);
+    EXPECT_EQ(beside["plan"]["adaptive_error"], 0.0);
+    EXPECT_EQ(beside["plan"]["padded"], whole["plan"]["padded"]);
+    EXPECT_EQ(beside["plan"]["kernel"], whole["plan"]["kernel"]);
+    EXPECT_LT(beside["plan"]["predicted_error"], whole["plan"]["predicted_error"]);
+}
+
 TEST_F(Cli, MeasuresTheErrorsThatAreAskedFor) {
     const fs::path series = phantomFolder("--kind head --size 24x24x12"), out = folder / "p.npy";
     const auto measured = [&](const std::string &more) {

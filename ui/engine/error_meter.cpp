@@ -55,12 +55,14 @@ void ErrorMeter::run(const std::stop_token &stop) {
 void ErrorMeter::measureOne(Picture &picture, const std::stop_token &stop) {
     try {
         const picture::PeriodPicture period = picture.period.get();
-        const auto report = [&](const error::StatedError &error) {
+        const auto report = [&](const error::StatedError &error, bool isLast) {
             if (!stop.stop_requested())
-                emit measured(picture.number, error);
+                emit measured(picture.number, error, isLast);
         };
-        report(prepare::measuredError(picture.study, picture.scale, period, picture.image,
-                                      picture.shading, {}, task::Progress(stop), report));
+        const error::StatedError last = prepare::measuredError(
+            picture.study, picture.scale, period, picture.image, picture.shading, {},
+            task::Progress(stop), [&](const error::StatedError &error) { report(error, false); });
+        report(last, true);
     } catch (const task::Cancelled &) {   // the view has moved
     } catch (const std::future_error &) { // the window closes
     } catch (...) {

@@ -36,9 +36,9 @@ public:
     void cancel();
 
 signals:
-    /// Comes again while the interval becomes narrower. Nothing comes of a picture that cannot be
-    /// measured.
-    void measured(std::uint64_t number, const pellucid::error::StatedError &error);
+    /// Comes again while the interval becomes narrower, `isLast` once. Nothing comes of a picture
+    /// that cannot be measured.
+    void measured(std::uint64_t number, const pellucid::error::StatedError &error, bool isLast);
 
 private:
     void run(const std::stop_token &stop);

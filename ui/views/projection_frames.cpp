@@ -6,6 +6,7 @@
 
 #include <QCoreApplication>
 
+#include "core/error/shown_part.h"
 #include "ui/document/document.h"
 #include "ui/language/reasons.h"
 
@@ -40,11 +41,13 @@ ProjectionFrames::ProjectionFrames(Document &document)
     m_check.setInterval(checkMs);
     connect(&m_check, &QTimer::timeout, this, &ProjectionFrames::measureError);
     connect(&m_meter, &ErrorMeter::measured, this,
-            [this](std::uint64_t number, const error::StatedError &error) {
+            [this](std::uint64_t number, const error::StatedError &error, bool isLast) {
                 if (!m_frame || m_frame->number != number)
                     return;
                 m_error = error;
                 emit errorMeasured(error);
+                if (isLast && needsOneWidth())
+                    useOneWidth();
             });
     connect(&m_worker, &RenderWorker::frameReady, this, &ProjectionFrames::take);
     connect(&m_worker, &RenderWorker::failed, this, [this](const task::Reason &reason) {
@@ -55,15 +58,17 @@ ProjectionFrames::ProjectionFrames(Document &document)
 }
 
 bool ProjectionFrames::setEngine(const ShownEngine &shown, EngineStage stage) {
-    if (m_prepared && m_prepared->engine == shown.prepared.engine && m_onCard == shown.onCard &&
-        m_stage == stage && m_engineReason == shown.reason) {
+    const bool isSame = m_engine && m_engine->prepared.engine == shown.prepared.engine &&
+                        m_engine->onCard == shown.onCard && m_stage == stage &&
+                        m_engine->reason == shown.reason;
+    m_engine = shown;
+    m_uniform.reset();
+    if (isSame) {
         // Frames that are underway remain valid.
-        m_prepared = shown.prepared;
-        m_worker.setEngine(shown.prepared, shown.onCard, m_generation);
+        giveToWorker();
         request(m_rest.isActive());
         return false;
     }
-    m_prepared = shown.prepared;
     // Weights that move are meant to change the brightness. Other fields, and the full ones after
     // the coarse ones, have a brightness of their own.
     const bool sameFields = stage == EngineStage::live || stage == EngineStage::settled;
@@ -76,11 +81,13 @@ bool ProjectionFrames::setEngine(const ShownEngine &shown, EngineStage stage) {
     if (stage != EngineStage::live || m_stage != EngineStage::live)
         ++m_generation;
     m_stage = stage;
-    m_worker.setEngine(shown.prepared, shown.onCard, m_generation);
-    m_onCard = shown.onCard;
-    m_engineReason = shown.reason;
+    giveToWorker();
     request(false);
     return true;
+}
+
+void ProjectionFrames::giveToWorker() {
+    m_worker.setEngine(used().prepared, used().onCard, m_generation);
 }
 
 void ProjectionFrames::setPlanState(PlanState state) {
@@ -90,8 +97,8 @@ void ProjectionFrames::setPlanState(PlanState state) {
 }
 
 bool ProjectionFrames::forgetVolume() {
-    m_prepared.reset();
-    m_onCard.reset();
+    m_engine.reset();
+    m_uniform.reset();
     m_worker.setEngine(std::nullopt, nullptr, ++m_generation);
     m_planState = PlanState::holds;
     m_comparison.forget();
@@ -122,19 +129,46 @@ void ProjectionFrames::retakeExposure() {
 void ProjectionFrames::request(bool moving) {
     m_check.stop();
     m_meter.cancel();
-    if (!m_prepared)
+    if (!m_engine)
         return;
+    if (m_uniform) {
+        m_uniform.reset();
+        giveToWorker();
+    }
+    requestFrame(moving);
+}
+
+// Widths are chosen within the tolerance of the whole volume: a part of it may miss that, and one
+// kernel for every frequency brings it closer.
+bool ProjectionFrames::needsOneWidth() const {
+    const prepare::PreparedEngine &prepared = m_engine->prepared;
+    const scene::Scene &scene = m_document.scene();
+    return !m_uniform && !m_pending && !m_isComparing && prepare::choosesWidths(prepared) &&
+           prepare::boundOf(prepared, scene.image) &&
+           m_error->judged(error::showsAllOf(prepared.plan.spectrum.box, prepared.lattice,
+                                             m_frame->camera)) > scene.tolerance;
+}
+
+void ProjectionFrames::useOneWidth() {
+    const auto &onCard = m_engine->onCard;
+    m_uniform = {prepare::withOneWidth(m_engine->prepared),
+                 onCard ? onCard->withOneWidth() : nullptr, m_engine->reason};
+    giveToWorker();
+    requestFrame(false);
+}
+
+void ProjectionFrames::requestFrame(bool moving) {
+    const prepare::PreparedEngine &prepared = used().prepared;
     const bool draft = moving && m_fullFrameMs > smoothFrameMs;
     m_pending = true;
-    const plan::RenderPlan &plan = m_prepared->plan;
     const volume::Lattice &lattice = m_document.volume()->lattice();
     // The picture that this one is compared with may be read by one kernel.
-    const bool isAdaptive = plan.adaptiveError > 0.0 && !m_onCard && !m_isComparing;
+    const bool isAdaptive = prepare::choosesWidths(prepared) && !used().onCard && !m_isComparing;
     const double finest = isAdaptive ? 0.0
                                      : std::min(scene::finestPixelMm(lattice),
                                                 2.0 * lattice.radiusMm() / pixelsAcross);
     shading::Shading shading = m_document.scene().shading;
-    if (shading.isLit() && !m_prepared->canBeLit) // until light is prepared, the shading stays
+    if (shading.isLit() && !prepared.canBeLit) // until light is prepared, the shading stays
         shading = m_drawnShading;
     else
         m_tone.follow(shading, m_document.scene());
@@ -153,7 +187,7 @@ void ProjectionFrames::request(bool moving) {
 }
 
 void ProjectionFrames::take(const std::shared_ptr<const RenderedFrame> &frame) {
-    if (!m_prepared ||
+    if (!m_engine ||
         frame->generation != m_generation) // of a closed volume, or of the coarse engine
         return;
     // It was requested before the exposure was: the next frame has one.
@@ -177,10 +211,10 @@ void ProjectionFrames::take(const std::shared_ptr<const RenderedFrame> &frame) {
             return; // the frame of the moved view follows
     }
     m_frame = frame;
-    m_error = prepare::boundOf(*m_prepared, m_document.scene().image);
+    m_error = prepare::boundOf(used().prepared, m_document.scene().image);
     m_frameStage = m_stage;
     m_pending = m_rest.isActive() || frame->number != m_requested;
-    if (!frame->draft) {
+    if (!frame->draft && !m_uniform) {
         m_fullFrameMs = frame->times.totalMs() / (m_isFirstOfKind ? firstFrameFactor : 1.0);
         m_isFirstOfKind = false;
     }
@@ -188,8 +222,8 @@ void ProjectionFrames::take(const std::shared_ptr<const RenderedFrame> &frame) {
     if (showsFinalImage()) {
         if (m_planState == PlanState::holds) {
             m_document.setExposure(m_tone.exposure());
-            m_comparison.settled({m_prepared->engine, m_document.scene().image, m_drawnShading,
-                                  shownTone(), m_lookName});
+            m_comparison.settled({m_engine->prepared.engine, m_document.scene().image,
+                                  m_drawnShading, shownTone(), m_lookName});
         }
         emit finalShown();
     }
@@ -199,19 +233,20 @@ void ProjectionFrames::take(const std::shared_ptr<const RenderedFrame> &frame) {
 
 // Not while the engine that follows is being prepared: the processor has enough to do.
 void ProjectionFrames::measureError() {
-    if (!m_frame || !m_prepared || !m_prepared->study || m_pending ||
+    if (!m_frame || !m_engine || !m_engine->prepared.study || m_pending ||
         m_planState == PlanState::underway)
         return;
-    std::shared_ptr<render::ProjectionEngine> engine = m_prepared->engine;
-    if (m_frame->onCard && m_onCard)
-        engine = m_onCard;
+    const auto &[prepared, onCard, reason] = used();
+    std::shared_ptr<render::ProjectionEngine> engine = prepared.engine;
+    if (m_frame->onCard && onCard)
+        engine = onCard;
     shading::Shading shading = m_drawnShading;
-    if (!m_prepared->canBeLit)
+    if (!prepared.canBeLit)
         shading.lights.clear();
     const scene::ImageDefinition &image = m_document.scene().image;
     const volume::Lattice &lattice = m_document.volume()->lattice();
     const scene::Camera camera = prepare::checkedCamera(m_frame->camera, lattice);
-    m_meter.measure({m_worker.period(engine, camera, image, shading), m_prepared->study,
+    m_meter.measure({m_worker.period(engine, camera, image, shading), prepared.study,
                      shading::shadingScale(lattice), image, shading, m_frame->number});
 }
 
@@ -220,10 +255,11 @@ DescribedFrame ProjectionFrames::described() const {
 }
 
 QString ProjectionFrames::engineText() const {
+    const auto &[prepared, onCard, reason] = used();
     const task::Reason engine =
-        m_frame->onCard && m_onCard ? m_onCard->description() : m_prepared->engine->description();
+        m_frame->onCard && onCard ? onCard->description() : prepared.engine->description();
     return QCoreApplication::translate("ProjectionView", "%1: %2")
-        .arg(translated(engine), translated(m_frame->refusal.value_or(m_engineReason)));
+        .arg(translated(engine), translated(m_frame->refusal.value_or(reason)));
 }
 
 scene::Tone ProjectionFrames::shownTone() const {
@@ -249,8 +285,8 @@ QImage ProjectionFrames::picture() const {
 
 std::function<picture::ProjectionImage(const scene::Camera &)> ProjectionFrames::renderer() {
     return
-        [this, engine = m_prepared ? m_prepared->engine : nullptr, image = m_document.scene().image,
-         shading = m_drawnShading](const scene::Camera &camera) {
+        [this, engine = m_engine ? used().prepared.engine : nullptr,
+         image = m_document.scene().image, shading = m_drawnShading](const scene::Camera &camera) {
             return m_worker.picture(engine, camera, image, shading).get();
         };
 }

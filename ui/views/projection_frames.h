@@ -107,8 +107,14 @@ signals:
                     const std::shared_ptr<pellucid::gpu::FramePasses> &passes);
 
 private:
+    /// The engine of the frame that was requested last.
+    const ShownEngine &used() const { return m_uniform ? *m_uniform : *m_engine; }
+    void giveToWorker();
+    void requestFrame(bool moving);
     void take(const std::shared_ptr<const RenderedFrame> &frame);
     void measureError();
+    bool needsOneWidth() const;
+    void useOneWidth();
 
     Document &m_document;
     ErrorMeter m_meter; ///< outlives the worker, which makes its pictures
@@ -116,9 +122,10 @@ private:
     LookComparison m_comparison;
     QTimer m_rest;
     QTimer m_check; ///< a picture rests: its error is measured
-    std::optional<prepare::PreparedEngine> m_prepared;
-    std::shared_ptr<gpu::GpuEngine> m_onCard;
-    task::Reason m_engineReason = task::because::processorChosen; ///< of the shown engine
+    std::optional<ShownEngine> m_engine;
+    /// The same with one kernel for every frequency, for a picture at rest that misses the
+    /// tolerance.
+    std::optional<ShownEngine> m_uniform;
     EngineStage m_stage = EngineStage::coarse;
     PlanState m_planState = PlanState::holds;
     /// The frame on the screen. A new engine has not made it yet.
