@@ -16,7 +16,7 @@
 
 #include "app/bench/suites.h"
 #include "app/exit_code.h"
-#include "core/decoder/read_volume_file.h"
+#include "core/decoding/client/read_volume_file.h"
 #include "core/files/atomic_file.h"
 #include "core/reference/wide_kernel.h"
 #include "core/system/memory.h"
@@ -45,7 +45,7 @@ void save(const std::string &path, const std::string &text) {
 
 pellucid::bench::Subject readSubject(const std::string &path) {
     using namespace pellucid;
-    const auto volume = decoder::readVolumeFile(path);
+    const auto volume = decoding::readVolumeFile(path);
     bench::Subject subject{std::filesystem::path(path).stem().string(),
                            classify::densityField(volume, classify::defaultFieldWindow(volume))};
     // The exact reference needs by far the most memory.

@@ -64,7 +64,7 @@ archive::SearchTerms termsFrom(const std::vector<std::string> &texts) {
                 ErrorCode::usage,
                 because::inWords(
                     "--find: 'series' needs 'study', and cannot be combined with any other term"));
-        terms.level = exchange::Level::series;
+        terms.level = network::Level::series;
     }
     archive::queryOf(terms, 0); // checks the values
     return terms;

@@ -31,15 +31,15 @@
 #include "core/archive/sending.h"
 #include "core/batch/reasons.h"
 #include "core/batch/study_results.h"
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/reasons.h"
-#include "core/exchange/link.h"
 #include "core/files/atomic_file.h"
 #include "core/files/reasons.h"
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/files/video_file.h"
 #include "core/fourier/transforms/wisdom.h"
+#include "core/network/client/link.h"
 #include "core/system/content_digest.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
@@ -149,8 +149,8 @@ private:
         m_receiver = serverNamed(m_options.sendTo, m_context);
         const task::Progress progress(m_context.stop);
         task::naming(m_receiver->name, [&] {
-            archive::withLogin(*m_receiver, progress, [&](const exchange::Peer &peer) {
-                exchange::Link link(exchange::Connection{peer, exchange::Purpose::echo}, progress);
+            archive::withLogin(*m_receiver, progress, [&](const network::Peer &peer) {
+                network::Link link(network::Connection{peer, network::Purpose::echo}, progress);
                 link.echo(progress);
             });
         });

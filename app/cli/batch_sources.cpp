@@ -10,7 +10,7 @@
 #include "app/cli/servers.h"
 #include "core/archive/retrieval.h"
 #include "core/batch/reasons.h"
-#include "core/decoder/decoder.h"
+#include "core/decoding/client/decoder.h"
 #include "core/dicom/file_list.h"
 #include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
@@ -26,7 +26,7 @@ namespace {
 
 namespace because = task::because;
 namespace fs = std::filesystem;
-namespace tag = exchange::tag;
+namespace tag = network::tag;
 
 // A name for a folder: letters, digits and signs that are safe everywhere.
 std::string safeName(const std::string &text) {
@@ -88,7 +88,7 @@ public:
         for (std::size_t n = 0; n < m_index.studies.size(); ++n) {
             const dicom::IndexedStudy &study = m_index.studies[n];
             items.push_back(
-                {exchange::isUid(study.uid) ? study.uid : keyOf(m_names.named(study.files.front())),
+                {network::isUid(study.uid) ? study.uid : keyOf(m_names.named(study.files.front())),
                  n});
         }
         std::stable_sort(items.begin(), items.end(),
@@ -157,9 +157,9 @@ public:
     }
 
     std::vector<BatchItem> list() override {
-        decoder::Decoder::shared().beginOpening();
+        decoding::Decoder::shared().beginOpening();
         archive::SearchTerms terms = m_terms;
-        terms.level = exchange::Level::study;
+        terms.level = network::Level::study;
         terms.seriesUid.clear();
         std::vector<BatchItem> items;
         for (const archive::FoundEntry &entry : found(terms))
@@ -230,7 +230,7 @@ private:
         archive::SearchTerms terms;
         terms.studyUid = item.studyUid;
         terms.seriesUid = m_terms.seriesUid;
-        terms.level = exchange::Level::series;
+        terms.level = network::Level::series;
         const std::vector<archive::FoundEntry> series = found(terms);
         if (series.empty())
             throw task::Error(task::ErrorCode::unusable, because::holdsNoUsableImages);

@@ -15,7 +15,7 @@ namespace pellucid::cli {
 namespace {
 
 namespace because = task::because;
-namespace tag = exchange::tag;
+namespace tag = network::tag;
 using task::Error;
 using task::ErrorCode;
 
@@ -24,7 +24,7 @@ std::vector<std::string> seriesNumbered(const archive::Server &server, const std
                                         const std::string &number, const task::Progress &progress) {
     archive::SearchTerms terms;
     terms.studyUid = studyUid;
-    terms.level = exchange::Level::series;
+    terms.level = network::Level::series;
     archive::Server all = server;
     all.limit = 0;
     const archive::SearchResult found = archive::search({all}, terms, {}, progress);
@@ -64,9 +64,9 @@ void requirePathOrServer(bool hasPath, const RemoteOptions &options) {
 
 FetchedStudy::FetchedStudy(const RemoteOptions &remote, const std::string &series,
                            const Context &context) {
-    if (!exchange::isUid(remote.studyUid))
+    if (!network::isUid(remote.studyUid))
         throw Error(ErrorCode::usage, because::isNoUid(remote.studyUid));
-    if (!series.empty() && !exchange::isUid(series)) // a number has the form of a UID, too
+    if (!series.empty() && !network::isUid(series)) // a number has the form of a UID, too
         throw Error(ErrorCode::usage, because::isNoUid(series));
     const archive::Server server = serverNamed(remote.server, context);
     const task::Progress progress(context.stop);

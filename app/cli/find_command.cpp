@@ -18,8 +18,8 @@ namespace pellucid::cli {
 
 namespace {
 
-namespace tag = exchange::tag;
-using exchange::Level;
+namespace tag = network::tag;
+using network::Level;
 
 struct Options {
     std::vector<std::string> names;

@@ -76,10 +76,10 @@ void run(TransferLog &log, std::int64_t id, const Options &o, const Context &con
 }
 
 void get(const Options &o, const Context &context) {
-    if (!exchange::isUid(o.wanted.studyUid))
+    if (!network::isUid(o.wanted.studyUid))
         throw task::Error(task::ErrorCode::usage, task::because::isNoUid(o.wanted.studyUid));
     for (const std::string &uid : o.wanted.seriesUids)
-        if (!exchange::isUid(uid))
+        if (!network::isUid(uid))
             throw task::Error(task::ErrorCode::usage, task::because::isNoUid(uid));
     archive::ServerList::ofUser().get(o.name); // before anything is written
     Transfer transfer;

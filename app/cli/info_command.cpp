@@ -13,7 +13,7 @@
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
 #include "app/cli/terminal.h"
-#include "core/decoder/decoder.h"
+#include "core/decoding/client/decoder.h"
 #include "core/dicom/scan.h"
 #include "core/segment/segmentation.h"
 #include "core/task/error.h"
@@ -203,10 +203,10 @@ void printHeaders(const std::vector<std::filesystem::path> &paths, bool asJson,
                   const Context &context) {
     json all = json::array();
     for (const std::filesystem::path &path : paths) {
-        const decoder::AttributeList list =
-            decoder::Decoder::shared().attributes(path, task::Progress(context.stop));
+        const decoding::AttributeList list =
+            decoding::Decoder::shared().attributes(path, task::Progress(context.stop));
         json attributes = json::array();
-        for (const decoder::Attribute &a : list.attributes) {
+        for (const decoding::Attribute &a : list.attributes) {
             const std::string indent(2 * std::size_t(a.depth), ' ');
             if (asJson)
                 attributes.push_back({{"depth", a.depth},

@@ -13,14 +13,15 @@
 #include "app/cli/reason_lines.h"
 #include "app/cli/reasons.h"
 #include "app/cli/terminal.h"
-#include "core/decoder/decoder.h"
-#include "core/decoder/read_volume_file.h"
-#include "core/decoder/reasons.h"
+#include "core/confined/protection.h"
+#include "core/confined/reasons.h"
+#include "core/decoding/client/decoder.h"
+#include "core/decoding/client/read_volume_file.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/files/file_ids.h"
-#include "core/helper/protection.h"
-#include "core/helper/reasons.h"
+#include "core/files/reasons.h"
 #include "core/subtraction/difference.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
@@ -62,7 +63,7 @@ void requireNotRead(const std::vector<std::filesystem::path> &outs,
         for (const dicom::InstanceFile &file : s.series->files)
             check(file.path);
         if (!s.volume->volumeFile.empty())
-            check(decoder::readVolumeFileHeader(s.volume->volumeFile).samplesFile);
+            check(decoding::readVolumeFileHeader(s.volume->volumeFile).samplesFile);
     }
 }
 
@@ -183,12 +184,12 @@ void addProtectionOption(CLI::App &command, bool &allowsUnprotected) {
 void requireProtection(const std::string &command, bool allowsUnprotected) {
     if (allowsUnprotected)
         return;
-    helper::whenUnprotected([command] {
+    confined::whenUnprotected([command] {
         throw task::Error(task::ErrorCode::usage,
                           task::because::systemDoesNotProtectUnattended(
                               task::because::systemDoesNotProtect, command));
     });
-    decoder::Decoder::shared().confinement(); // before any other work
+    decoding::Decoder::shared().confinement(); // before any other work
 }
 
 void addLargeOption(CLI::App &command, bool &large) {

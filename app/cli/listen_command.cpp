@@ -37,7 +37,7 @@ std::vector<archive::Sender> knownSenders() {
     std::vector<archive::Sender> senders;
     const auto list = archive::ServerList::ofUser();
     for (const archive::Server &server : list.servers())
-        if (server.peer.protocol == exchange::Protocol::dicom)
+        if (server.peer.protocol == network::Protocol::dicom)
             for (const std::string &host : archive::hostsOf(server))
                 senders.push_back({server.peer.calledAe, host});
     return senders;

@@ -13,11 +13,11 @@
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
 #include "app/exit_code.h"
+#include "core/confined/protection.h"
+#include "core/confined/reasons.h"
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/transforms/wisdom.h"
-#include "core/helper/protection.h"
-#include "core/helper/reasons.h"
 #include "core/system/hidden_memory.h"
 #include "core/task/error.h"
 #include "core/task/progress.h"
@@ -58,7 +58,7 @@ int run(int argc, char **argv) {
     std::signal(SIGPIPE, SIG_IGN);
     const cli::Context context{stopOnInterrupt().get_token()};
 
-    helper::whenUnprotected([isReported = false]() mutable {
+    confined::whenUnprotected([isReported = false]() mutable {
         if (!std::exchange(isReported, true))
             cli::warn(task::Reason(task::because::systemDoesNotProtect).english());
     });

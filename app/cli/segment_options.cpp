@@ -9,7 +9,7 @@
 #include "app/cli/input.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/terminal.h"
-#include "core/decoder/read_volume_file.h"
+#include "core/decoding/client/read_volume_file.h"
 #include "core/files/file_ids.h"
 #include "core/preprocess/segment_class.h"
 #include "core/task/error.h"
@@ -88,7 +88,7 @@ std::shared_ptr<const segment::SegmentSet> loadSegments(const std::vector<std::s
         if (!read.insert(fs::weakly_canonical(file, unknown)).second)
             throw Error(ErrorCode::usage, because::inWords("--segmentation: is given twice"), file);
         const fs::path samples = volume::isVolumeFile(file)
-                                     ? decoder::readVolumeFileHeader(file).samplesFile
+                                     ? decoding::readVolumeFileHeader(file).samplesFile
                                      : fs::path(file);
         for (const fs::path &input : {fs::path(file), samples})
             if (const auto out = outputs.find(input))

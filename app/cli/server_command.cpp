@@ -15,7 +15,7 @@
 #include "app/cli/terminal.h"
 #include "core/archive/login.h"
 #include "core/archive/server.h"
-#include "core/exchange/link.h"
+#include "core/network/client/link.h"
 #include "core/task/error.h"
 #include "core/task/naming.h"
 #include "core/task/reasons.h"
@@ -25,8 +25,8 @@ namespace pellucid::cli {
 namespace {
 
 using archive::Server;
-using exchange::Authentication;
-using exchange::Step;
+using network::Authentication;
+using network::Step;
 
 // The words of options and of JSON.
 constexpr std::array methods{std::pair("automatic", archive::RetrieveMethod::automatic),
@@ -70,7 +70,7 @@ void add(const Options &o) {
     Server server;
     server.name = o.name;
     server.peer = o.dicom.empty() ? archive::webPeer(o.web) : archive::dicomPeer(o.dicom);
-    exchange::Peer &peer = server.peer;
+    network::Peer &peer = server.peer;
     peer.callingAe = o.callingAe;
     if (!o.dicom.empty())
         peer.usesTls = o.tls == "on";
@@ -99,7 +99,7 @@ void add(const Options &o) {
 
 // All settings; never a secret.
 nlohmann::json jsonOf(const Server &server) {
-    const exchange::Peer &peer = server.peer;
+    const network::Peer &peer = server.peer;
     const archive::LoginSettings &login = server.loginSettings;
     return {{"name", server.name},
             {"address", archive::addressOf(peer)},
@@ -127,14 +127,14 @@ nlohmann::json jsonOf(const Server &server) {
 
 // Its settings that differ from the default.
 std::string lineOf(const Server &server) {
-    const exchange::Peer &peer = server.peer;
+    const network::Peer &peer = server.peer;
     const Server usual;
     std::string line = fmt::format("{:<20}  {}", server.name, archive::addressOf(peer));
     const auto add = [&](bool differs, const std::string &text) {
         if (differs)
             line += "  " + text;
     };
-    add(peer.usesTls && peer.protocol == exchange::Protocol::dicom, "TLS");
+    add(peer.usesTls && peer.protocol == network::Protocol::dicom, "TLS");
     add(peer.callingAe != usual.peer.callingAe, "calling AE " + peer.callingAe);
     add(server.retrieve != usual.retrieve,
         std::string("retrieve ") + wordFor(server.retrieve, methods));
@@ -193,9 +193,8 @@ void test(const Options &o, const Context &context, bool isVerbose) {
             std::puts(printable(fmt::format("{:<12} {}", nameOf(step), found)).c_str());
     };
     task::naming(server.name, [&] {
-        archive::withLogin(server, progress, [&](const exchange::Peer &peer) {
-            exchange::Link link(exchange::Connection{peer, exchange::Purpose::echo}, progress,
-                                print);
+        archive::withLogin(server, progress, [&](const network::Peer &peer) {
+            network::Link link(network::Connection{peer, network::Purpose::echo}, progress, print);
             link.echo(progress, print);
         });
     });

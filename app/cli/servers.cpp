@@ -41,14 +41,14 @@ std::vector<archive::Server> serversNamed(const std::vector<std::string> &names,
     std::vector<archive::Server> servers;
     for (const std::string &name : names) {
         archive::Server server = list.get(name);
-        task::naming(name, [&] { exchange::requireSecureLogin(server.peer); }); // before asking
-        if (server.peer.authentication == exchange::Authentication::basic)
+        task::naming(name, [&] { network::requireSecureLogin(server.peer); }); // before asking
+        if (server.peer.authentication == network::Authentication::basic)
             server.peer.secret = askHidden(
                 fmt::format("Password of {} at {}: ", server.peer.user, server.name), context.stop);
-        else if (server.peer.authentication == exchange::Authentication::bearer)
+        else if (server.peer.authentication == network::Authentication::bearer)
             server.peer.secret =
                 askHidden(fmt::format("Token for {}: ", server.name), context.stop);
-        else if (server.peer.authentication == exchange::Authentication::oauth)
+        else if (server.peer.authentication == network::Authentication::oauth)
             logIn(server, context);
         if (archive::isEncryptedKey(server.peer.key))
             server.peer.keyPassword =

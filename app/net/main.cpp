@@ -6,20 +6,20 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "core/helper/process.h"
-#include "core/network/serve.h"
+#include "core/confined/process.h"
+#include "core/network/process/serve.h"
 
 int main() {
     using namespace pellucid;
-    if (::fcntl(helper::socketDescriptor, F_GETFD) < 0) {
+    if (::fcntl(confined::socketDescriptor, F_GETFD) < 0) {
         std::fputs("pellucid-net talks to servers for Pellucid and is started by it.\n", stderr);
         return 2;
     }
     // Close every other file that the parent left open.
-    ::close_range(helper::socketDescriptor + 1, ~0U, 0);
+    ::close_range(confined::socketDescriptor + 1, ~0U, 0);
     try {
-        network::prepareToServe();
-        return network::serve(helper::socketDescriptor);
+        network::process::prepareToServe();
+        return network::process::serve(confined::socketDescriptor);
     } catch (const std::exception &error) {
         std::fprintf(stderr, "pellucid-net: %s\n", error.what());
         return 1;

@@ -16,8 +16,8 @@
 
 #include "core/archive/login.h"
 #include "core/archive/reasons.h"
-#include "core/exchange/link.h"
-#include "core/exchange/reasons.h"
+#include "core/network/client/link.h"
+#include "core/network/client/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -25,9 +25,9 @@ namespace pellucid::archive {
 namespace {
 
 namespace because = task::because;
-namespace tag = exchange::tag;
-using exchange::Attributes;
-using exchange::Level;
+namespace tag = network::tag;
+using network::Attributes;
+using network::Level;
 
 constexpr auto maxObjects = std::uint32_t(maxObjectsOfStudy);
 
@@ -89,7 +89,7 @@ std::optional<std::size_t> countOf(const std::string &text) {
 // Lists the objects of a study, and where the server lists less than it has.
 class Lister {
 public:
-    Lister(exchange::Link &link, const Wanted &wanted, const task::Progress &progress)
+    Lister(network::Link &link, const Wanted &wanted, const task::Progress &progress)
         : m_link(link), m_wanted(wanted), m_progress(progress) {}
 
     Listing list() {
@@ -123,8 +123,8 @@ public:
 
 private:
     // Empty if the server cannot list series or objects. They are then retrieved as a whole.
-    std::optional<exchange::QueryEnd> find(Level level, const exchange::Attributes &keys,
-                                           const std::function<void(const Attributes &)> &take) {
+    std::optional<network::QueryEnd> find(Level level, const network::Attributes &keys,
+                                          const std::function<void(const Attributes &)> &take) {
         try {
             return m_link.find({.level = level, .keys = keys, .limit = maxObjects}, take,
                                m_progress);
@@ -176,7 +176,7 @@ private:
              {tag::instancesInSeries, ""}},
             [&](const Attributes &match) {
                 const std::string uid = textOf(match, tag::seriesUid);
-                if (exchange::isUid(uid))
+                if (network::isUid(uid))
                     known[uid] = {uid, numberOf(textOf(match, tag::seriesNumber)),
                                   countOf(textOf(match, tag::instancesInSeries))};
                 else
@@ -211,7 +211,7 @@ private:
                   {tag::orientation, ""}},
                  [&](const Attributes &match) {
                      const std::string uid = textOf(match, tag::sopInstanceUid);
-                     if (!exchange::isUid(uid)) {
+                     if (!network::isUid(uid)) {
                          ++invalid;
                          return;
                      }
@@ -219,7 +219,7 @@ private:
                          return;
                      const std::string sopClass = textOf(match, tag::sopClassUid);
                      listed.push_back({{m_wanted.studyUid, series.uid, uid,
-                                        exchange::isUid(sopClass) ? sopClass : std::string(),
+                                        network::isUid(sopClass) ? sopClass : std::string(),
                                         numberOf(textOf(match, tag::instanceNumber))},
                                        heightOf(match)});
                  });
@@ -254,7 +254,7 @@ private:
                 {m_wanted.studyUid, "", hasMore ? *m_objectsInStudy - told : 0, 0, !hasMore});
     }
 
-    exchange::Link &m_link;
+    network::Link &m_link;
     const Wanted &m_wanted;
     const task::Progress &m_progress;
     std::optional<std::size_t> m_seriesInStudy, m_objectsInStudy;
@@ -287,8 +287,8 @@ std::vector<std::size_t> coarseToFine(std::size_t n) {
 }
 
 Listing listInstances(const Server &server, const Wanted &wanted, const task::Progress &progress) {
-    return withLogin(server, progress, [&](const exchange::Peer &peer) {
-        exchange::Link link({.peer = peer, .purpose = exchange::Purpose::find}, progress);
+    return withLogin(server, progress, [&](const network::Peer &peer) {
+        network::Link link({.peer = peer, .purpose = network::Purpose::find}, progress);
         return Lister(link, wanted, progress).list();
     });
 }

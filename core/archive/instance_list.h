@@ -7,7 +7,7 @@
 
 #include "core/archive/object_folder.h"
 #include "core/archive/server.h"
-#include "core/exchange/query.h"
+#include "core/network/client/query.h"
 #include "core/task/progress.h"
 
 namespace pellucid::archive {
@@ -47,7 +47,7 @@ struct Listing {
     std::vector<ShortSeries> shortSeries;
 };
 
-/// *Throws* as exchange::Link; Error{unusable} if the server has none of it, or lists more objects
+/// *Throws* as network::Link; Error{unusable} if the server has none of it, or lists more objects
 /// than a study may have.
 Listing listInstances(const Server &server, const Wanted &wanted,
                       const task::Progress &progress = {});

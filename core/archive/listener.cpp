@@ -16,8 +16,8 @@
 #include <thread>
 
 #include "core/archive/reasons.h"
-#include "core/exchange/reasons.h"
 #include "core/files/descriptor.h"
+#include "core/network/client/reasons.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
 #include "core/task/reasons.h"
@@ -75,22 +75,22 @@ struct Connection {
 };
 
 // Counts the objects that a receiver keeps, and extends the connection's deadline as bytes arrive.
-class Watched : public exchange::Receiver {
+class Watched : public network::Receiver {
 public:
     using Extend = std::function<void(Clock::duration)>;
-    Watched(exchange::Receiver &receiver, std::size_t &kept, Extend extend, double silenceSeconds)
+    Watched(network::Receiver &receiver, std::size_t &kept, Extend extend, double silenceSeconds)
         : m_receiver(receiver), m_kept(kept), m_extend(std::move(extend)),
           m_silenceSeconds(silenceSeconds) {}
 
-    std::variant<int, std::uint16_t> open(const exchange::Arrival &arrival) override {
+    std::variant<int, std::uint16_t> open(const network::Arrival &arrival) override {
         auto opened = m_receiver.open(arrival);
         m_begun = Clock::now();
         m_extend(seconds(m_silenceSeconds));
         return opened;
     }
-    std::uint16_t keep(const exchange::Arrival &arrival, std::uint64_t bytes) override {
+    std::uint16_t keep(const network::Arrival &arrival, std::uint64_t bytes) override {
         const std::uint16_t status = m_receiver.keep(arrival, bytes);
-        m_kept += status == exchange::status::success ? 1 : 0;
+        m_kept += status == network::status::success ? 1 : 0;
         m_extend(seconds(m_silenceSeconds));
         return status;
     }
@@ -101,7 +101,7 @@ public:
     }
 
 private:
-    exchange::Receiver &m_receiver;
+    network::Receiver &m_receiver;
     std::size_t &m_kept;
     Extend m_extend;
     double m_silenceSeconds;
@@ -201,7 +201,7 @@ private:
                 std::this_thread::sleep_for(std::chrono::milliseconds(pollMs));
                 continue;
             }
-            begin(std::move(client), exchange::textOf(from));
+            begin(std::move(client), network::textOf(from));
         }
     }
 
@@ -285,22 +285,22 @@ private:
     std::vector<Sender> sendersAt(const std::string &address) const {
         std::vector<Sender> senders;
         for (const Sender &sender : m_options.senders)
-            if (const auto known = exchange::addressesOf(sender.host);
+            if (const auto known = network::addressesOf(sender.host);
                 std::find(known.begin(), known.end(), address) != known.end())
                 senders.push_back(sender);
         return senders;
     }
 
-    exchange::Acceptance acceptanceFor(const std::string &address) const {
-        exchange::Acceptance acceptance{m_options.ae,
-                                        {},
-                                        {},
-                                        m_options.usesTls,
-                                        m_options.authorities,
-                                        m_options.certificate,
-                                        m_options.key,
-                                        m_options.keyPassword,
-                                        m_options.silenceSeconds};
+    network::Acceptance acceptanceFor(const std::string &address) const {
+        network::Acceptance acceptance{m_options.ae,
+                                       {},
+                                       {},
+                                       m_options.usesTls,
+                                       m_options.authorities,
+                                       m_options.certificate,
+                                       m_options.key,
+                                       m_options.keyPassword,
+                                       m_options.silenceSeconds};
         if (m_options.acceptsAnyone)
             return acceptance;
         const std::vector<Sender> senders = sendersAt(address);
@@ -326,25 +326,25 @@ private:
             connection.deadline = Clock::now() + duration + seconds(slackSeconds);
         };
         try {
-            const exchange::Acceptance acceptance = acceptanceFor(address);
+            const network::Acceptance acceptance = acceptanceFor(address);
             const task::Progress progress(stop);
             awaitTurn(connection, progress);
             const auto receiver = m_receivers();
             Watched watched(*receiver, end.stored, extend, m_options.silenceSeconds);
-            exchange::serveClient(std::move(socket), acceptance, watched, progress,
-                                  [&](exchange::Step step, const std::string &found) {
-                                      if (step == exchange::Step::refused)
-                                          end.refused = because::kindsAreRefused(found);
-                                      if (step == exchange::Step::association) {
-                                          end.sender = found;
-                                          const std::lock_guard lock(m_connectionsMutex);
-                                          if (connection.state == Connection::State::negotiating)
-                                              connection.state = Connection::State::associated;
-                                      }
-                                      if (step == exchange::Step::association ||
-                                          step == exchange::Step::service)
-                                          extend(seconds(m_options.silenceSeconds));
-                                  });
+            network::serveClient(std::move(socket), acceptance, watched, progress,
+                                 [&](network::Step step, const std::string &found) {
+                                     if (step == network::Step::refused)
+                                         end.refused = because::kindsAreRefused(found);
+                                     if (step == network::Step::association) {
+                                         end.sender = found;
+                                         const std::lock_guard lock(m_connectionsMutex);
+                                         if (connection.state == Connection::State::negotiating)
+                                             connection.state = Connection::State::associated;
+                                     }
+                                     if (step == network::Step::association ||
+                                         step == network::Step::service)
+                                         extend(seconds(m_options.silenceSeconds));
+                                 });
         } catch (const Error &error) {
             end.reason = error.reason();
         } catch (const task::Cancelled &) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/archive/server.h"
-#include "core/exchange/link.h"
+#include "core/network/client/link.h"
 
 namespace pellucid::archive {
 
@@ -29,7 +29,7 @@ struct ListenerOptions {
     /// With TLS, a sender's certificate must be from these authorities, and name the sender's host
     /// or address unless anyone is accepted.
     bool usesTls = false;
-    std::string authorities, certificate, key, keyPassword; ///< as of exchange::Peer, none optional
+    std::string authorities, certificate, key, keyPassword; ///< as of network::Peer, none optional
     double negotiationSeconds = 10.0; ///< from the connection to the association
     /// In an association, until the next message is complete; a long one must make progress.
     double silenceSeconds = 60.0;
@@ -60,7 +60,7 @@ struct ListenerObserver {
 /// one that does not negotiate gives way to the next. It runs as long as the object exists.
 class Listener {
 public:
-    using Receivers = std::function<std::unique_ptr<exchange::Receiver>()>;
+    using Receivers = std::function<std::unique_ptr<network::Receiver>()>;
     /// `receivers` makes the receiver of each connection. *Throws* as requireValid;
     /// Error{unreachable} if another listener has the port; Error{usage} if it cannot be used
     /// otherwise.

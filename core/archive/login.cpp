@@ -6,16 +6,16 @@
 
 #include "core/archive/pkce.h"
 #include "core/archive/reasons.h"
-#include "core/exchange/link.h"
-#include "core/exchange/reasons.h"
+#include "core/network/client/link.h"
+#include "core/network/client/reasons.h"
 
 namespace pellucid::archive {
 
 namespace {
 
 namespace because = task::because;
-using exchange::Endpoints;
-using exchange::Tokens;
+using network::Endpoints;
+using network::Tokens;
 using task::Error;
 using task::ErrorCode;
 using Clock = std::chrono::steady_clock;
@@ -94,7 +94,7 @@ void Login::logIn(const OpenPage &open, const Texts &texts, const task::Progress
         const auto mine = turn(progress);
         return endpoints(progress);
     }();
-    exchange::LoopbackPort port = exchange::openLoopbackPort();
+    network::LoopbackPort port = network::openLoopbackPort();
     const std::string state = randomText(stateBytes), verifier = randomText(verifierBytes),
                       redirectUrl = "http://127.0.0.1:" + std::to_string(port.port) + "/";
     std::map<std::string, std::string> query{{"response_type", "code"},
@@ -110,8 +110,8 @@ void Login::logIn(const OpenPage &open, const Texts &texts, const task::Progress
         query["prompt"] = "consent";
     const bool hasQuery = at.authorizationUrl.find('?') != std::string::npos;
     const std::string url =
-        at.authorizationUrl + (hasQuery ? "&" : "?") + exchange::formEncoded(query);
-    exchange::awaitRedirect(
+        at.authorizationUrl + (hasQuery ? "&" : "?") + network::formEncoded(query);
+    network::awaitRedirect(
         std::move(port.socket), {state, texts.success, texts.failure, patience}, [&] { open(url); },
         [&](const std::string &code) {
             const Tokens tokens = requestTokens(at.tokenUrl,
@@ -136,19 +136,19 @@ void Login::forget() {
         m_keep({});
 }
 
-exchange::Connection Login::connectionTo(const std::string &url) const {
-    exchange::Peer peer = loginPeer(url);
+network::Connection Login::connectionTo(const std::string &url) const {
+    network::Peer peer = loginPeer(url);
     peer.authorities = m_peer.authorities;
     peer.connectSeconds = m_peer.connectSeconds;
     peer.associationSeconds = m_peer.associationSeconds;
     peer.silenceSeconds = m_peer.silenceSeconds;
-    return {.peer = std::move(peer), .purpose = exchange::Purpose::login};
+    return {.peer = std::move(peer), .purpose = network::Purpose::login};
 }
 
-Tokens Login::requestTokens(const std::string &url, const exchange::TokenRequest &request,
+Tokens Login::requestTokens(const std::string &url, const network::TokenRequest &request,
                             const task::Progress &progress) const {
     return atLoginServer(url, [&] {
-        return exchange::Link(connectionTo(url), progress).requestTokens(request, progress);
+        return network::Link(connectionTo(url), progress).requestTokens(request, progress);
     });
 }
 
@@ -161,7 +161,7 @@ Endpoints Login::endpoints(const task::Progress &progress) {
         const std::string issuer = withoutSlash(m_settings.issuer);
         const std::string url = issuer + "/.well-known/openid-configuration";
         found = atLoginServer(
-            url, [&] { return exchange::Link(connectionTo(url), progress).discover(progress); });
+            url, [&] { return network::Link(connectionTo(url), progress).discover(progress); });
         // OpenID Connect Discovery 1.0, 4.3: one login server must not speak for another.
         if (withoutSlash(found.issuer) != issuer)
             throw Error(ErrorCode::unusable, because::issuerIsAnother(found.issuer));
@@ -225,15 +225,15 @@ std::unique_lock<std::timed_mutex> Login::turn(const task::Progress &progress) {
     return lock;
 }
 
-exchange::Peer authenticated(const Server &server, const task::Progress &progress,
-                             const std::string &refusedToken) {
-    exchange::Peer peer = server.peer;
-    if (peer.authentication != exchange::Authentication::oauth)
+network::Peer authenticated(const Server &server, const task::Progress &progress,
+                            const std::string &refusedToken) {
+    network::Peer peer = server.peer;
+    if (peer.authentication != network::Authentication::oauth)
         return peer;
     if (!server.login)
         throw Error(ErrorCode::unusable, because::loginHasExpired);
     peer.secret = server.login->token(progress, refusedToken);
-    peer.authentication = exchange::Authentication::bearer;
+    peer.authentication = network::Authentication::bearer;
     peer.allowsInsecureLogin = false;
     return peer;
 }

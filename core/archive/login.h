@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/archive/server.h"
-#include "core/exchange/login.h"
+#include "core/network/client/login.h"
 #include "core/task/error.h"
 #include "core/task/progress.h"
 
@@ -32,7 +32,7 @@ public:
     /// An access token for a new connection: not `refused`, which the server no longer accepts, and
     /// renewed if it is about to expire. *Throws* Error{unusable, loginHasExpired} if the user has
     /// to log in; Error{unusable, serverDoesNotAcceptTheLogin} if a token was refused before its
-    /// end, and cannot be renewed; as exchange::Link otherwise.
+    /// end, and cannot be renewed; as network::Link otherwise.
     std::string token(const task::Progress &progress = {}, const std::string &refused = {});
 
     /// Opens a URL in the user's browser.
@@ -44,7 +44,7 @@ public:
     };
     static constexpr double patienceSeconds = 300.0;
     /// Lets the user log in, and waits until that is done. *Throws* Error{unusable} if the login is
-    /// denied or takes longer than `patience`; as exchange::Link otherwise; what `open` throws.
+    /// denied or takes longer than `patience`; as network::Link otherwise; what `open` throws.
     void logIn(const OpenPage &open, const Texts &texts, const task::Progress &progress = {},
                double patience = patienceSeconds);
     void logIn(const OpenPage &open, const task::Progress &progress = {}) {
@@ -54,34 +54,34 @@ public:
     void forget();
 
 private:
-    exchange::Connection connectionTo(const std::string &url) const;
-    exchange::Endpoints endpoints(const task::Progress &progress);
-    exchange::Tokens requestTokens(const std::string &url, const exchange::TokenRequest &request,
-                                   const task::Progress &progress) const;
+    network::Connection connectionTo(const std::string &url) const;
+    network::Endpoints endpoints(const task::Progress &progress);
+    network::Tokens requestTokens(const std::string &url, const network::TokenRequest &request,
+                                  const task::Progress &progress) const;
     std::optional<std::string> currentToken(const std::string &refused) const;
     std::string refreshToken() const;
     /// Whether it is the current token, and its end has not come.
     bool isValid(const std::string &token) const;
-    void take(const exchange::Tokens &tokens);
+    void take(const network::Tokens &tokens);
     /// The same, unless the user has logged in again or out since `refresh` was sent.
-    bool takeRenewed(const exchange::Tokens &tokens, const std::string &refresh);
-    void keepTokens(const exchange::Tokens &tokens);
+    bool takeRenewed(const network::Tokens &tokens, const std::string &refresh);
+    void keepTokens(const network::Tokens &tokens);
     std::unique_lock<std::timed_mutex> turn(const task::Progress &progress);
 
     const LoginSettings m_settings;
-    const exchange::Peer m_peer; ///< of the server: its authorities and its patience
+    const network::Peer m_peer; ///< of the server: its authorities and its patience
     const Keep m_keep;
     std::timed_mutex m_turn; ///< of whoever talks to the login server
     mutable std::mutex m_mutex;
-    std::optional<exchange::Endpoints> m_endpoints;
+    std::optional<network::Endpoints> m_endpoints;
     std::string m_access, m_refresh;
     std::chrono::steady_clock::time_point m_renewal; ///< when the access token is renewed
 };
 
 /// The peer of a server for a new connection, with a token if its login gives one. *Throws* as
 /// Login::token.
-exchange::Peer authenticated(const Server &server, const task::Progress &progress,
-                             const std::string &refusedToken = {});
+network::Peer authenticated(const Server &server, const task::Progress &progress,
+                            const std::string &refusedToken = {});
 
 /// Whether a connection failed because the server no longer accepts its token, which can be
 /// renewed.
@@ -90,7 +90,7 @@ bool isTokenRefused(const Server &server, const task::Error &error);
 /// Runs `work` with the peer to connect to; once more with a renewed token if the server no longer
 /// accepts the first. *Throws* as Login::token and `work`.
 template <class F> auto withLogin(const Server &server, const task::Progress &progress, F &&work) {
-    const exchange::Peer peer = authenticated(server, progress);
+    const network::Peer peer = authenticated(server, progress);
     try {
         return work(peer);
     } catch (const task::Error &error) {

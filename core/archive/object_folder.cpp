@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "core/archive/reasons.h"
-#include "core/decoder/decoder.h"
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/decoder.h"
+#include "core/decoding/client/reasons.h"
 #include "core/files/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/system/text.h"
@@ -19,12 +19,12 @@ namespace {
 
 namespace because = task::because;
 namespace fs = std::filesystem;
-namespace tag = exchange::tag;
+namespace tag = network::tag;
 using task::Error;
 using task::ErrorCode;
 
-std::string valueOf(const decoder::AttributeList &list, std::uint32_t tag) {
-    for (const decoder::Attribute &attribute : list.attributes)
+std::string valueOf(const decoding::AttributeList &list, std::uint32_t tag) {
+    for (const decoding::Attribute &attribute : list.attributes)
         if (attribute.depth == 0 && attribute.tag == tag)
             return attribute.value;
     return {};
@@ -36,11 +36,11 @@ bool haveSameBytes(const fs::path &a, const fs::path &b) {
                       std::istreambuf_iterator<char>(other), {});
 }
 
-bool isWhole(const decoder::AttributeList &list) {
-    return list.isComplete || list.attributes.size() >= decoder::maxAttributes;
+bool isWhole(const decoding::AttributeList &list) {
+    return list.isComplete || list.attributes.size() >= decoding::maxAttributes;
 }
 
-StoredObject describedBy(const decoder::AttributeList &list) {
+StoredObject describedBy(const decoding::AttributeList &list) {
     return {{},
             valueOf(list, tag::studyUid),
             valueOf(list, tag::seriesUid),
@@ -59,7 +59,7 @@ std::optional<StoredObject> objectIn(const fs::path &path) {
     if (!fs::is_regular_file(path, unknown))
         return std::nullopt;
     try {
-        const decoder::AttributeList list = decoder::Decoder::shared().attributes(path);
+        const decoding::AttributeList list = decoding::Decoder::shared().attributes(path);
         if (!isWhole(list))
             return std::nullopt;
         StoredObject object = describedBy(list);
@@ -154,12 +154,12 @@ std::optional<StoredObject> ObjectFolder::find(const std::string &studyUid,
     return objectIn(pathOf(studyUid, seriesUid, sopInstanceUid));
 }
 
-std::unique_ptr<files::AtomicFile> ObjectFolder::open(const exchange::Arrival &arrival) const {
+std::unique_ptr<files::AtomicFile> ObjectFolder::open(const network::Arrival &arrival) const {
     return std::make_unique<files::AtomicFile>(m_folder / (arrival.sopInstanceUid + ".dcm"),
                                                files::AtomicFile::Readers::user);
 }
 
-StoredObject ObjectFolder::keep(const files::AtomicFile &file, const exchange::Arrival &arrival,
+StoredObject ObjectFolder::keep(const files::AtomicFile &file, const network::Arrival &arrival,
                                 std::uint64_t bytes, const std::vector<Place> &places,
                                 Existing existing) const {
     if (bytes == 0)
@@ -170,9 +170,9 @@ StoredObject ObjectFolder::keep(const files::AtomicFile &file, const exchange::A
     copy->write(file.descriptor(), bytes);
     // The decoder reads the file that has no name yet.
     const fs::path unnamed = "/proc/self/fd/" + std::to_string(copy->descriptor());
-    decoder::AttributeList list;
+    decoding::AttributeList list;
     try {
-        list = decoder::Decoder::shared().attributes(unnamed);
+        list = decoding::Decoder::shared().attributes(unnamed);
     } catch (const Error &error) {
         throw Error(error.code(), error.reason());
     }
@@ -184,7 +184,7 @@ StoredObject ObjectFolder::keep(const files::AtomicFile &file, const exchange::A
         object.sopClassUid != arrival.sopClassUid)
         throw Error(ErrorCode::unusable, because::isNotWhatWasAnnounced);
     // The UIDs become names of folders.
-    if (!exchange::isUid(object.studyUid) || !exchange::isUid(object.seriesUid))
+    if (!network::isUid(object.studyUid) || !network::isUid(object.seriesUid))
         throw Error(ErrorCode::unusable, because::hasNoValidUids);
     const auto isThere = [&](const Place &place) {
         return object.studyUid == place.studyUid &&

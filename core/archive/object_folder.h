@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/exchange/link.h"
 #include "core/files/atomic_file.h"
+#include "core/network/client/link.h"
 #include "core/task/reason.h"
 
 namespace pellucid::archive {
@@ -89,11 +89,11 @@ public:
     /// stays; a damaged one is replaced. *Throws* Error{unusable} if it is not the object that was
     /// announced, belongs to none of the places, or would replace another file that stays;
     /// Error{output}.
-    StoredObject keep(const files::AtomicFile &file, const exchange::Arrival &arrival,
+    StoredObject keep(const files::AtomicFile &file, const network::Arrival &arrival,
                       std::uint64_t bytes, const std::vector<Place> &places = {},
                       Existing existing = Existing::stays) const;
     /// A file without a name. *Throws* Error{output}.
-    std::unique_ptr<files::AtomicFile> open(const exchange::Arrival &arrival) const;
+    std::unique_ptr<files::AtomicFile> open(const network::Arrival &arrival) const;
 
 private:
     std::filesystem::path m_folder;

@@ -12,7 +12,7 @@ namespace pellucid::archive {
 
 namespace because = task::because;
 namespace fs = std::filesystem;
-namespace status = exchange::status;
+namespace status = network::status;
 
 namespace {
 
@@ -33,11 +33,11 @@ void requireSpace(const fs::path &folder) {
 
 } // namespace
 
-class Receiving::Connection : public exchange::Receiver {
+class Receiving::Connection : public network::Receiver {
 public:
     explicit Connection(Receiving &all) : m_all(all) {}
 
-    std::variant<int, std::uint16_t> open(const exchange::Arrival &arrival) override {
+    std::variant<int, std::uint16_t> open(const network::Arrival &arrival) override {
         try {
             requireSpace(m_all.m_folder.folder());
             m_file = m_all.m_folder.open(arrival);
@@ -47,7 +47,7 @@ public:
             return status::outOfResources;
         }
     }
-    std::uint16_t keep(const exchange::Arrival &arrival, std::uint64_t bytes) override {
+    std::uint16_t keep(const network::Arrival &arrival, std::uint64_t bytes) override {
         const std::unique_ptr<files::AtomicFile> file = std::move(m_file);
         try {
             const StoredObject object = m_all.m_folder.keep(*file, arrival, bytes);
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    void refuse(const exchange::Arrival &arrival, const task::Reason &reason) {
+    void refuse(const network::Arrival &arrival, const task::Reason &reason) {
         const std::lock_guard lock(m_all.m_mutex);
         if (m_all.m_observer.refused)
             m_all.m_observer.refused({arrival.sopInstanceUid, reason});
@@ -80,7 +80,7 @@ Receiving::Receiving(const ObjectFolder &folder, TransferLog *log, ReceivingObse
 
 Receiving::~Receiving() = default;
 
-std::unique_ptr<exchange::Receiver> Receiving::receiver() {
+std::unique_ptr<network::Receiver> Receiving::receiver() {
     return std::make_unique<Connection>(*this);
 }
 

@@ -23,7 +23,7 @@ public:
     Receiving(const ObjectFolder &folder, TransferLog *log, ReceivingObserver observer = {});
     ~Receiving();
     /// For one connection.
-    std::unique_ptr<exchange::Receiver> receiver();
+    std::unique_ptr<network::Receiver> receiver();
 
 private:
     class Connection;

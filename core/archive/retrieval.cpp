@@ -21,9 +21,9 @@
 #include "core/archive/reasons.h"
 #include "core/archive/retrieval_work.h"
 #include "core/dicom/missing_objects.h"
-#include "core/exchange/link.h"
-#include "core/exchange/reasons.h"
 #include "core/files/user_folders.h"
+#include "core/network/client/link.h"
+#include "core/network/client/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -31,8 +31,8 @@ namespace pellucid::archive {
 namespace {
 
 namespace because = task::because;
-using exchange::Level;
-using exchange::Purpose;
+using network::Level;
+using network::Purpose;
 using task::Error;
 using task::ErrorCode;
 using Clock = std::chrono::steady_clock;
@@ -45,23 +45,23 @@ constexpr std::chrono::milliseconds pauses[maxFailures]{std::chrono::millisecond
                                                         std::chrono::milliseconds(4000)};
 
 // The objects of one connection.
-class Objects : public exchange::Receiver {
+class Objects : public network::Receiver {
 public:
     Objects(RetrievalWork &work, Existing existing) : m_work(work), m_existing(existing) {}
 
     /// The server is asked for objects.
     void await() { m_since = Clock::now(); }
 
-    std::variant<int, std::uint16_t> open(const exchange::Arrival &arrival) override {
+    std::variant<int, std::uint16_t> open(const network::Arrival &arrival) override {
         m_reported = 0;
         m_begun = Clock::now();
         m_places = m_work.placesOf(arrival.sopInstanceUid);
         if (m_places.empty())
-            return exchange::status::notWanted;
+            return network::status::notWanted;
         m_file = m_work.folder().open(arrival);
         return m_file->descriptor();
     }
-    std::uint16_t keep(const exchange::Arrival &arrival, std::uint64_t bytes) override {
+    std::uint16_t keep(const network::Arrival &arrival, std::uint64_t bytes) override {
         receive(bytes);
         const std::unique_ptr<files::AtomicFile> file = std::move(m_file);
         try {
@@ -78,7 +78,7 @@ public:
                 throw;
             }
             m_work.refused(arrival.sopInstanceUid, error.reason());
-            return exchange::status::notAsAnnounced;
+            return network::status::notAsAnnounced;
         }
     }
     void receive(std::uint64_t bytes) override {
@@ -144,17 +144,17 @@ class EarlyLinks {
 public:
     EarlyLinks(const Server &server, const task::Progress &progress) {
         if (server.retrieve == RetrieveMethod::move ||
-            server.peer.protocol != exchange::Protocol::dicom)
+            server.peer.protocol != network::Protocol::dicom)
             return;
         for (int n = 0; n < std::min(int(firstSlices), grants().of(server) - 1); ++n) // one lists
             m_links.push_back(std::async(std::launch::async, [&server, &progress] {
-                return std::make_unique<exchange::Link>(
-                    exchange::Connection{server.peer, Purpose::get}, progress);
+                return std::make_unique<network::Link>(
+                    network::Connection{server.peer, Purpose::get}, progress);
             }));
     }
     /// Null if there is none. What has failed is tried again, and then reported.
-    std::unique_ptr<exchange::Link> take() {
-        std::unique_ptr<exchange::Link> link;
+    std::unique_ptr<network::Link> take() {
+        std::unique_ptr<network::Link> link;
         while (!link && !m_links.empty()) {
             try {
                 link = m_links.back().get();
@@ -166,11 +166,11 @@ public:
     }
 
 private:
-    std::vector<std::future<std::unique_ptr<exchange::Link>>> m_links;
+    std::vector<std::future<std::unique_ptr<network::Link>>> m_links;
 };
 
 bool areCommon(const std::set<std::string> &classes) {
-    const auto &common = exchange::commonClasses();
+    const auto &common = network::commonClasses();
     return std::all_of(classes.begin(), classes.end(), [&](const std::string &one) {
         return std::find(common.begin(), common.end(), one) != common.end();
     });
@@ -181,7 +181,7 @@ class Worker {
 public:
     Worker(const Server &server, Purpose purpose, std::vector<std::string> classes,
            std::vector<std::string> syntaxes, std::string destinationAe,
-           std::unique_ptr<exchange::Link> first, Existing existing, std::atomic<int> &open,
+           std::unique_ptr<network::Link> first, Existing existing, std::atomic<int> &open,
            RetrievalWork &work, const task::Progress &progress)
         : m_server(server), m_work(work), m_progress(progress), m_open(open),
           m_link(std::move(first)),
@@ -246,7 +246,7 @@ private:
         m_connection.peer = authenticated(m_server, m_progress,
                                           m_refusedTokens.empty() ? "" : m_refusedTokens.back());
         m_receivedBefore = m_work.receivedBefore(m_connection.peer.secret);
-        m_link = std::make_unique<exchange::Link>(m_connection, m_progress);
+        m_link = std::make_unique<network::Link>(m_connection, m_progress);
         ++m_open;
     }
     void disconnect() {
@@ -260,12 +260,12 @@ private:
             const Level level = !batch.uids.empty()       ? Level::image
                                 : batch.seriesUid.empty() ? Level::study
                                                           : Level::series;
-            const exchange::RetrievalEnd end = m_link->retrieve({.level = level,
-                                                                 .studyUid = batch.studyUid,
-                                                                 .seriesUid = batch.seriesUid,
-                                                                 .instanceUids = batch.uids,
-                                                                 .destinationAe = m_destinationAe},
-                                                                m_objects, m_progress);
+            const network::RetrievalEnd end = m_link->retrieve({.level = level,
+                                                                .studyUid = batch.studyUid,
+                                                                .seriesUid = batch.seriesUid,
+                                                                .instanceUids = batch.uids,
+                                                                .destinationAe = m_destinationAe},
+                                                               m_objects, m_progress);
             m_work.findHere(batch); // another listener may have stored them
             m_work.ended(batch, end);
         } catch (const Error &error) {
@@ -319,9 +319,9 @@ private:
     RetrievalWork &m_work;
     const task::Progress &m_progress;
     std::atomic<int> &m_open; ///< connections, of all workers
-    std::unique_ptr<exchange::Link> m_link;
+    std::unique_ptr<network::Link> m_link;
     Objects m_objects;
-    exchange::Connection m_connection;
+    network::Connection m_connection;
     std::vector<std::string> m_refusedTokens; ///< the last one at the end
     std::size_t m_receivedBefore = 0;         ///< before the token was used
     std::string m_destinationAe;
@@ -508,8 +508,8 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     // Some servers take the first presentation context of a kind, whatever they have stored, and
     // then cannot send it: one encoding at a time, until all is here.
     if (server.retrieve != RetrieveMethod::move && !hasMoved &&
-        server.peer.protocol == exchange::Protocol::dicom)
-        for (const std::string &syntax : exchange::transferSyntaxes())
+        server.peer.protocol == network::Protocol::dicom)
+        for (const std::string &syntax : network::transferSyntaxes())
             if (work.fillQueueAgain(instances))
                 runWorkers(server, Purpose::get, {classes.begin(), classes.end()}, {syntax}, {},
                            wanted.existing, nullptr, work, progress);
@@ -517,7 +517,7 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
     // kinds, which it would have to propose.
     if (const std::size_t before = work.receivedCount();
         !hasMoved && server.retrieve == RetrieveMethod::automatic && work.missing() > 0 &&
-        server.peer.protocol == exchange::Protocol::dicom && work.fillQueueAgain(instances)) {
+        server.peer.protocol == network::Protocol::dicom && work.fillQueueAgain(instances)) {
         hasMoved = true;
         const std::map<std::string, task::Reason> reasons = work.reasons();
         try {
@@ -535,7 +535,7 @@ RetrievalReport retrieve(const Server &server, const Wanted &wanted, const Objec
         moveAll();
     } else if (isShort) {
         std::set<std::string> all = classes;
-        all.insert(exchange::commonClasses().begin(), exchange::commonClasses().end());
+        all.insert(network::commonClasses().begin(), network::commonClasses().end());
         runWorkers(server, Purpose::get, {all.begin(), all.end()}, {}, {}, wanted.existing, nullptr,
                    work, progress);
         if (work.needsMove())

@@ -66,7 +66,7 @@ struct MoveDestination {
 /// far as the server grants them and they save time. A connection that is lost is made again while
 /// the others go on. The report lists the objects that never arrived. *Throws*
 /// Error{unreachable} if nothing could be retrieved because the server cannot be reached, or
-/// because the port of the destination is in use; as exchange::Link otherwise; Error{unusable,
+/// because the port of the destination is in use; as network::Link otherwise; Error{unusable,
 /// loginHasExpired} if the user has to log in again; Error{output} if the folder cannot be written;
 /// Cancelled. What has arrived stays in any case.
 RetrievalReport retrieve(const Server &server, const Wanted &wanted, const ObjectFolder &folder,

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/archive/reasons.h"
-#include "core/exchange/reasons.h"
+#include "core/network/client/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -247,7 +247,7 @@ void RetrievalWork::findHere(const Batch &batch) {
     }
 }
 
-void RetrievalWork::ended(const Batch &batch, const exchange::RetrievalEnd &end) {
+void RetrievalWork::ended(const Batch &batch, const network::RetrievalEnd &end) {
     const std::lock_guard lock(m_mutex);
     if (batch.uids.empty()) {
         const bool hasFailed =

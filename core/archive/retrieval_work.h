@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/archive/retrieval.h"
-#include "core/exchange/query.h"
+#include "core/network/client/query.h"
 
 namespace pellucid::archive {
 
@@ -65,7 +65,7 @@ public:
     /// Counts objects that another listener has stored since.
     void findHere(const Batch &batch);
     /// The server ended a batch: what did not come has this reason unless it has its own.
-    void ended(const Batch &batch, const exchange::RetrievalEnd &end);
+    void ended(const Batch &batch, const network::RetrievalEnd &end);
     void failed(const Batch &batch, const task::Reason &reason);
     void moved(std::int64_t bytes);
     /// Puts back a batch that the server refuses in a form that it may take: one object at a time,

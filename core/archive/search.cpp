@@ -13,7 +13,7 @@
 
 #include "core/archive/login.h"
 #include "core/archive/reasons.h"
-#include "core/exchange/link.h"
+#include "core/network/client/link.h"
 #include "core/system/utf8.h"
 #include "core/task/error.h"
 
@@ -22,8 +22,8 @@ namespace pellucid::archive {
 namespace {
 
 namespace because = task::because;
-namespace tag = exchange::tag;
-using exchange::Level;
+namespace tag = network::tag;
+using network::Level;
 using task::Error;
 using task::ErrorCode;
 
@@ -88,10 +88,10 @@ class Fold {
 public:
     Fold(const SearchObserver &observer, Level level) : m_observer(observer), m_level(level) {}
 
-    void add(const std::string &server, exchange::Attributes attributes) {
+    void add(const std::string &server, network::Attributes attributes) {
         const std::lock_guard lock(m_mutex);
-        const std::string uid = attributes[exchange::uidOf(m_level)];
-        if (!exchange::isUid(uid)) {
+        const std::string uid = attributes[network::uidOf(m_level)];
+        if (!network::isUid(uid)) {
             ++m_withoutUid[server];
             return;
         }
@@ -160,7 +160,7 @@ bool hasOthersThanAscii(const std::string &text) {
 
 // Some servers ignore letters beyond ASCII, and list whatever has the others. One that returns a
 // name in Latin letters only is believed.
-bool isAnswer(const SearchTerms &terms, const exchange::Attributes &match) {
+bool isAnswer(const SearchTerms &terms, const network::Attributes &match) {
     const std::pair<const std::string &, std::uint32_t> all[]{
         {terms.patientName, tag::patientName},
         {terms.patientId, tag::patientId},
@@ -179,15 +179,15 @@ void searchAt(const Server &server, const SearchTerms &terms, Fold &fold,
     ServerOutcome outcome;
     outcome.server = server.name;
     try {
-        const auto find = [&](const exchange::Peer &peer) {
+        const auto find = [&](const network::Peer &peer) {
             // Servers match one modality at a time.
             for (const std::string &modality : modalitiesIn(terms.modality)) {
-                exchange::Link link(exchange::Connection{peer, exchange::Purpose::find}, progress);
+                network::Link link(network::Connection{peer, network::Purpose::find}, progress);
                 SearchTerms one = terms;
                 one.modality = modality;
-                const exchange::QueryEnd end = link.find(
+                const network::QueryEnd end = link.find(
                     queryOf(one, server.limit),
-                    [&](exchange::Attributes match) {
+                    [&](network::Attributes match) {
                         if (isAnswer(terms, match))
                             fold.add(server.name, std::move(match));
                     },
@@ -228,7 +228,7 @@ std::string FoundEntry::text(std::uint32_t tag) const {
     return at == attributes.end() ? std::string() : at->second;
 }
 
-exchange::Query queryOf(const SearchTerms &terms, std::uint32_t limit) {
+network::Query queryOf(const SearchTerms &terms, std::uint32_t limit) {
     requireTermsOfTheLevel(terms);
     for (const std::string *const text :
          {&terms.patientName, &terms.patientId, &terms.accession, &terms.modality})
@@ -236,12 +236,12 @@ exchange::Query queryOf(const SearchTerms &terms, std::uint32_t limit) {
     if (!terms.date.empty())
         requireDate(terms.date);
     for (const std::string *const uid : {&terms.studyUid, &terms.seriesUid})
-        if (!uid->empty() && !exchange::isUid(*uid))
+        if (!uid->empty() && !network::isUid(*uid))
             throw Error(ErrorCode::usage, because::isNoUid(*uid));
     if (terms.level != Level::study && terms.studyUid.empty())
         throw Error(ErrorCode::usage, because::levelNeedsAStudy);
-    exchange::Query query{terms.level, {{tag::studyUid, terms.studyUid}}, limit};
-    exchange::Attributes &keys = query.keys;
+    network::Query query{terms.level, {{tag::studyUid, terms.studyUid}}, limit};
+    network::Attributes &keys = query.keys;
     switch (terms.level) {
     case Level::study:
         keys.insert({{tag::patientName, terms.patientName},

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/archive/server.h"
-#include "core/exchange/query.h"
+#include "core/network/client/query.h"
 #include "core/task/error.h"
 #include "core/task/progress.h"
 #include "core/task/reason.h"
@@ -22,13 +22,13 @@ struct SearchTerms {
     std::string studyUid;
     /// YYYYMMDD, or a range FROM-TO either end may be open.
     std::string date;
-    exchange::Level level = exchange::Level::study;
+    network::Level level = network::Level::study;
     std::string seriesUid; ///< for series and images
 };
 
 /// A study, series or image, as one or more servers describe it.
 struct FoundEntry {
-    exchange::Attributes attributes; ///< of the first server that has it
+    network::Attributes attributes; ///< of the first server that has it
     std::vector<std::string> servers;
 
     std::string text(std::uint32_t tag) const;
@@ -67,6 +67,6 @@ SearchResult search(const std::vector<Server> &servers, const SearchTerms &terms
 bool isDay(const std::string &text);
 
 /// The query of these terms, and the attributes it asks for. *Throws* Error{usage}.
-exchange::Query queryOf(const SearchTerms &terms, std::uint32_t limit);
+network::Query queryOf(const SearchTerms &terms, std::uint32_t limit);
 
 } // namespace pellucid::archive

@@ -12,15 +12,15 @@
 
 #include "core/archive/login.h"
 #include "core/archive/reasons.h"
-#include "core/decoder/decoder.h"
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/decoder.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/file_list.h"
 #include "core/dicom/reasons.h"
-#include "core/exchange/link.h"
-#include "core/exchange/reasons.h"
 #include "core/files/atomic_file.h"
 #include "core/files/reasons.h"
 #include "core/files/session_folder.h"
+#include "core/network/client/link.h"
+#include "core/network/client/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -29,7 +29,7 @@ namespace {
 
 namespace because = task::because;
 namespace fs = std::filesystem;
-using exchange::Encoding;
+using network::Encoding;
 using task::Error;
 using task::ErrorCode;
 using Clock = std::chrono::steady_clock;
@@ -48,8 +48,8 @@ struct Outgoing {
 };
 
 bool isPlain(const Encoding &encoding) {
-    return encoding.transferSyntax == decoder::explicitLittleEndian ||
-           encoding.transferSyntax == decoder::implicitLittleEndian;
+    return encoding.transferSyntax == decoding::explicitLittleEndian ||
+           encoding.transferSyntax == decoding::implicitLittleEndian;
 }
 
 // Finds out what kind each file is: the association has to be negotiated for these kinds. `named`:
@@ -60,26 +60,26 @@ std::vector<Outgoing> describe(const std::vector<fs::path> &files, const std::se
     for (const fs::path &path : files) {
         progress.check();
         try {
-            const auto list = decoder::Decoder::shared().attributes(path, progress);
+            const auto list = decoding::Decoder::shared().attributes(path, progress);
             Encoding encoding;
             bool isDirectory = false;
-            for (const decoder::Attribute &attribute : list.attributes) {
+            for (const decoding::Attribute &attribute : list.attributes) {
                 if (attribute.depth != 0)
                     continue;
                 if (attribute.tag == 0x00020010)
                     encoding.transferSyntax = attribute.value.substr(0, attribute.value.find(' '));
                 isDirectory = isDirectory || (attribute.tag == mediaSopClass &&
                                               attribute.value.starts_with(directoryClass));
-                if (attribute.tag == exchange::tag::sopClassUid)
+                if (attribute.tag == network::tag::sopClassUid)
                     encoding.sopClassUid = attribute.value.substr(0, attribute.value.find(' '));
             }
             if (isDirectory) { // of a folder whose files are sent
                 report.leftOut.push_back({path, because::hasNoValidUids});
                 continue;
             }
-            if (!list.isComplete && list.attributes.size() < decoder::maxAttributes)
+            if (!list.isComplete && list.attributes.size() < decoding::maxAttributes)
                 throw Error(ErrorCode::unusable, because::isTruncated, path);
-            if (!exchange::isUid(encoding.sopClassUid) || !exchange::isUid(encoding.transferSyntax))
+            if (!network::isUid(encoding.sopClassUid) || !network::isUid(encoding.transferSyntax))
                 throw Error(ErrorCode::unusable, because::hasNoValidUids, path);
             outgoing.push_back({path, encoding});
         } catch (const Error &error) {
@@ -99,7 +99,7 @@ public:
 
     // Files of few enough encodings for one association.
     void send(const std::vector<Outgoing> &files, const std::vector<Encoding> &encodings) {
-        std::optional<exchange::Link> link;
+        std::optional<network::Link> link;
         std::string token, refusedToken;
         bool mayRenew = true;
         int failures = 0, filesLost = 0; // in a row
@@ -107,10 +107,10 @@ public:
             bool isConnected = false;
             try {
                 if (!link) {
-                    const exchange::Peer peer = authenticated(m_server, m_progress, refusedToken);
+                    const network::Peer peer = authenticated(m_server, m_progress, refusedToken);
                     token = peer.secret;
                     link.emplace(
-                        exchange::Connection{peer, exchange::Purpose::store, {}, {}, encodings},
+                        network::Connection{peer, network::Purpose::store, {}, {}, encodings},
                         m_progress);
                 }
                 isConnected = true;
@@ -148,7 +148,7 @@ public:
     }
 
 private:
-    void store(exchange::Link &link, const Outgoing &outgoing) {
+    void store(network::Link &link, const Outgoing &outgoing) {
         const fs::path &path = outgoing.path;
         const files::Descriptor file = files::openRegular(path);
         struct stat about {};
@@ -167,11 +167,11 @@ private:
         }
     }
     // In the encoding that every DICOM server has to accept, if not in the better one.
-    void storeUncompressed(exchange::Link &link, const Outgoing &outgoing) {
+    void storeUncompressed(network::Link &link, const Outgoing &outgoing) {
         const fs::path &path = outgoing.path;
         for (const bool isExplicit : {true, false}) {
             const auto plain =
-                decoder::Decoder::shared().uncompressed(path, isExplicit, m_progress);
+                decoding::Decoder::shared().uncompressed(path, isExplicit, m_progress);
             // Without a name, and gone when it is sent.
             files::AtomicFile file(m_folder.path() / "uncompressed.dcm");
             file.write(plain.bytes);
@@ -186,7 +186,7 @@ private:
         }
     }
     // `path`: of the file that the user sends.
-    void storeFile(exchange::Link &link, const fs::path &path, int file, std::uint64_t bytes) {
+    void storeFile(network::Link &link, const fs::path &path, int file, std::uint64_t bytes) {
         if (const auto change = link.store(file, bytes, m_progress))
             m_report.withChanges.push_back({path, *change});
         ++m_report.state.sent;
@@ -232,7 +232,7 @@ SendingReport send(const Server &server, const std::vector<fs::path> &paths,
             // Also uncompressed: a server that refuses that, too, refuses the kind of object. The
             // results for compressed ones do not tell: some blame the kind for the encoding.
             for (const char *const plain :
-                 {decoder::explicitLittleEndian, decoder::implicitLittleEndian})
+                 {decoding::explicitLittleEndian, decoding::implicitLittleEndian})
                 more.insert({outgoing[last].encoding.sopClassUid, plain});
             if (more.size() > encodingsAtOnce)
                 break;

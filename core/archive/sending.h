@@ -32,7 +32,7 @@ struct SendingReport {
 /// folders, DICOMDIRs and archives that they name. Compressed files stay compressed, unless the
 /// server does not accept their encoding and may get them uncompressed. *Throws*
 /// Error{unusable} if a path does not exist or contains no DICOM file; Error{unreachable} if the
-/// server cannot be reached at all, as exchange::Link otherwise; Cancelled.
+/// server cannot be reached at all, as network::Link otherwise; Cancelled.
 SendingReport send(const Server &server, const std::vector<std::filesystem::path> &paths,
                    const std::function<void(const SendingState &)> &changed = {},
                    const task::Progress &progress = {});

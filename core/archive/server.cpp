@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "core/archive/reasons.h"
-#include "core/exchange/login.h"
+#include "core/network/client/login.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -30,7 +30,7 @@ int portIn(const std::string &text) {
 
 // "pacs", "pacs:104", "[2001:db8::7]:104" (RFC 3986, 3.2.2). Without a port, that of the peer
 // stays.
-void takeHostAndPort(exchange::Peer &peer, const std::string &text) {
+void takeHostAndPort(network::Peer &peer, const std::string &text) {
     const auto bracket = text.starts_with('[') ? text.find(']') : std::string::npos;
     const auto colon = text.find(':', bracket == std::string::npos ? 0 : bracket);
     if (bracket != std::string::npos && std::min(colon, text.size()) != bracket + 1)
@@ -50,9 +50,9 @@ bool isHost(const std::string &text) {
 
 void requireValidLogin(const Server &server) {
     const LoginSettings &login = server.loginSettings;
-    if (server.peer.protocol != exchange::Protocol::web)
+    if (server.peer.protocol != network::Protocol::web)
         fail(because::loginIsForDicomWeb);
-    if (!exchange::isPrivate(server.peer))
+    if (!network::isPrivate(server.peer))
         fail(because::loginNeedsHttps);
     const bool hasUrls = !login.authorizationUrl.empty() && !login.tokenUrl.empty(),
                hasUrl = !login.authorizationUrl.empty() || !login.tokenUrl.empty();
@@ -63,22 +63,22 @@ void requireValidLogin(const Server &server) {
             loginPeer(*url);
     // RFC 6749, A.1 and A.4
     constexpr std::size_t longest = 1000;
-    if (!exchange::isVisible(login.clientId, longest))
+    if (!network::isVisible(login.clientId, longest))
         fail(because::isNoClientId(login.clientId));
     std::string words = login.scope;
     std::erase(words, ' ');
     if (!login.scope.empty() &&
-        (!exchange::isVisible(words, longest) || words.find_first_of("\"\\") != std::string::npos))
+        (!network::isVisible(words, longest) || words.find_first_of("\"\\") != std::string::npos))
         fail(because::isNoScope(login.scope));
 }
 
 } // namespace
 
-exchange::Peer dicomPeer(const std::string &address) {
+network::Peer dicomPeer(const std::string &address) {
     const auto at = address.find('@');
     if (at == std::string::npos)
         fail(because::isNoDicomAddress(address));
-    exchange::Peer peer;
+    network::Peer peer;
     peer.calledAe = address.substr(0, at);
     peer.port = defaultDicomPort;
     takeHostAndPort(peer, address.substr(at + 1));
@@ -88,9 +88,9 @@ exchange::Peer dicomPeer(const std::string &address) {
     return peer;
 }
 
-exchange::Peer webPeer(const std::string &url) {
-    exchange::Peer peer;
-    peer.protocol = exchange::Protocol::web;
+network::Peer webPeer(const std::string &url) {
+    network::Peer peer;
+    peer.protocol = network::Protocol::web;
     const std::string secure = "https://", plain = "http://";
     std::string rest;
     if (url.starts_with(secure)) {
@@ -114,11 +114,11 @@ exchange::Peer webPeer(const std::string &url) {
     return peer;
 }
 
-exchange::Peer loginPeer(const std::string &url) {
+network::Peer loginPeer(const std::string &url) {
     // Paths of login servers keep a slash at their end and a query, which others do not have.
     const auto host = url.find("://");
     const auto path = host == std::string::npos ? host : url.find_first_of("/?", host + 3);
-    exchange::Peer peer;
+    network::Peer peer;
     try {
         peer = webPeer(url.substr(0, path));
     } catch (const task::Error &) {
@@ -127,7 +127,7 @@ exchange::Peer loginPeer(const std::string &url) {
     peer.path = path == std::string::npos ? "/" : url.substr(path);
     if (peer.path.front() == '?')
         peer.path.insert(0, "/");
-    if (!exchange::isPrivate(peer) || !exchange::isVisible(url, exchange::longestUrl) ||
+    if (!network::isPrivate(peer) || !network::isVisible(url, network::longestUrl) ||
         url.find_first_of("#\"<>\\^`{|}") != std::string::npos)
         fail(because::isNoLoginAddress(url));
     return peer;
@@ -139,12 +139,11 @@ std::vector<std::string> hostsOf(const Server &server) {
     return hosts;
 }
 
-std::string addressOf(const exchange::Peer &peer) {
-    if (peer.protocol == exchange::Protocol::dicom)
-        return peer.calledAe + "@" + exchange::hostPart(peer.host) + ":" +
-               std::to_string(peer.port);
+std::string addressOf(const network::Peer &peer) {
+    if (peer.protocol == network::Protocol::dicom)
+        return peer.calledAe + "@" + network::hostPart(peer.host) + ":" + std::to_string(peer.port);
     const int usual = peer.usesTls ? 443 : 80;
-    return (peer.usesTls ? "https://" : "http://") + exchange::hostPart(peer.host) +
+    return (peer.usesTls ? "https://" : "http://") + network::hostPart(peer.host) +
            (peer.port == usual ? "" : ":" + std::to_string(peer.port)) + peer.path;
 }
 
@@ -162,7 +161,7 @@ void requireValid(const Server &server) {
         std::any_of(server.name.begin(), server.name.end(),
                     [](char c) { return (unsigned char)(c) < 0x20; }))
         fail(because::isNoServerName(server.name));
-    if (server.peer.protocol == exchange::Protocol::dicom)
+    if (server.peer.protocol == network::Protocol::dicom)
         requireAeTitle(server.peer.calledAe);
     requireAeTitle(server.peer.callingAe);
     for (const std::string &host : server.sendsFrom)
@@ -174,7 +173,7 @@ void requireValid(const Server &server) {
         fail(because::answersAreOutOfRange(maxAnswers));
     if (server.peer.certificate.empty() != server.peer.key.empty())
         fail(because::certificateNeedsItsKey);
-    if (server.peer.authentication == exchange::Authentication::oauth)
+    if (server.peer.authentication == network::Authentication::oauth)
         requireValidLogin(server);
 }
 

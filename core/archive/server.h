@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/exchange/peer.h"
-#include "core/exchange/query.h"
+#include "core/network/client/peer.h"
+#include "core/network/client/query.h"
 
 namespace pellucid::archive {
 
@@ -31,7 +31,7 @@ struct LoginSettings {
 /// A server that the user has entered. Its secrets are not part of the list on disk.
 struct Server {
     std::string name;
-    exchange::Peer peer;
+    network::Peer peer;
     RetrieveMethod retrieve = RetrieveMethod::automatic;
     /// Other hosts from which it sends what C-MOVE asks for, such as the nodes of a cluster.
     std::vector<std::string> sendsFrom{};
@@ -47,20 +47,20 @@ struct Server {
 };
 
 inline constexpr int maxConnections = 8;
-inline constexpr std::uint32_t maxAnswers = exchange::maxMatches;
+inline constexpr std::uint32_t maxAnswers = network::maxMatches;
 inline constexpr int defaultDicomPort = 104, defaultListenerPort = 11112;
 
 /// AET@HOST:PORT, the port being optional; an IPv6 address in brackets. *Throws* Error{usage}.
-exchange::Peer dicomPeer(const std::string &address);
+network::Peer dicomPeer(const std::string &address);
 /// http://HOST:PORT/PATH or https://... *Throws* Error{usage}.
-exchange::Peer webPeer(const std::string &url);
+network::Peer webPeer(const std::string &url);
 /// The peer at the URL of a login server. Its path contains the query. Only https, except at this
 /// computer. *Throws* Error{usage}.
-exchange::Peer loginPeer(const std::string &url);
+network::Peer loginPeer(const std::string &url);
 /// The hosts from which a server may send.
 std::vector<std::string> hostsOf(const Server &server);
 /// The address as the user entered it.
-std::string addressOf(const exchange::Peer &peer);
+std::string addressOf(const network::Peer &peer);
 /// *Throws* Error{usage} if it is not an AE title.
 void requireAeTitle(const std::string &title);
 /// *Throws* Error{usage} with what is wrong.

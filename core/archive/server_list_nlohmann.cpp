@@ -17,10 +17,10 @@ namespace pellucid::archive {
 namespace {
 
 namespace because = task::because;
-using exchange::Authentication;
-using exchange::Peer;
-using exchange::Protocol;
 using files::JsonValue;
+using network::Authentication;
+using network::Peer;
+using network::Protocol;
 using Json = nlohmann::json;
 
 constexpr const char *schema = "pellucid-servers/1";
@@ -160,7 +160,7 @@ const Server &ServerList::get(const std::string &name) const {
 
 void ServerList::put(const Server &server) {
     requireValid(server);
-    exchange::requireSecureLogin(server.peer);
+    network::requireSecureLogin(server.peer);
     const auto same = std::find_if(m_servers.begin(), m_servers.end(),
                                    [&](const Server &one) { return one.name == server.name; });
     if (same != m_servers.end())

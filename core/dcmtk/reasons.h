@@ -8,7 +8,6 @@ namespace pellucid::task::because {
 
 // clang-format off
 // DICOM files
-PELLUCID_REASON(dictionaryMissing, "the DICOM data dictionary is missing")
 
 // Pixels
 PELLUCID_REASON(jpeg2000EncodingFailed, "JPEG 2000 encoding failed")

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/decoder/decoder.h"
+#include "core/decoding/client/decoder.h"
 #include "core/dicom/modality_values.h"
 #include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
@@ -192,7 +192,7 @@ void ArrivingSeries::decode(const std::vector<Arrival> &arrivals, const task::Pr
         progress.check();
         const fs::path &path = arrivals[n].second;
         try {
-            m_decoded.keep(path, decoder::Decoder::shared().image(path, progress));
+            m_decoded.keep(path, decoding::Decoder::shared().image(path, progress));
         } catch (const Error &error) {
             // It is read again with the others, which reports why.
             if (error.code() != ErrorCode::unusable && error.code() != ErrorCode::outOfMemory)
@@ -275,8 +275,8 @@ void ArrivingSeries::showPartial(std::size_t stride, const task::Progress &progr
 }
 
 ArrivedSeries ArrivingSeries::load(const task::Progress &progress, const Show &show) {
-    decoder::Decoder::shared().beginOpening();
-    decoder::Decoder::shared().startAhead(2, progress); // the slices at both ends come first
+    decoding::Decoder::shared().beginOpening();
+    decoding::Decoder::shared().startAhead(2, progress); // the slices at both ends come first
     // Ends what is made of a part, when all is there.
     std::stop_source stop;
     const auto forward = [&stop] { stop.request_stop(); };

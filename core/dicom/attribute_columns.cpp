@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "core/decoder/instance.h"
+#include "core/decoding/client/instance.h"
 #include "core/dicom/reasons.h"
 #include "core/task/error.h"
 
@@ -24,8 +24,8 @@ namespace pellucid::dicom {
 namespace {
 
 namespace because = task::because;
-using decoder::Attribute;
-using decoder::ValueKind;
+using decoding::Attribute;
+using decoding::ValueKind;
 
 std::optional<double> parsed(std::string_view text) {
     if (!text.empty() && text.front() == '+')
@@ -128,7 +128,7 @@ bool isIgnored(const Attribute &attribute) {
     constexpr std::uint32_t pixelData = 0x7FE0;
     return std::find(ignored.begin(), ignored.end(), attribute.tag) != ignored.end() ||
            groupOf(attribute.tag) >= pixelData || attribute.vr.empty() || attribute.vr == "SQ" ||
-           std::any_of(decoder::dimensions.begin(), decoder::dimensions.end(),
+           std::any_of(decoding::dimensions.begin(), decoding::dimensions.end(),
                        [&](const auto &dimension) { return dimension.tag == attribute.tag; });
 }
 
@@ -137,7 +137,7 @@ constexpr std::uint32_t perFrameGroups = 0x52009230;
 
 // Calls `take` with each value of a list, the tags that lead to it, and its frame in the file, or
 // nothing for values of the whole file. Of sequences, only single items have a meaning here.
-template <class F> void forEachValue(const decoder::AttributeList &list, F &&take) {
+template <class F> void forEachValue(const decoding::AttributeList &list, F &&take) {
     std::vector<std::uint32_t> path; // the tags and item numbers above, by depth
     std::optional<int> frame;
     for (const Attribute &attribute : list.attributes) {
@@ -146,7 +146,7 @@ template <class F> void forEachValue(const decoder::AttributeList &list, F &&tak
             frame.reset();
         const bool isItem = attribute.vr.empty();
         if (isItem && attribute.depth == 1 && path.front() == perFrameGroups)
-            frame = int(std::min<std::uint32_t>(itemNumber(attribute), decoder::maxFrames)) - 1;
+            frame = int(std::min<std::uint32_t>(itemNumber(attribute), decoding::maxFrames)) - 1;
         if (!isItem && attribute.vr != "SQ")
             take(attribute, path, frame);
         const bool isFrame = isItem && frame && attribute.depth == 1;
@@ -160,7 +160,7 @@ public:
     explicit ColumnBuilder(std::size_t frames) : m_frames(frames) {}
 
     // `ofFile`: the indices of the file's frames in the stack, by their number in the file.
-    void add(const decoder::AttributeList &list, const std::map<int, std::size_t> &ofFile) {
+    void add(const decoding::AttributeList &list, const std::map<int, std::size_t> &ofFile) {
         forEachValue(list, [&](const Attribute &attribute, std::vector<std::uint32_t> path,
                                std::optional<int> frame) {
             if (isIgnored(attribute))
@@ -234,7 +234,7 @@ std::vector<Column> headerColumns(const std::vector<PlacedFrame> &frames) {
         if (!column.isConstant())
             columns.push_back(std::move(column));
     };
-    for (const decoder::Dimension &dimension : decoder::dimensions) {
+    for (const decoding::Dimension &dimension : decoding::dimensions) {
         Column column(
             dimension.kind,
             [&](const std::string &value) {
@@ -248,8 +248,8 @@ std::vector<Column> headerColumns(const std::vector<PlacedFrame> &frames) {
         for (std::size_t n = 0; n < frames.size(); ++n)
             if (const auto at = frames[n].header.dimensions.find(dimension.tag);
                 at != frames[n].header.dimensions.end())
-                column.set(n, dimension.tag == decoder::bValueOfGeTag ? bValueOfGe(at->second)
-                                                                      : at->second);
+                column.set(n, dimension.tag == decoding::bValueOfGeTag ? bValueOfGe(at->second)
+                                                                       : at->second);
         add(std::move(column));
     }
     Column files(
@@ -278,7 +278,7 @@ std::vector<Column> otherColumns(const std::vector<PlacedFrame> &frames, const R
     constexpr std::size_t atOnce = 64;
     try {
         for (std::size_t first = 0; first < files.size(); first += atOnce) {
-            std::vector<decoder::AttributeList> lists(std::min(atOnce, files.size() - first));
+            std::vector<decoding::AttributeList> lists(std::min(atOnce, files.size() - first));
             tbb::parallel_for(std::size_t(0), lists.size(), [&](std::size_t n) {
                 progress.check();
                 lists[n] = read(files[first + n]->first);

@@ -10,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/decoder/attribute.h"
-#include "core/decoder/dimensions.h"
+#include "core/decoding/client/attribute.h"
+#include "core/decoding/client/dimensions.h"
 #include "core/dicom/stack_geometry.h"
 #include "core/task/progress.h"
 
@@ -21,8 +21,8 @@ namespace pellucid::dicom {
 class Column {
 public:
     using Label = std::function<task::Reason(const std::string &value)>;
-    /// `isKnown`: one of `decoder::dimensions`.
-    Column(decoder::ValueKind kind, Label label, std::size_t frames, bool isKnown = false);
+    /// `isKnown`: one of `decoding::dimensions`.
+    Column(decoding::ValueKind kind, Label label, std::size_t frames, bool isKnown = false);
 
     void set(std::size_t frame, const std::string &value);
 
@@ -36,7 +36,7 @@ public:
     task::Reason labelOf(std::uint32_t id) const { return m_label(m_values[id]); }
 
 private:
-    decoder::ValueKind m_kind;
+    decoding::ValueKind m_kind;
     Label m_label;
     bool m_isKnown;
     std::vector<std::uint32_t> m_ids;
@@ -46,10 +46,10 @@ private:
 };
 
 /// Lists all attributes of a file. *Throws* task::Error.
-using ReadAttributes = std::function<decoder::AttributeList(const std::filesystem::path &)>;
+using ReadAttributes = std::function<decoding::AttributeList(const std::filesystem::path &)>;
 
-/// The attributes of `decoder::dimensions` that differ between frames, the most telling first; then
-/// the file, of files of several frames.
+/// The attributes of `decoding::dimensions` that differ between frames, the most telling first;
+/// then the file, of files of several frames.
 std::vector<Column> headerColumns(const std::vector<PlacedFrame> &frames);
 
 /// All other attributes that differ between frames and are not a place in space or the number of an

@@ -5,8 +5,9 @@
 #include <set>
 #include <tuple>
 
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/reasons.h"
+#include "core/files/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom {

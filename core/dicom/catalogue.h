@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/reasons.h"
 #include "core/files/session_folder.h"
 #include "core/task/reason.h"
 #include "core/volume/volume.h"

@@ -14,7 +14,7 @@ constexpr std::size_t leastFreeBytes = std::size_t(1) << 30;
 
 } // namespace
 
-void DecodedFiles::keep(const std::filesystem::path &path, const decoder::DecodedFile &file) {
+void DecodedFiles::keep(const std::filesystem::path &path, const decoding::DecodedFile &file) {
     if (system::availableMemoryBytes() < leastFreeBytes + 4 * file.samples.size_bytes())
         return;
     Kept kept{file.header, {}};
@@ -27,25 +27,25 @@ void DecodedFiles::keep(const std::filesystem::path &path, const decoder::Decode
     m_files.insert_or_assign(path, std::move(kept));
 }
 
-std::optional<decoder::InstanceHeader>
+std::optional<decoding::InstanceHeader>
 DecodedFiles::header(const std::filesystem::path &path) const {
     const std::lock_guard lock(m_mutex);
     const auto at = m_files.find(path);
     if (at == m_files.end())
         return std::nullopt;
-    decoder::InstanceHeader header = at->second.header;
+    decoding::InstanceHeader header = at->second.header;
     // Known only after decoding; loading adds them.
     header.hasDamagedPixels = false;
-    header.oddities &= ~std::uint32_t(decoder::otherPrecision);
+    header.oddities &= ~std::uint32_t(decoding::otherPrecision);
     return header;
 }
 
-std::optional<decoder::DecodedFile> DecodedFiles::find(const std::filesystem::path &path) const {
+std::optional<decoding::DecodedFile> DecodedFiles::find(const std::filesystem::path &path) const {
     const std::lock_guard lock(m_mutex);
     const auto at = m_files.find(path);
     if (at == m_files.end())
         return std::nullopt;
-    return decoder::DecodedFile{at->second.header, at->second.samples, std::nullopt};
+    return decoding::DecodedFile{at->second.header, at->second.samples, std::nullopt};
 }
 
 void DecodedFiles::clear() {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/decoder/decoder.h"
+#include "core/decoding/client/decoder.h"
 
 namespace pellucid::dicom {
 
@@ -15,16 +15,16 @@ namespace pellucid::dicom {
 class DecodedFiles {
 public:
     /// Copies a decoded file, unless memory is short: then it is decoded again when it is needed.
-    void keep(const std::filesystem::path &path, const decoder::DecodedFile &file);
+    void keep(const std::filesystem::path &path, const decoding::DecodedFile &file);
     /// As `Decoder::header` reads it; none if the file is not kept.
-    std::optional<decoder::InstanceHeader> header(const std::filesystem::path &path) const;
+    std::optional<decoding::InstanceHeader> header(const std::filesystem::path &path) const;
     /// Its samples are valid until `clear`.
-    std::optional<decoder::DecodedFile> find(const std::filesystem::path &path) const;
+    std::optional<decoding::DecodedFile> find(const std::filesystem::path &path) const;
     void clear();
 
 private:
     struct Kept {
-        decoder::InstanceHeader header;
+        decoding::InstanceHeader header;
         std::vector<std::uint16_t> samples;
     };
     mutable std::mutex m_mutex;

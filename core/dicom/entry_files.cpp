@@ -20,7 +20,7 @@ std::vector<EntryFile> filesOf(const VolumeEntry &entry) {
     return files;
 }
 
-bool stillContains(const FrameReference &expected, const decoder::InstanceHeader &found) {
+bool stillContains(const FrameReference &expected, const decoding::InstanceHeader &found) {
     return expected.frame < int(found.frames.size()) &&
            expected.digest == digestOf(found.sopInstanceUid, found.frameOfReferenceUid,
                                        found.modality, found.frames[std::size_t(expected.frame)]);

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/decoder/instance.h"
+#include "core/decoding/client/instance.h"
 #include "core/dicom/catalogue.h"
 
 namespace pellucid::dicom {
@@ -20,6 +20,6 @@ struct EntryFile {
 std::vector<EntryFile> filesOf(const VolumeEntry &entry);
 
 /// Whether a file that was read again still contains the frame that the scan found.
-bool stillContains(const FrameReference &expected, const decoder::InstanceHeader &found);
+bool stillContains(const FrameReference &expected, const decoding::InstanceHeader &found);
 
 } // namespace pellucid::dicom

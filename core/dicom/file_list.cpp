@@ -8,9 +8,9 @@
 #include <string_view>
 #include <utility>
 
-#include "core/decoder/decoder.h"
-#include "core/decoder/reasons.h"
-#include "core/decoder/unpack_archive.h"
+#include "core/decoding/client/decoder.h"
+#include "core/decoding/client/reasons.h"
+#include "core/decoding/client/unpack_archive.h"
 #include "core/dicom/missing_objects.h"
 #include "core/dicom/reasons.h"
 #include "core/files/reasons.h"
@@ -74,7 +74,7 @@ void FileList::add(const fs::path &path) {
         addFolder(path);
     else if (!fs::is_regular_file(status))
         throw Error(ErrorCode::unusable, because::isNeitherFileNorFolder, path);
-    else if (decoder::isArchive(path))
+    else if (decoding::isArchive(path))
         addArchive(path);
     else if (const auto directory = directoryAt(path); directory.isDirectory)
         addDirectory(path, directory);
@@ -90,19 +90,19 @@ void FileList::addFile(const fs::path &path) {
 void FileList::addArchive(const fs::path &path) {
     auto folder = std::make_shared<files::SessionFolder>();
     for (const auto &file :
-         decoder::unpackArchive(decoder::Decoder::shared(), path, folder->path(), m_progress))
+         decoding::unpackArchive(decoding::Decoder::shared(), path, folder->path(), m_progress))
         skipped.push_back({path / fs::path(file.name).relative_path(), file.reason});
     addFolder(folder->path());
     unpacked.push_back({std::move(folder), path});
 }
 
 // A file that is not DICOM at all is reported when it is read.
-decoder::DirectoryFile FileList::directoryAt(const fs::path &path) const {
-    return volume::isVolumeFile(path) ? decoder::DirectoryFile()
-                                      : decoder::Decoder::shared().directory(path, m_progress);
+decoding::DirectoryFile FileList::directoryAt(const fs::path &path) const {
+    return volume::isVolumeFile(path) ? decoding::DirectoryFile()
+                                      : decoding::Decoder::shared().directory(path, m_progress);
 }
 
-void FileList::addDirectory(const fs::path &path, const decoder::DirectoryFile &directory) {
+void FileList::addDirectory(const fs::path &path, const decoding::DirectoryFile &directory) {
     std::error_code unknown;
     const fs::path folder = fs::weakly_canonical(fs::absolute(path).parent_path(), unknown);
     CaselessFolders folders;

@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "core/decoder/instance.h"
+#include "core/decoding/client/instance.h"
 #include "core/dicom/catalogue.h"
 #include "core/task/progress.h"
 
@@ -32,9 +32,9 @@ public:
 private:
     void addFile(const std::filesystem::path &path);
     void addArchive(const std::filesystem::path &path);
-    void addDirectory(const std::filesystem::path &path, const decoder::DirectoryFile &directory);
+    void addDirectory(const std::filesystem::path &path, const decoding::DirectoryFile &directory);
     void addFolder(const std::filesystem::path &folder);
-    decoder::DirectoryFile directoryAt(const std::filesystem::path &path) const;
+    decoding::DirectoryFile directoryAt(const std::filesystem::path &path) const;
 
     const task::Progress &m_progress;
     std::set<std::filesystem::path> m_seen;

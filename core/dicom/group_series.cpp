@@ -273,7 +273,7 @@ bool isLocalizer(const FrameHeader &frame) {
 }
 
 int statedValues(const InstanceHeader &header, int frame) {
-    const decoder::Rescale &rescale = header.frames.at(std::size_t(frame)).rescale;
+    const decoding::Rescale &rescale = header.frames.at(std::size_t(frame)).rescale;
     return header.modalityTable.empty()
                ? int(rescale.isSlopeStated) + int(rescale.isInterceptStated)
                : 2;

@@ -15,9 +15,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/decoder/decoder.h"
-#include "core/decoder/read_volume_file.h"
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/decoder.h"
+#include "core/decoding/client/read_volume_file.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/entry_files.h"
 #include "core/dicom/modality_values.h"
 #include "core/dicom/reasons.h"
@@ -32,7 +32,7 @@ namespace pellucid::dicom {
 namespace {
 
 namespace because = task::because;
-using decoder::InstanceHeader;
+using decoding::InstanceHeader;
 using task::Error;
 using task::ErrorCode;
 using Clock = std::chrono::steady_clock;
@@ -70,10 +70,10 @@ public:
 
     // *Requires*: no two threads decode the same file. *Throws* Error{unusable} also for a file
     // that asks for too much memory: it is skipped like a damaged one.
-    decoder::DecodedFile decode(std::size_t file) {
+    decoding::DecodedFile decode(std::size_t file) {
         if (file != m_keptFile || !m_kept)
             return decoded(m_files[file].path);
-        decoder::DecodedFile kept = std::move(*m_kept);
+        decoding::DecodedFile kept = std::move(*m_kept);
         m_kept.reset();
         return kept;
     }
@@ -84,12 +84,12 @@ public:
     }
 
 private:
-    decoder::DecodedFile decoded(const std::filesystem::path &path) {
+    decoding::DecodedFile decoded(const std::filesystem::path &path) {
         try {
             auto known = m_decoded != nullptr ? m_decoded->find(path)
-                                              : std::optional<decoder::DecodedFile>();
-            decoder::DecodedFile image =
-                known ? std::move(*known) : decoder::Decoder::shared().image(path, m_progress);
+                                              : std::optional<decoding::DecodedFile>();
+            decoding::DecodedFile image =
+                known ? std::move(*known) : decoding::Decoder::shared().image(path, m_progress);
             if (image.header.columns != m_size.i || image.header.rows != m_size.j)
                 throw Error(ErrorCode::unusable, because::changedWhileRead, path);
             return image;
@@ -107,7 +107,7 @@ private:
     const DecodedFiles *m_decoded; ///< or null
     std::atomic<bool> m_lacksMemory = false;
     std::size_t m_keptFile = 0;
-    std::optional<decoder::DecodedFile> m_kept;
+    std::optional<decoding::DecodedFile> m_kept;
 };
 
 // Properties of files that are known only after decoding.
@@ -115,7 +115,7 @@ class DecodingNotes {
 public:
     void add(const InstanceHeader &header, const std::filesystem::path &path) {
         const std::lock_guard lock(m_guard);
-        if ((header.oddities & decoder::otherPrecision) != 0)
+        if ((header.oddities & decoding::otherPrecision) != 0)
             ++m_otherPrecision;
         if (header.hasDamagedPixels)
             m_damaged.insert(path.filename().string());
@@ -131,7 +131,7 @@ public:
             warnings.push_back(because::damagedPixels(m_damaged.size()));
         if (m_otherPrecision > 0) {
             InstanceHeader header;
-            header.oddities = decoder::otherPrecision;
+            header.oddities = decoding::otherPrecision;
             header.frames.resize(1);
             const std::vector<const InstanceHeader *> all(m_otherPrecision, &header);
             for (const task::Reason &warning : warningsOfValues(all))
@@ -214,7 +214,7 @@ private:
     bool readFile(std::size_t n) {
         const EntryFile &file = m_decoder.files()[n];
         try {
-            const decoder::DecodedFile image = m_decoder.decode(n);
+            const decoding::DecodedFile image = m_decoder.decode(n);
             if (std::is_same_v<T, std::int16_t> && !fitsInt16(image.header, scale()))
                 return false;
             m_notes.add(image.header, file.path);
@@ -336,7 +336,7 @@ LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress
                         const LoadObserver &observer, const DecodedFiles *decoded) {
     try {
         if (!entry.volumeFile.empty())
-            return {decoder::readVolumeFile(entry.volumeFile, progress, entry.fileVolume), {}};
+            return {decoding::readVolumeFile(entry.volumeFile, progress, entry.fileVolume), {}};
         return Loader(entry, progress, observer, decoded).load();
     } catch (const std::bad_alloc &) {
         const volume::GridSize n = entry.geometry.lattice.size();

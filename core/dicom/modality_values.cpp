@@ -14,9 +14,9 @@ namespace pellucid::dicom {
 
 namespace {
 
-using decoder::FrameHeader;
-using decoder::InstanceHeader;
-using decoder::Rescale;
+using decoding::FrameHeader;
+using decoding::InstanceHeader;
+using decoding::Rescale;
 
 // Padding must not count as tissue, but some scanners write a padding value that is also a tissue
 // value (0 in a CT of signed HU). Between these bounds it counts as tissue.
@@ -125,7 +125,7 @@ bool fitsInt16(const InstanceHeader &h, const ValueScale &scale) {
 }
 
 template <class T>
-bool writeValues(const decoder::DecodedFile &image, int frame, const ValueScale &scale, T *out,
+bool writeValues(const decoding::DecodedFile &image, int frame, const ValueScale &scale, T *out,
                  volume::Narrowing &narrowing) {
     const InstanceHeader &h = image.header;
     const std::size_t plane = std::size_t(h.rows) * h.columns;
@@ -171,9 +171,9 @@ template <class T> void fillMissing(std::vector<T> &samples) {
                         missing == samples.size() ? T(0) : lowest);
 }
 
-template bool writeValues(const decoder::DecodedFile &, int, const ValueScale &, std::int16_t *,
+template bool writeValues(const decoding::DecodedFile &, int, const ValueScale &, std::int16_t *,
                           volume::Narrowing &);
-template bool writeValues(const decoder::DecodedFile &, int, const ValueScale &, float *,
+template bool writeValues(const decoding::DecodedFile &, int, const ValueScale &, float *,
                           volume::Narrowing &);
 template void fillMissing(std::vector<std::int16_t> &);
 template void fillMissing(std::vector<float> &);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/decoder/decoder.h"
+#include "core/decoding/client/decoder.h"
 #include "core/volume/narrowing.h"
 
 namespace pellucid::dicom {
@@ -27,12 +27,12 @@ template <class T> constexpr T missingValue() {
 
 /// Whether the values of a file probably fit int16 without loss. HU hardly ever use the full 16
 /// bits that their header declares, so int16 is tried.
-bool fitsInt16(const decoder::InstanceHeader &header, const ValueScale &scale);
+bool fitsInt16(const decoding::InstanceHeader &header, const ValueScale &scale);
 
 /// Writes the values of one frame; padding becomes `missingValue`. False if a value does not fit T;
 /// `out` is then partly written. *Shape*: out: rows x columns.
 template <class T>
-bool writeValues(const decoder::DecodedFile &image, int frame, const ValueScale &scale, T *out,
+bool writeValues(const decoding::DecodedFile &image, int frame, const ValueScale &scale, T *out,
                  volume::Narrowing &narrowing);
 
 /// Replaces missing values by the lowest other value, or by 0 if there is none.

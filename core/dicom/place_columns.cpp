@@ -60,7 +60,7 @@ Column columnAlong(const std::vector<PlacedFrame> &sorted, int axis, double tole
     const PlacedFrame &front = sorted.front();
     const double halfMm =
         0.5 * ((axis == 0 ? front.columns : front.rows) - 1) * (*front.header.spacingMm)[axis];
-    Column column(decoder::ValueKind::driftingNumber,
+    Column column(decoding::ValueKind::driftingNumber,
                   labelAlong(axis == 0 ? *front.header.rowAxis : *front.header.columnAxis),
                   sorted.size(), true);
     std::string value;

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "core/decoder/decoder.h"
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/decoder.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/group_series.h"
 #include "core/dicom/reasons.h"
 #include "core/dicom/value_warnings.h"
@@ -58,7 +58,7 @@ public:
 
 private:
     void keep(const EntryFile &meant, const task::Progress &progress) {
-        SeriesFile file{meant.path, decoder::Decoder::shared().header(meant.path, progress)};
+        SeriesFile file{meant.path, decoding::Decoder::shared().header(meant.path, progress)};
         if (!std::all_of(meant.frames.begin(), meant.frames.end(), [&](std::size_t frame) {
                 return stillContains(m_entry.frames[frame], file.header);
             })) {

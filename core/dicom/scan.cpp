@@ -15,10 +15,10 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "core/decoder/decoder.h"
-#include "core/decoder/read_volume_file.h"
-#include "core/decoder/reasons.h"
-#include "core/decoder/unpack_archive.h"
+#include "core/decoding/client/decoder.h"
+#include "core/decoding/client/read_volume_file.h"
+#include "core/decoding/client/reasons.h"
+#include "core/decoding/client/unpack_archive.h"
 #include "core/dicom/file_list.h"
 #include "core/dicom/group_series.h"
 #include "core/dicom/missing_objects.h"
@@ -45,7 +45,7 @@ std::size_t bytesToGroup(const InstanceHeader &header) {
     std::size_t bytes = 0;
     for (const volume::ValueWindow &window : header.windows)
         bytes += sizeof window + (window.curve ? window.curve->size() * sizeof(float) : 0);
-    for (const decoder::FrameHeader &frame : header.frames) {
+    for (const decoding::FrameHeader &frame : header.frames) {
         bytes += sizeof(PlacedFrame) + pathBytes;
         for (const auto &[tag, value] : frame.dimensions)
             bytes += 96 + value.capacity();
@@ -211,7 +211,7 @@ private:
 };
 
 void addVolumeFile(Catalogue &catalogue, const fs::path &path,
-                   const decoder::VolumeFileHeader &header) {
+                   const decoding::VolumeFileHeader &header) {
     if (catalogue.patients.empty() || !catalogue.patients.back().isOfVolumeFiles)
         catalogue.patients.push_back(
             {"files", "Files", "", "", {{"", "", "Volume files", {}, {}}}, true});
@@ -258,7 +258,7 @@ task::Reason reasonOf(const Error &error) {
 // The result of reading a file: one of the headers, or why there is none.
 struct FileContents {
     InstanceHeader header; ///< also of a segmentation, which has a reason not to be an image
-    std::optional<decoder::VolumeFileHeader> volumeFile;
+    std::optional<decoding::VolumeFileHeader> volumeFile;
     std::optional<task::Reason> reason;
     bool isHuge = false;
 };
@@ -300,13 +300,13 @@ private:
     void readOne(const fs::path &path, FileContents &contents) {
         try {
             if (volume::isVolumeFile(path))
-                contents.volumeFile = decoder::readVolumeFileHeader(path, m_progress);
+                contents.volumeFile = decoding::readVolumeFileHeader(path, m_progress);
             else
                 readInstance(path, contents);
         } catch (const Error &error) {
             if (error.code() == ErrorCode::internal) // nothing can be read without a decoder
                 throw;
-            contents.reason = error.code() != ErrorCode::outOfMemory && decoder::isArchive(path)
+            contents.reason = error.code() != ErrorCode::outOfMemory && decoding::isArchive(path)
                                   ? because::isAnArchive
                                   : reasonOf(error);
         } catch (const std::bad_alloc &) {
@@ -318,11 +318,11 @@ private:
         const auto known =
             m_options.decoded != nullptr ? m_options.decoded->header(path) : std::nullopt;
         InstanceHeader header =
-            known ? *known : decoder::Decoder::shared().header(path, m_progress);
+            known ? *known : decoding::Decoder::shared().header(path, m_progress);
         std::error_code unknown;
         const auto bytes = fs::file_size(path, unknown);
-        contents.reason = decoder::whyUnusable(header);
-        if (!contents.reason && !m_options.includesHuge && decoder::isHuge(header, bytes)) {
+        contents.reason = decoding::whyUnusable(header);
+        if (!contents.reason && !m_options.includesHuge && decoding::isHuge(header, bytes)) {
             contents.reason = hugeReason(header, bytes);
             contents.isHuge = true;
         }
@@ -331,7 +331,7 @@ private:
         if (contents.reason && contents.reason != task::Reason(because::isASegmentation))
             return;
         if (contents.reason)
-            header.frames = std::vector<decoder::FrameHeader>(1); // only its identity is used
+            header.frames = std::vector<decoding::FrameHeader>(1); // only its identity is used
         contents.header = std::move(header);
     }
 
@@ -388,7 +388,7 @@ Series seriesOf(const std::vector<SeriesFile> &files, Slices slices, std::vector
                 const task::Progress &progress) {
     const InstanceHeader &h = files.front().header;
     const ReadAttributes read = [&](const fs::path &path) {
-        return decoder::Decoder::shared().attributes(path, progress);
+        return decoding::Decoder::shared().attributes(path, progress);
     };
     Series series{
         h.seriesUid, h.seriesDescription, h.modality,
@@ -433,7 +433,7 @@ Series seriesOf(const std::vector<SeriesFile> &files, Slices slices, std::vector
 Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress,
                const ScanOptions &options) {
     if (!options.isSameSource)
-        decoder::Decoder::shared().beginOpening();
+        decoding::Decoder::shared().beginOpening();
     FileList list = listFiles(paths, progress);
     std::vector<FileContents> contents = HeaderReader(options, progress).read(list.found);
     Catalogue catalogue;

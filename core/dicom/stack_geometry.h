@@ -7,14 +7,14 @@
 
 #include <glm/vec2.hpp>
 
-#include "core/decoder/instance.h"
+#include "core/decoding/client/instance.h"
 #include "core/dicom/catalogue.h"
 
 namespace pellucid::dicom {
 
-using decoder::FrameHeader;
-using decoder::InstanceHeader;
-using decoder::Rescale;
+using decoding::FrameHeader;
+using decoding::InstanceHeader;
+using decoding::Rescale;
 
 /// A frame and its source.
 struct PlacedFrame {

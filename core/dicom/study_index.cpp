@@ -11,9 +11,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/decoder/decoder.h"
-#include "core/decoder/reasons.h"
-#include "core/decoder/unpack_archive.h"
+#include "core/decoding/client/decoder.h"
+#include "core/decoding/client/reasons.h"
+#include "core/decoding/client/unpack_archive.h"
 #include "core/dicom/file_list.h"
 #include "core/dicom/reasons.h"
 #include "core/task/error.h"
@@ -44,18 +44,18 @@ Identity identityOf(const fs::path &path, const task::Progress &progress) {
         identity.isVolumeFile = volume::isVolumeFile(path);
         if (identity.isVolumeFile)
             return identity;
-        const decoder::InstanceHeader header = decoder::Decoder::shared().header(path, progress);
+        const decoding::InstanceHeader header = decoding::Decoder::shared().header(path, progress);
         identity.series = {header.patientId, header.patientName,
                            header.seriesUid.empty() ? header.studyUid : std::string(),
                            header.seriesUid};
         identity.studyUid = header.studyUid;
         identity.patientId = header.patientId;
         identity.patientName = header.patientName;
-        identity.reason = decoder::whyUnusable(header);
+        identity.reason = decoding::whyUnusable(header);
     } catch (const Error &error) {
         if (error.code() == ErrorCode::internal) // nothing can be read without a decoder
             throw;
-        identity.reason = error.code() != ErrorCode::outOfMemory && decoder::isArchive(path)
+        identity.reason = error.code() != ErrorCode::outOfMemory && decoding::isArchive(path)
                               ? because::isAnArchive
                               : error.reason();
     } catch (const std::bad_alloc &) {
@@ -67,7 +67,7 @@ Identity identityOf(const fs::path &path, const task::Progress &progress) {
 } // namespace
 
 StudyIndex indexStudies(const std::vector<fs::path> &paths, const task::Progress &progress) {
-    decoder::Decoder::shared().beginOpening();
+    decoding::Decoder::shared().beginOpening();
     FileList list = listFiles(paths, progress);
     std::vector<Identity> identities(list.found.size());
     std::atomic<std::size_t> done = 0;

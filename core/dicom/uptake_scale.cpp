@@ -13,8 +13,8 @@ namespace pellucid::dicom {
 namespace {
 
 namespace because = task::because;
-using decoder::InstanceHeader;
-using decoder::PetHeader;
+using decoding::InstanceHeader;
+using decoding::PetHeader;
 using volume::ValueUnit;
 
 constexpr double secondsPerDay = 86400.0;

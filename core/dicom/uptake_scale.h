@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/decoder/instance.h"
+#include "core/decoding/client/instance.h"
 #include "core/task/reason.h"
 #include "core/volume/value_unit.h"
 
@@ -23,7 +23,7 @@ struct UptakeScale {
 /// the injected activity, which has decayed to the time that the concentrations refer to.
 /// *Shape*: `files`: of the whole series, at least one. *Source*: PS3.3, C.8.9.1; for the time that
 /// a decay correction to the start refers to, QIBA FDG-PET/CT, appendix G.
-UptakeScale uptakeScale(const std::vector<const decoder::InstanceHeader *> &files);
+UptakeScale uptakeScale(const std::vector<const decoding::InstanceHeader *> &files);
 
 /// Seconds from a fixed day to a date "YYYYMMDD" and a time "HHMMSS.FFF", of which the
 /// end may be missing; none if they cannot be read. Only differences have a meaning.

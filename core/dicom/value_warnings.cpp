@@ -18,20 +18,20 @@ namespace pellucid::dicom {
 namespace {
 
 namespace because = task::because;
-using decoder::FrameHeader;
-using decoder::InstanceHeader;
+using decoding::FrameHeader;
+using decoding::InstanceHeader;
 
-constexpr std::array<std::pair<decoder::Oddity, task::Because<1>>, 10> oddities{{
-    {decoder::mislabelledEncoding, because::implicitLabelledExplicit},
-    {decoder::definedLengthPixels, because::pixelsOfDefinedLength},
-    {decoder::missingDelimiter, because::pixelsWithoutEnd},
-    {decoder::otherPrecision, because::moreBitsThanDeclared},
-    {decoder::unreadMosaic, because::mosaicsShownFlat},
-    {decoder::guessedMosaic, because::mosaicTilesGuessed},
-    {decoder::placedBySpacing, because::placedBySpacing},
-    {decoder::placedByThickness, because::placedByThickness},
-    {decoder::decimalCommas, because::decimalCommas},
-    {decoder::numbersOfWrongType, because::numbersOfWrongType},
+constexpr std::array<std::pair<decoding::Oddity, task::Because<1>>, 10> oddities{{
+    {decoding::mislabelledEncoding, because::implicitLabelledExplicit},
+    {decoding::definedLengthPixels, because::pixelsOfDefinedLength},
+    {decoding::missingDelimiter, because::pixelsWithoutEnd},
+    {decoding::otherPrecision, because::moreBitsThanDeclared},
+    {decoding::unreadMosaic, because::mosaicsShownFlat},
+    {decoding::guessedMosaic, because::mosaicTilesGuessed},
+    {decoding::placedBySpacing, because::placedBySpacing},
+    {decoding::placedByThickness, because::placedByThickness},
+    {decoding::decimalCommas, because::decimalCommas},
+    {decoding::numbersOfWrongType, because::numbersOfWrongType},
 }};
 
 // What images of one volume should agree on, by the attribute's name. Empty: not stated.
@@ -92,7 +92,7 @@ std::vector<task::Reason> warningsOfValues(const std::vector<const InstanceHeade
             n > 0)
             warnings.push_back(what(n));
     };
-    count(because::surplusPixels, decoder::hasSurplusPixels);
+    count(because::surplusPixels, decoding::hasSurplusPixels);
     count(because::zeroSlopes, [](const InstanceHeader &h) {
         return h.modalityTable.empty() &&
                std::any_of(h.frames.begin(), h.frames.end(),

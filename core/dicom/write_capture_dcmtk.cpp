@@ -9,7 +9,7 @@
 #include <dcmtk/dcmdata/dctk.h>
 #include <fmt/format.h>
 
-#include "core/dcmtk/dictionary.h"
+#include "core/dcmtk/codecs.h"
 #include "core/dicom/reasons.h"
 #include "core/dicom/write_dataset.h"
 #include "core/system/memory.h"

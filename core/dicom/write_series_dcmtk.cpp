@@ -19,7 +19,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "core/dcmtk/dictionary.h"
+#include "core/dcmtk/codecs.h"
 #include "core/dcmtk/encode_jpeg2000.h"
 #include "core/dicom/reasons.h"
 #include "core/dicom/write_dataset.h"

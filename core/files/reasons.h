@@ -51,6 +51,8 @@ PELLUCID_REASON(hasNo, "has no %1")
 // Export
 PELLUCID_REASON(videosNeedFfmpeg, "Videos need ffmpeg, which is not installed; export frames instead")
 PELLUCID_REASON(ffmpegReports, "ffmpeg: %1")
+PELLUCID_REASON(cannotBeMapped, "cannot be mapped: %1")
+PELLUCID_REASON(isNotDicom, "is not a DICOM file")
 // clang-format on
 
 } // namespace pellucid::task::because

@@ -11,9 +11,9 @@
 
 #include <fmt/format.h>
 
-#include "core/decoder/decoder.h"
-#include "core/decoder/read_volume_file.h"
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/decoder.h"
+#include "core/decoding/client/read_volume_file.h"
+#include "core/decoding/client/reasons.h"
 #include "core/segment/contour_masks.h"
 #include "core/segment/reasons.h"
 #include "core/segment/stored_masks.h"
@@ -27,10 +27,10 @@ namespace {
 
 namespace because = task::because;
 namespace fs = std::filesystem;
-using decoder::Decoder;
-using decoder::InstanceHeader;
-using decoder::SegmentationKind;
-using decoder::SegmentDescription;
+using decoding::Decoder;
+using decoding::InstanceHeader;
+using decoding::SegmentationKind;
+using decoding::SegmentDescription;
 using task::Error;
 using task::ErrorCode;
 using task::naming;
@@ -149,7 +149,7 @@ void addPlaced(const StoredMasks &masks, std::vector<Segment> segments, const La
 
 Segmentation loadDicomSegmentation(const fs::path &path, const Volume &volume,
                                    const task::Progress &progress) {
-    const decoder::DecodedSegmentation file =
+    const decoding::DecodedSegmentation file =
         Decoder::shared().segmentation(path, progress.part(0.0, 0.4));
     const InstanceHeader &header = file.header.instance;
     requireSameStudy(header, volume.notes());
@@ -172,7 +172,7 @@ Segmentation loadDicomSegmentation(const fs::path &path, const Volume &volume,
         segments.push_back(segmentOf(described, numbered(described.number)));
     }
     masks.segments = int(segments.size());
-    for (const decoder::FrameHeader &frame : header.frames)
+    for (const decoding::FrameHeader &frame : header.frames)
         masks.planes.push_back(
             {*frame.positionMm, *frame.rowAxis * frame.spacingMm->x,
              *frame.columnAxis * frame.spacingMm->y,
@@ -185,14 +185,14 @@ Segmentation loadDicomSegmentation(const fs::path &path, const Volume &volume,
 
 Segmentation loadStructureSet(const fs::path &path, const Volume &volume,
                               const task::Progress &progress) {
-    const decoder::DecodedStructureSet file =
+    const decoding::DecodedStructureSet file =
         Decoder::shared().structureSet(path, progress.part(0.0, 0.3));
     requireSameStudy(file.header.instance, volume.notes());
     Collector collector(volume);
     std::span<const glm::dvec3> rest(file.points);
     double done = 0.3;
     int ignored = 0;
-    for (const decoder::Structure &structure : file.header.structures) {
+    for (const decoding::Structure &structure : file.header.structures) {
         std::vector<std::span<const glm::dvec3>> contours;
         for (const std::uint32_t points : structure.contourSizes) {
             contours.push_back(rest.first(points));
@@ -232,8 +232,8 @@ std::vector<std::uint16_t> labelsOf(const Volume &labels) {
 
 Segmentation loadLabelVolume(const fs::path &path, const Volume &volume,
                              const task::Progress &progress) {
-    const decoder::VolumeFileHeader header = decoder::readVolumeFileHeader(path, progress);
-    const Volume stored = decoder::readVolumeFile(path, progress.part(0.0, 0.5));
+    const decoding::VolumeFileHeader header = decoding::readVolumeFileHeader(path, progress);
+    const Volume stored = decoding::readVolumeFile(path, progress.part(0.0, 0.5));
     const Lattice &own = stored.lattice();
     return task::orOutOfMemory(because::noMemoryForTheSegments, [&] {
         const std::vector<std::uint16_t> labels = labelsOf(stored);
@@ -255,7 +255,7 @@ Segmentation loadLabelVolume(const fs::path &path, const Volume &volume,
         for (int label = 1; label <= maxLabel; ++label) {
             if (!isUsed[std::size_t(label)])
                 continue;
-            if (segments.size() == decoder::maxSegments)
+            if (segments.size() == decoding::maxSegments)
                 throw Error(ErrorCode::unusable, because::isNoLabelVolume);
             masks.segmentOfLabel[std::size_t(label)] = int(segments.size());
             // Programs that write one file for each organ name the file after it.
@@ -292,7 +292,7 @@ Segmentation load(const fs::path &path, const Volume &volume, const task::Progre
 std::vector<std::string> segmentNames(const fs::path &path, const task::Progress &progress) {
     std::vector<std::string> names;
     if (isStructureSet(Decoder::shared().header(path, progress))) {
-        for (const decoder::Structure &structure :
+        for (const decoding::Structure &structure :
              Decoder::shared().structureSet(path, progress).header.structures)
             names.push_back(structure.name.empty() ? numbered(structure.number) : structure.name);
         return names;

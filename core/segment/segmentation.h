@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/decoder/segmentation_file.h"
+#include "core/decoding/client/segmentation_file.h"
 #include "core/task/progress.h"
 #include "core/task/reason.h"
 #include "core/volume/coverage.h"
@@ -22,7 +22,7 @@ namespace pellucid::segment {
 struct Segment {
     std::string name;
     std::optional<glm::dvec3> color; ///< sRGB, each 0..1, as the file recommends
-    decoder::CodedConcept category, type;
+    decoding::CodedConcept category, type;
     std::shared_ptr<const volume::Coverage> coverage; ///< on the volume's lattice; not null
     double volumeMm3 = 0.0;                           ///< the volume that it occupies
     /// Different for every segment that was loaded since the program started.

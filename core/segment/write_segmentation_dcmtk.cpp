@@ -18,8 +18,8 @@
 
 #include <fmt/format.h>
 
-#include "core/dcmtk/dictionary.h"
-#include "core/decoder/reasons.h"
+#include "core/dcmtk/codecs.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/write_dataset.h"
 #include "core/segment/reasons.h"
 #include "core/system/memory.h"
@@ -46,18 +46,18 @@ void require(const OFCondition &done) {
 }
 
 // Terms for a segment without codes (PS3.16, CID 7150 and 7151).
-const decoder::CodedConcept otherCategory{"85756007", "SCT", "Tissue"};
+const decoding::CodedConcept otherCategory{"85756007", "SCT", "Tissue"};
 
-bool isComplete(const decoder::CodedConcept &code) {
+bool isComplete(const decoding::CodedConcept &code) {
     return !code.value.empty() && !code.scheme.empty() && !code.meaning.empty();
 }
 
-const decoder::CodedConcept &orOther(const decoder::CodedConcept &code) {
+const decoding::CodedConcept &orOther(const decoding::CodedConcept &code) {
     return isComplete(code) ? code : otherCategory;
 }
 
-CodeSequenceMacro codeOf(const decoder::CodedConcept &given) {
-    const decoder::CodedConcept &code = orOther(given);
+CodeSequenceMacro codeOf(const decoding::CodedConcept &given) {
+    const decoding::CodedConcept &code = orOther(given);
     return {code.value.c_str(), code.scheme.c_str(), "-"}; // the meaning follows, see putTexts
 }
 
@@ -263,8 +263,8 @@ void writeSegmentation(const std::filesystem::path &path, const std::vector<Segm
     std::size_t frames = 0;
     for (const Segment &segment : segments)
         frames += std::size_t(segment.coverage->box.size().k);
-    if (frames > decoder::maxFrames)
-        throw Error(ErrorCode::usage, because::needsTooManyFrames(frames, decoder::maxFrames),
+    if (frames > decoding::maxFrames)
+        throw Error(ErrorCode::usage, because::needsTooManyFrames(frames, decoding::maxFrames),
                     path);
     const bool areBits = isBinary(segments);
     // DCMTK holds the frames twice while it writes.

@@ -119,11 +119,11 @@ for source in sources:
 for folder, several in rooms.items():
     for room in several:
         linked = everything(room.target)
-        confined = ("pellucid_parse", "pellucid-decode", "pellucid_network", "pellucid-net")
-        if "pellucid_parse" in linked and room.target not in confined:
-            wrong.append(f"{room.target} links pellucid_parse, which is for confined processes alone")
-        if "pellucid_network" in linked and room.target not in confined:
-            wrong.append(f"{room.target} links pellucid_network, which is for pellucid-net alone")
+        confined = ("pellucid_decoding_process", "pellucid-decode", "pellucid_network_process", "pellucid-net")
+        if "pellucid_decoding_process" in linked and room.target not in confined:
+            wrong.append(f"{room.target} links pellucid_decoding_process, which is for confined processes alone")
+        if "pellucid_network_process" in linked and room.target not in confined:
+            wrong.append(f"{room.target} links pellucid_network_process, which is for pellucid-net alone")
         if folder == "app/bench":
             wrong += [f"{room.target} links {link}" for link in linked if re.match(r"Qt6|DCMTK|ITK", link)]
 

@@ -9,8 +9,8 @@
 #include <mutex>
 #include <optional>
 
-#include "core/decoder/decoder.h"
-#include "core/decoder/unpack_archive.h"
+#include "core/decoding/client/decoder.h"
+#include "core/decoding/client/unpack_archive.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/prepare/prepared_engine.h"
@@ -46,7 +46,7 @@ struct Work {
              [this](const task::Progress &progress) {
                  fs::remove_all(unpacked);
                  fs::create_directories(unpacked);
-                 decoder::unpackArchive(decoder::Decoder::shared(), archive, unpacked, progress);
+                 decoding::unpackArchive(decoding::Decoder::shared(), archive, unpacked, progress);
              }},
             {"headers", [this](const task::Progress &progress) { dicom::scan({many}, progress); }},
             {"pixels",

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/decoder/read_volume_file.h"
+#include "core/decoding/client/read_volume_file.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/write_series.h"
@@ -358,7 +358,7 @@ TEST_F(Cli, ReadsTheNumberedVolume) {
         const auto written = cli("volume " + path + " --volume " + number + out);
         ASSERT_EQ(written.exitCode, 0) << written.error;
         EXPECT_EQ(written.error.find("--volume selects"), std::string::npos) << written.error;
-        const int read = decoder::readVolumeFile(folder / "v.nrrd").lattice().size().k;
+        const int read = decoding::readVolumeFile(folder / "v.nrrd").lattice().size().k;
         EXPECT_EQ(read, volume["size"][2].get<int>());
         slices.insert(read);
     }
@@ -379,8 +379,8 @@ TEST_F(Cli, VolumeWritesValuesAndField) {
                   " --field --window 0,1000 --gzip")
                   .exitCode,
               0);
-    const auto values = decoder::readVolumeFile(folder / "v.nrrd"),
-               field = decoder::readVolumeFile(folder / "f.nrrd");
+    const auto values = decoding::readVolumeFile(folder / "v.nrrd"),
+               field = decoding::readVolumeFile(folder / "f.nrrd");
     EXPECT_FALSE(values.isFloat());
     EXPECT_TRUE(field.isFloat());
     EXPECT_EQ(values.lattice().size(), field.lattice().size());
@@ -401,7 +401,7 @@ TEST_F(Cli, ScenesTurntablesAndFormats) {
     ASSERT_EQ(cli("render " + quoted(series) + " -o " + quoted(folder / "i.nrrd") + " --size 40x30")
                   .exitCode,
               0);
-    EXPECT_EQ(decoder::readVolumeFile(folder / "i.nrrd").lattice().size(),
+    EXPECT_EQ(decoding::readVolumeFile(folder / "i.nrrd").lattice().size(),
               (volume::GridSize{40, 30, 1}));
     scene::Scene scene;
     scene.camera = {scene::viewOrientation(scene::StandardView::left), 2.0, 30, 20, {1.0, 2.0}};

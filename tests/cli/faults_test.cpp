@@ -11,7 +11,7 @@
 #include <thread>
 #include <unistd.h>
 
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/presets/preset.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/classify/crop_box.h"
-#include "core/decoder/read_volume_file.h"
+#include "core/decoding/client/read_volume_file.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/reference/shaded_field.h"
@@ -83,7 +83,7 @@ TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
     EXPECT_FALSE(fs::exists(nrrd));
     EXPECT_EQ(cli("volume " + quoted(series) + " -o " + quoted(nrrd) + " --class bone").exitCode,
               0);
-    const auto written = decoder::readVolumeFile(nrrd);
+    const auto written = decoding::readVolumeFile(nrrd);
     const auto expected =
         classify::classField(volume, window, standard("bone", 1.0, "#ffffff"), nullptr).values;
     for (const volume::VoxelIndex at : {volume::VoxelIndex{28, 40, 20}, {3, 3, 3}, {28, 36, 10}})
@@ -136,7 +136,7 @@ TEST_F(Cli, APresetMakesThePictureThatItsClassesMake) {
     // Canny finds edges in a small share of the samples.
     const fs::path nrrd = folder / "edges.nrrd";
     ASSERT_EQ(cli("volume " + quoted(series) + " -o " + quoted(nrrd) + " --edges").exitCode, 0);
-    const auto edges = decoder::readVolumeFile(nrrd);
+    const auto edges = decoding::readVolumeFile(nrrd);
     std::size_t some = 0, count = 0;
     edges.visit([&](auto samples) {
         for (const auto e : samples) {

@@ -2,7 +2,7 @@
 // Files that ask for more memory than there is, and programs that are given little.
 #include <cstdlib>
 
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/scan.h"
 #include "tests/cli/faults.h"
 #include "tests/support/little_memory.h"

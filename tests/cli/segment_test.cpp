@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/classify/shown_fields.h"
-#include "core/decoder/read_volume_file.h"
+#include "core/decoding/client/read_volume_file.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/preprocess/segment_class.h"
@@ -168,7 +168,7 @@ TEST_F(Cli, GrowsARegionAndWritesIt) {
     ASSERT_EQ(r.exitCode, 0) << r.error;
     const auto segments = json::parse(r.out)["segments"];
     EXPECT_EQ(segments[0]["name"], "ball");
-    const volume::Volume labels = decoder::readVolumeFile(out);
+    const volume::Volume labels = decoding::readVolumeFile(out);
     double samples = 0.0;
     for (int k = 0; k < 40; ++k)
         for (int j = 0; j < 40; ++j)
@@ -184,7 +184,7 @@ TEST_F(Cli, GrowsARegionAndWritesIt) {
                   " --segment ball --window 0,100 -o " + quoted(field))
                   .exitCode,
               0);
-    EXPECT_GT(decoder::readVolumeFile(field).value({20, 20, 20}), 0.0);
+    EXPECT_GT(decoding::readVolumeFile(field).value({20, 20, 20}), 0.0);
 }
 
 // A class that needs a point gets it, or is refused; a scene keeps it.
@@ -206,7 +206,7 @@ TEST_F(Cli, TheClassOfAPresetIsGivenItsPoint) {
     const json report = json::parse(r.out);
     EXPECT_GT(report["segments"][0]["volume_ml"].get<double>(), 0.0);
     EXPECT_GE(report["times_ms"]["find"].get<double>(), 0.0);
-    EXPECT_EQ(decoder::readVolumeFile(out).value({16, 16, 16}), 1.0F);
+    EXPECT_EQ(decoding::readVolumeFile(out).value({16, 16, 16}), 1.0F);
 }
 
 TEST_F(Cli, SubtractsWithWeights) {
@@ -215,7 +215,7 @@ TEST_F(Cli, SubtractsWithWeights) {
                                " --field --window 0,4000 -o " + quoted(out) + " --weights ";
     // Twice the volume without the volume is the volume.
     ASSERT_EQ(cli(volume + "2,-1").exitCode, 0);
-    const volume::Volume before = volumeIn(series), field = decoder::readVolumeFile(out);
+    const volume::Volume before = volumeIn(series), field = decoding::readVolumeFile(out);
     for (const int i : {4, 9, 12, 15})
         EXPECT_NEAR(field.value({i, 12, 12}),
                     std::clamp(double(before.value({i, 12, 12})) / 4000.0, 0.0, 1.0), 1e-5);

@@ -5,12 +5,12 @@
 #include <archive_entry.h>
 
 #include "core/batch/recipe.h"
-#include "core/decoder/message.h"
+#include "core/decoding/client/message.h"
+#include "core/decoding/process/parse.h"
+#include "core/decoding/process/reasons.h"
 #include "core/dicom/write_capture.h"
 #include "core/dicom/write_series.h"
 #include "core/measure/measurement.h"
-#include "core/parse/parse.h"
-#include "core/parse/reasons.h"
 #include "core/phantom/phantom.h"
 #include "core/presets/preset_library.h"
 #include "core/scene/scene.h"
@@ -113,20 +113,20 @@ void writeMessages(const fs::path &folder) {
     fs::create_directory(dicom);
     writeDicom(dicom);
     writeText(folder / "header",
-              decoder::pack(parse::parseHeader(test::readBytes(dicom / "syntax1"))));
-    writeText(folder / "attributes",
-              decoder::pack(parse::listAttributes(test::readBytes(dicom / "syntax1"))));
+              decoding::pack(decoding::process::parseHeader(test::readBytes(dicom / "syntax1"))));
+    writeText(folder / "attributes", decoding::pack(decoding::process::listAttributes(
+                                         test::readBytes(dicom / "syntax1"))));
     fs::remove_all(dicom);
-    writeText(folder / "directory", decoder::pack(decoder::DirectoryFile{true, {{"A", "B"}}}));
-    decoder::VolumeLayout nrrd;
+    writeText(folder / "directory", decoding::pack(decoding::DirectoryFile{true, {{"A", "B"}}}));
+    decoding::VolumeLayout nrrd;
     nrrd.size = {4, 3, 2};
     nrrd.stepsMm = {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
     nrrd.dataFile = "samples.raw";
-    writeText(folder / "nrrd", decoder::pack(nrrd));
+    writeText(folder / "nrrd", decoding::pack(nrrd));
     writeText(folder / "reason",
               task::because::jpeg2000(task::because::isDamagedBy("text")).encoded());
     writeText(folder / "archive",
-              decoder::pack(std::vector<decoder::ArchiveFile>{{"name", 7, false}}));
+              decoding::pack(std::vector<decoding::ArchiveFile>{{"name", 7, false}}));
 }
 
 void writePresets(const fs::path &folder) {

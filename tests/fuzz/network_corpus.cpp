@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/exchange/message.h"
-#include "core/exchange/reasons.h"
-#include "core/helper/packing.h"
+#include "core/confined/packing.h"
+#include "core/network/client/message.h"
+#include "core/network/client/reasons.h"
 #include "core/task/reason.h"
 #include "tests/support/dicom_writer.h"
 #include "tests/support/files.h"
@@ -17,19 +17,19 @@ namespace pellucid::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
-using exchange::Message;
+using network::Message;
 using test::writeText;
 
 void writePackedValues(const fs::path &folder) {
     writeText(folder / "values",
-              helper::packed(std::map<std::string, std::vector<std::optional<double>>>{
+              confined::packed(std::map<std::string, std::vector<std::optional<double>>>{
                   {"a", {1.0, {}, -2.5}}, {"", {}}}));
     writeText(folder / "reason",
               task::because::serverStatus(task::because::serverIsBusy, "0xA700").encoded());
 }
 
 void writeExchangeMessages(const fs::path &folder) {
-    exchange::Connection connection;
+    network::Connection connection;
     connection.peer.host = "host";
     connection.peer.secret = "secret";
     connection.peer.allowsInsecureLogin = true;
@@ -37,27 +37,26 @@ void writeExchangeMessages(const fs::path &folder) {
     connection.sopClasses = {"1.2.3", "1.2.4"};
     connection.transferSyntaxes = {"1.2.840.10008.1.2"};
     connection.encodings = {{"1.2.3", "1.2.840.10008.1.2"}};
-    writeText(folder / "connection", exchange::pack(connection));
+    writeText(folder / "connection", network::pack(connection));
     writeText(folder / "acceptance",
-              exchange::pack(exchange::Acceptance{
+              network::pack(network::Acceptance{
                   "US", {"A", "B"}, {"host", "127.0.0.1"}, true, "a", "b", "c", "d", 1.5}));
     writeText(folder / "query",
-              exchange::pack(exchange::Query{
-                  exchange::Level::series, {{exchange::tag::patientName, "A*"}}, 3}));
-    writeText(folder / "query_end",
-              exchange::pack(exchange::QueryEnd{true, false, {"slow today"}}));
+              network::pack(
+                  network::Query{network::Level::series, {{network::tag::patientName, "A*"}}, 3}));
+    writeText(folder / "query_end", network::pack(network::QueryEnd{true, false, {"slow today"}}));
     writeText(folder / "retrieval",
-              exchange::pack(
-                  exchange::Retrieval{exchange::Level::image, "1.2", "1.3", {"1.4", "1.5"}, "US"}));
+              network::pack(
+                  network::Retrieval{network::Level::image, "1.2", "1.3", {"1.4", "1.5"}, "US"}));
     writeText(folder / "retrieval_end",
-              exchange::pack(exchange::RetrievalEnd{
+              network::pack(network::RetrievalEnd{
                   3, 2, 1, {"1.2"}, task::Reason(task::because::serverIsBusy).encoded()}));
     writeText(folder / "arrival",
-              exchange::pack(exchange::Arrival{"1.2", "1.2.3", "1.2.840.10008.1.2", "SENDER"}));
+              network::pack(network::Arrival{"1.2", "1.2.3", "1.2.840.10008.1.2", "SENDER"}));
     writeText(folder / "attributes",
-              exchange::pack(exchange::Attributes{{exchange::tag::patientName, "Fuzz^Jane"},
-                                                  {exchange::tag::studyUid, "1.2.3"}}));
-    writeText(folder / "uids", exchange::pack(std::vector<std::string>{"1.2", "1.3"}));
+              network::pack(network::Attributes{{network::tag::patientName, "Fuzz^Jane"},
+                                                {network::tag::studyUid, "1.2.3"}}));
+    writeText(folder / "uids", network::pack(std::vector<std::string>{"1.2", "1.3"}));
     writeText(folder / "reason",
               task::because::serverStatus(task::because::serverIsBusy, "0xA700").encoded());
 }

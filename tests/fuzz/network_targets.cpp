@@ -14,15 +14,15 @@
 #include <unistd.h>
 #include <vector>
 
-#include "core/exchange/message.h"
-#include "core/exchange/reasons.h"
+#include "core/confined/packet.h"
+#include "core/confined/packing.h"
 #include "core/files/descriptor.h"
-#include "core/helper/packet.h"
-#include "core/helper/packing.h"
-#include "core/network/control.h"
-#include "core/network/dicom_json.h"
-#include "core/network/file_start.h"
-#include "core/network/multipart.h"
+#include "core/network/client/message.h"
+#include "core/network/client/reasons.h"
+#include "core/network/process/control.h"
+#include "core/network/process/dicom_json.h"
+#include "core/network/process/file_start.h"
+#include "core/network/process/multipart.h"
 #include "core/task/error.h"
 
 namespace pellucid::fuzz {
@@ -74,8 +74,8 @@ int nextDescriptor() {
 // What is taken can be packed and is then the same.
 template <class Unpack> void unpackTwice(const std::string &body, Unpack &&unpack) {
     refusing([&] {
-        const std::string packed = exchange::pack(unpack(body));
-        check(exchange::pack(unpack(packed)) == packed);
+        const std::string packed = network::pack(unpack(body));
+        check(network::pack(unpack(packed)) == packed);
     });
 }
 
@@ -89,20 +89,20 @@ Parts partsOf(const std::string &type, Bytes body, std::size_t piece) {
     Parts parts;
     std::string current;
     bool isOpen = false;
-    network::MultipartReader reader(type, {[&] {
-                                               check(!isOpen);
-                                               isOpen = true;
-                                               current.clear();
-                                           },
-                                           [&](Bytes bytes) {
-                                               check(isOpen);
-                                               current += textOf(bytes);
-                                           },
-                                           [&] {
-                                               check(isOpen);
-                                               isOpen = false;
-                                               parts.complete.push_back(current);
-                                           }});
+    network::process::MultipartReader reader(type, {[&] {
+                                                        check(!isOpen);
+                                                        isOpen = true;
+                                                        current.clear();
+                                                    },
+                                                    [&](Bytes bytes) {
+                                                        check(isOpen);
+                                                        current += textOf(bytes);
+                                                    },
+                                                    [&] {
+                                                        check(isOpen);
+                                                        isOpen = false;
+                                                        parts.complete.push_back(current);
+                                                    }});
     for (; !body.empty(); body = body.subspan(std::min(piece, body.size())))
         reader.add(body.first(std::min(piece, body.size())));
     parts.isWhole = reader.finish();
@@ -116,45 +116,45 @@ void packing(Bytes bytes) {
     using Values = std::map<std::string, std::vector<std::optional<double>>>;
     const task::Reason refusal = task::because::implausibleReply;
     refusing([&] {
-        const std::string packed = helper::packed(helper::unpacked<Values>(bytes, refusal));
-        const auto again = helper::unpacked<Values>(std::as_bytes(std::span(packed)), refusal);
-        check(helper::packed(again) == packed);
+        const std::string packed = confined::packed(confined::unpacked<Values>(bytes, refusal));
+        const auto again = confined::unpacked<Values>(std::as_bytes(std::span(packed)), refusal);
+        check(confined::packed(again) == packed);
     });
-    refusing([&] { check(isOneLine(helper::unpackedReason(bytes, refusal).encoded())); });
+    refusing([&] { check(isOneLine(confined::unpackedReason(bytes, refusal).encoded())); });
 }
 
 void exchangeMessage(Bytes bytes) {
     const std::string body = textOf(bytes);
-    unpackTwice(body, exchange::unpack<exchange::Connection>);
-    unpackTwice(body, exchange::unpack<exchange::Acceptance>);
-    unpackTwice(body, exchange::unpack<exchange::Query>);
-    unpackTwice(body, exchange::unpack<exchange::Retrieval>);
-    unpackTwice(body, exchange::unpack<exchange::QueryEnd>);
-    unpackTwice(body, exchange::unpack<exchange::RetrievalEnd>);
-    unpackTwice(body, exchange::unpack<exchange::Arrival>);
-    unpackTwice(body, exchange::unpack<exchange::Attributes>);
-    unpackTwice(body, exchange::unpack<std::vector<std::string>>);
+    unpackTwice(body, network::unpack<network::Connection>);
+    unpackTwice(body, network::unpack<network::Acceptance>);
+    unpackTwice(body, network::unpack<network::Query>);
+    unpackTwice(body, network::unpack<network::Retrieval>);
+    unpackTwice(body, network::unpack<network::QueryEnd>);
+    unpackTwice(body, network::unpack<network::RetrievalEnd>);
+    unpackTwice(body, network::unpack<network::Arrival>);
+    unpackTwice(body, network::unpack<network::Attributes>);
+    unpackTwice(body, network::unpack<std::vector<std::string>>);
     // What becomes a file name, or is shown, is plain.
     refusing([&] {
-        const exchange::Arrival arrival = exchange::unpack<exchange::Arrival>(body);
-        check(exchange::isUid(arrival.sopClassUid) && exchange::isUid(arrival.sopInstanceUid) &&
-              exchange::isUid(arrival.transferSyntax) && isOneLine(arrival.callingAe));
+        const network::Arrival arrival = network::unpack<network::Arrival>(body);
+        check(network::isUid(arrival.sopClassUid) && network::isUid(arrival.sopInstanceUid) &&
+              network::isUid(arrival.transferSyntax) && isOneLine(arrival.callingAe));
     });
     refusing([&] {
-        for (const auto &[tag, value] : exchange::unpack<exchange::Attributes>(body))
+        for (const auto &[tag, value] : network::unpack<network::Attributes>(body))
             check(isOneLine(value));
     });
     refusing([&] {
-        for (const std::string &warning : exchange::unpack<exchange::QueryEnd>(body).warnings)
+        for (const std::string &warning : network::unpack<network::QueryEnd>(body).warnings)
             check(isOneLine(warning));
     });
     refusing([&] {
-        const exchange::RetrievalEnd end = exchange::unpack<exchange::RetrievalEnd>(body);
+        const network::RetrievalEnd end = network::unpack<network::RetrievalEnd>(body);
         for (const std::string &uid : end.failedInstances)
-            check(exchange::isUid(uid));
+            check(network::isUid(uid));
         check(isOneLine(end.reason));
     });
-    refusing([&] { check(isOneLine(exchange::unpackReason(body).english())); });
+    refusing([&] { check(isOneLine(network::unpackReason(body).english())); });
 }
 
 // A packet of any length is taken whole or not at all, and no descriptor is left open.
@@ -165,13 +165,13 @@ void packet(Bytes bytes) {
     std::array<std::byte, 256> body{};
     const bool hasDescriptor = !bytes.empty() && (std::to_integer<int>(bytes[0]) & 1) != 0;
     const bool hasSpace = !bytes.empty() && (std::to_integer<int>(bytes[0]) & 2) != 0;
-    if (!helper::sendPacket(ends[0].get(), bytes, {}, hasDescriptor ? anyFile() : -1,
-                            helper::WhenBusy::fail))
+    if (!confined::sendPacket(ends[0].get(), bytes, {}, hasDescriptor ? anyFile() : -1,
+                              confined::WhenBusy::fail))
         return; // longer than the system takes
     {
-        const auto received = helper::receivePacket(ends[1].get(), head, body,
-                                                    hasSpace ? helper::Takes::descriptor
-                                                             : helper::Takes::noDescriptors);
+        const auto received = confined::receivePacket(ends[1].get(), head, body,
+                                                      hasSpace ? confined::Takes::descriptor
+                                                               : confined::Takes::noDescriptors);
         const bool fits = bytes.size() >= head.size() &&
                           bytes.size() <= head.size() + body.size() && (hasSpace || !hasDescriptor);
         check(received.has_value() == fits);
@@ -185,8 +185,8 @@ void packet(Bytes bytes) {
     }
     check(nextDescriptor() == next);
     // The same bytes as a message.
-    if (helper::sendPacket(ends[0].get(), bytes, {}, -1, helper::WhenBusy::fail)) {
-        const auto received = exchange::receive(ends[1].get());
+    if (confined::sendPacket(ends[0].get(), bytes, {}, -1, confined::WhenBusy::fail)) {
+        const auto received = network::receive(ends[1].get());
         check(received.has_value() == (bytes.size() >= head.size()));
         check(!received || received->message.body == textOf(bytes.subspan(head.size())));
     }
@@ -200,27 +200,28 @@ void control(Bytes bytes) {
         auto ends = channel();
         // More would not fit between the ends while nobody reads.
         for (std::size_t at = 0; at + 2 <= bytes.size() && at < 16; at += 2) {
-            exchange::Message message;
-            message.kind = exchange::Message::Kind(std::to_integer<std::uint32_t>(bytes[at]) % 128);
+            network::Message message;
+            message.kind = network::Message::Kind(std::to_integer<std::uint32_t>(bytes[at]) % 128);
             message.code = std::to_integer<std::int32_t>(bytes[at + 1]);
             const bool hasFile = (message.code & 1) != 0;
-            check(exchange::send(ends[0].get(), message, hasFile ? anyFile() : -1));
+            check(network::send(ends[0].get(), message, hasFile ? anyFile() : -1));
         }
         // A message that is none.
         if (bytes.size() % 2 != 0)
-            check(helper::sendPacket(ends[0].get(), bytes.last(1), {}, -1, helper::WhenBusy::fail));
+            check(confined::sendPacket(ends[0].get(), bytes.last(1), {}, -1,
+                                       confined::WhenBusy::fail));
         ::shutdown(ends[0].get(), SHUT_WR);
-        network::Control own(ends[1].get());
+        network::process::Control own(ends[1].get());
         try {
             (void)own.isCancelled();
-            network::Storage storage(own, {"1.2", "1.2.3", "1.2.840.10008.1.2", "SENDER"});
+            network::process::Storage storage(own, {"1.2", "1.2.3", "1.2.840.10008.1.2", "SENDER"});
             if (storage.isWanted()) {
                 storage.write(bytes);
                 (void)storage.finish();
                 check(bytes.size() >= 6); // three messages: the first was no answer
             }
-        } catch (const network::Disconnected &) {
-        } catch (const network::CancelledByProgram &) {
+        } catch (const network::process::Disconnected &) {
+        } catch (const network::process::CancelledByProgram &) {
         }
     }
     check(nextDescriptor() == next);
@@ -231,7 +232,7 @@ void multipart(Bytes bytes) {
     const auto length = std::size_t(line - bytes.begin());
     const std::string type = textOf(bytes.first(length));
     const Bytes body = bytes.subspan(std::min(length + 1, bytes.size()));
-    (void)network::parameterOf(type, "type");
+    (void)network::process::parameterOf(type, "type");
     const Parts whole = partsOf(type, body, body.size() + 1);
     // Headers that are too long count as a part, which depends on when they are too long.
     constexpr std::size_t longestHeaders = 16384;
@@ -244,25 +245,25 @@ void multipart(Bytes bytes) {
 void dicomJson(Bytes bytes) {
     const std::string text = textOf(bytes);
     refusing([&] {
-        for (const exchange::Attributes &attributes : network::readDicomJson(text))
+        for (const network::Attributes &attributes : network::process::readDicomJson(text))
             for (const auto &[tag, value] : attributes)
                 check(tag != 0 && !value.empty() && isOneLine(value));
     });
-    refusing([&] { (void)network::readStoreAnswer(text); });
+    refusing([&] { (void)network::process::readStoreAnswer(text); });
 }
 
 void fileStart(Bytes bytes) {
     refusing([&] {
-        const auto whole = network::readFileStart(bytes);
+        const auto whole = network::process::readFileStart(bytes);
         if (!whole)
             return;
-        check(exchange::isUid(whole->arrival.sopClassUid) &&
-              exchange::isUid(whole->arrival.sopInstanceUid) &&
-              exchange::isUid(whole->arrival.transferSyntax));
+        check(network::isUid(whole->arrival.sopClassUid) &&
+              network::isUid(whole->arrival.sopInstanceUid) &&
+              network::isUid(whole->arrival.transferSyntax));
         check(whole->dataSet <= bytes.size());
         // The start of such a file is not yet enough, or enough for the same answer.
         for (std::size_t length = 0; length < std::min<std::size_t>(bytes.size(), 1024); ++length) {
-            const auto part = network::readFileStart(bytes.first(length));
+            const auto part = network::process::readFileStart(bytes.first(length));
             check(!part || part->arrival.sopInstanceUid == whole->arrival.sopInstanceUid);
         }
     });

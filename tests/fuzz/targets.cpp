@@ -12,13 +12,13 @@
 #include <QCoreApplication>
 
 #include "core/batch/recipe.h"
-#include "core/decoder/message.h"
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/message.h"
+#include "core/decoding/client/reasons.h"
+#include "core/decoding/process/parse.h"
 #include "core/dicom/group_series.h"
 #include "core/fourier/spectrum.h"
 #include "core/fourier/transforms/wisdom.h"
 #include "core/measure/measurement.h"
-#include "core/parse/parse.h"
 #include "core/presets/preset.h"
 #include "core/presets/slicer_preset.h"
 #include "core/scene/scene.h"
@@ -65,12 +65,12 @@ template <class F> void refusing(F &&f) {
 // and program.
 void dicom(Bytes bytes) {
     refusing([&] {
-        const auto header = parse::parseHeader(bytes);
-        const std::string packed = decoder::pack(header);
+        const auto header = decoding::process::parseHeader(bytes);
+        const std::string packed = decoding::pack(header);
         const auto received =
-            decoder::unpack<decoder::InstanceHeader>(std::as_bytes(std::span(packed)));
-        check(decoder::pack(received) == packed);
-        if (decoder::whyUnusable(received))
+            decoding::unpack<decoding::InstanceHeader>(std::as_bytes(std::span(packed)));
+        check(decoding::pack(received) == packed);
+        if (decoding::whyUnusable(received))
             return;
         // A stack of the slice and two shifted copies.
         std::vector<dicom::SeriesFile> files;
@@ -89,14 +89,14 @@ void dicom(Bytes bytes) {
         }
     });
     refusing([&] {
-        const std::string packed = decoder::pack(parse::listAttributes(bytes));
+        const std::string packed = decoding::pack(decoding::process::listAttributes(bytes));
         const auto received =
-            decoder::unpack<decoder::AttributeList>(std::as_bytes(std::span(packed)));
-        check(decoder::pack(received) == packed);
+            decoding::unpack<decoding::AttributeList>(std::as_bytes(std::span(packed)));
+        check(decoding::pack(received) == packed);
     });
     refusing([&] {
-        const auto image = parse::decodeImage(bytes);
-        check(!decoder::whyUnusable(image.header));
+        const auto image = decoding::process::decodeImage(bytes);
+        check(!decoding::whyUnusable(image.header));
         check(image.samples.size() == std::size_t(image.header.rows) *
                                           std::size_t(image.header.columns) *
                                           image.header.frames.size());
@@ -104,52 +104,53 @@ void dicom(Bytes bytes) {
 }
 
 void directory(Bytes bytes) {
-    refusing([&] { decoder::pack(parse::parseDirectory(bytes)); });
+    refusing([&] { decoding::pack(decoding::process::parseDirectory(bytes)); });
 }
 
 void archive(Bytes bytes) {
     refusing([&] {
-        parse::listArchive(bytes, [](const parse::ArchiveFile &) {});
+        decoding::process::listArchive(bytes, [](const decoding::ArchiveFile &) {});
         std::size_t total = 0;
-        parse::readArchive(bytes, [&](const parse::ArchiveFile &, Bytes part, std::int32_t) {
-            total += part.size();
-            if (total > (std::size_t(1) << 26)) // the program's own limit is elsewhere
-                throw task::Error(task::ErrorCode::unusable,
-                                  task::because::unpacksToMoreThanAnnounced);
-        });
+        decoding::process::readArchive(
+            bytes, [&](const decoding::ArchiveFile &, Bytes part, std::int32_t) {
+                total += part.size();
+                if (total > (std::size_t(1) << 26)) // the program's own limit is elsewhere
+                    throw task::Error(task::ErrorCode::unusable,
+                                      task::because::unpacksToMoreThanAnnounced);
+            });
     });
 }
 
 void message(Bytes bytes) {
     refusing([&] {
-        const auto header = decoder::unpack<decoder::InstanceHeader>(bytes);
+        const auto header = decoding::unpack<decoding::InstanceHeader>(bytes);
         check(!header.frames.empty());
     });
-    refusing([&] { decoder::unpack<decoder::DirectoryFile>(bytes); });
-    refusing([&] { decoder::unpack<decoder::AttributeList>(bytes); });
-    refusing([&] { decoder::unpack<std::vector<decoder::ArchiveFile>>(bytes); });
-    refusing([&] { decoder::unpack<decoder::VolumeLayout>(bytes); });
+    refusing([&] { decoding::unpack<decoding::DirectoryFile>(bytes); });
+    refusing([&] { decoding::unpack<decoding::AttributeList>(bytes); });
+    refusing([&] { decoding::unpack<std::vector<decoding::ArchiveFile>>(bytes); });
+    refusing([&] { decoding::unpack<decoding::VolumeLayout>(bytes); });
     refusing([&] {
-        const task::Reason reason = decoder::unpackReason(bytes);
+        const task::Reason reason = decoding::unpackReason(bytes);
         const std::string again = reason.encoded();
-        check(decoder::unpackReason(std::as_bytes(std::span(again))) == reason);
+        check(decoding::unpackReason(std::as_bytes(std::span(again))) == reason);
         (void)reason.english();
     });
 }
 
 void nrrd(Bytes bytes) {
     refusing([&] {
-        const auto layout = parse::parseVolumeLayout(bytes);
-        const std::string packed = decoder::pack(layout);
+        const auto layout = decoding::process::parseVolumeLayout(bytes);
+        const std::string packed = decoding::pack(layout);
         const auto received =
-            decoder::unpack<decoder::VolumeLayout>(std::as_bytes(std::span(packed)));
-        check(decoder::pack(received) == packed);
+            decoding::unpack<decoding::VolumeLayout>(std::as_bytes(std::span(packed)));
+        check(decoding::pack(received) == packed);
         (void)volume::Lattice::make(received.size, {received.originMm}, received.stepsMm);
-        const std::size_t each = decoder::bytesOf(layout.scalar);
+        const std::size_t each = decoding::bytesOf(layout.scalar);
         if (layout.size.count() > (1U << 24) || !layout.dataFile.empty())
             return;
         std::size_t left = layout.size.count() * each;
-        parse::readSamples(
+        decoding::process::readSamples(
             bytes, {left, int(each), layout.isDeflated, layout.isSwapped, layout.at, layout.skip},
             [&](Bytes part, bool) {
                 check(!part.empty() && part.size() <= left && part.size() % each == 0);

@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "core/archive/pkce.h"
-#include "core/exchange/query.h"
+#include "core/network/client/query.h"
 #include "tests/network/http_server.h"
 #include "tests/support/dicom_writer.h"
 

@@ -32,8 +32,8 @@
 #include "core/archive/retrieval.h"
 #include "core/archive/search.h"
 #include "core/archive/sending.h"
-#include "core/exchange/reasons.h"
-#include "core/network/reasons.h"
+#include "core/network/client/reasons.h"
+#include "core/network/process/reasons.h"
 #include "core/task/error.h"
 #include "tests/network/login_server.h"
 #include "tests/network/pacs.h"
@@ -69,7 +69,7 @@ class OAuth : public Pacs {
 protected:
     void SetUp() override {
         m_server = {"Web", archive::webPeer(m_web.url())};
-        m_server.peer.authentication = exchange::Authentication::oauth;
+        m_server.peer.authentication = network::Authentication::oauth;
         // No test waits for them: they are for a loaded machine.
         m_server.peer.connectSeconds = 60.0;
         m_server.peer.silenceSeconds = 60.0;

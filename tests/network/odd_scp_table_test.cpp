@@ -13,7 +13,7 @@
 
 #include "core/archive/retrieval.h"
 #include "core/archive/server.h"
-#include "core/exchange/link.h"
+#include "core/network/client/link.h"
 #include "core/task/progress.h"
 #include "tests/network/odd_scp.h"
 #include "tests/network/odd_table.h"
@@ -506,10 +506,10 @@ private:
         });
     }
     static std::string echoed(const archive::Server &server, const task::Progress &progress) {
-        exchange::Link link({server.peer, exchange::Purpose::echo}, progress);
+        network::Link link({server.peer, network::Purpose::echo}, progress);
         std::string offers;
-        link.echo(progress, [&](exchange::Step step, const std::string &found) {
-            if (step == exchange::Step::service)
+        link.echo(progress, [&](network::Step step, const std::string &found) {
+            if (step == network::Step::service)
                 offers = found;
         });
         return "answers: " + offers;

@@ -119,7 +119,7 @@ std::vector<std::string> expectOutcomes(const std::vector<Row> &rows, F &&outcom
 
 /// A user who has entered a login: eva, secret.
 inline void hasPassword(archive::Server &server) {
-    server.peer.authentication = exchange::Authentication::basic;
+    server.peer.authentication = network::Authentication::basic;
     server.peer.user = "eva";
     server.peer.secret = "secret";
 }

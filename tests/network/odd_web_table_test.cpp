@@ -150,7 +150,7 @@ constexpr const char *coerced = R"("00081196": {"vr": "US", "Value": [45056]})";
 // eva:secret
 constexpr const char *basicLogin = "Basic ZXZhOnNlY3JldA==";
 void hasToken(archive::Server &server) {
-    server.peer.authentication = exchange::Authentication::bearer;
+    server.peer.authentication = network::Authentication::bearer;
     server.peer.secret = "abc";
 }
 

@@ -16,7 +16,7 @@
 
 #include "core/archive/instance_list.h"
 #include "core/archive/search.h"
-#include "core/exchange/query.h"
+#include "core/network/client/query.h"
 #include "tests/network/pacs.h"
 #include "tests/network/processes.h"
 #include "tests/support/command.h"
@@ -24,7 +24,7 @@
 namespace pellucid {
 
 using namespace test;
-namespace tag = exchange::tag;
+namespace tag = network::tag;
 
 namespace {
 
@@ -78,7 +78,7 @@ protected:
     seriesOf(const archive::Server &server, const std::string &study, const std::string &modality) {
         archive::SearchTerms terms;
         terms.studyUid = study;
-        terms.level = exchange::Level::series;
+        terms.level = network::Level::series;
         std::vector<std::string> uids;
         for (const archive::FoundEntry &entry : archive::search({server}, terms).entries)
             if (entry.text(tag::modality) == modality)

@@ -24,7 +24,7 @@
 #include "core/archive/receiving.h"
 #include "core/archive/retrieval.h"
 #include "core/archive/transfer_log.h"
-#include "core/exchange/reasons.h"
+#include "core/network/client/reasons.h"
 #include "core/task/error.h"
 #include "tests/network/pacs.h"
 #include "tests/network/processes.h"

@@ -21,9 +21,9 @@
 #include "core/archive/retrieval.h"
 #include "core/archive/search.h"
 #include "core/archive/server.h"
-#include "core/exchange/reasons.h"
 #include "core/files/reasons.h"
-#include "core/network/reasons.h"
+#include "core/network/client/reasons.h"
+#include "core/network/process/reasons.h"
 #include "core/task/error.h"
 #include "tests/network/http_server.h"
 #include "tests/network/lying_server.h"
@@ -406,8 +406,8 @@ TEST_F(Lies, IdentifiersOfAListAreChecked) {
     const archive::Server server = serverAt(lying.port(), "LIES");
     const auto result = archive::search({server}, {});
     ASSERT_EQ(result.entries.size(), 1U);
-    EXPECT_EQ(result.entries[0].text(exchange::tag::studyUid), "1.2.826.0.1.3680043.8.498.55");
-    for (const char c : result.entries[0].text(exchange::tag::patientName))
+    EXPECT_EQ(result.entries[0].text(network::tag::studyUid), "1.2.826.0.1.3680043.8.498.55");
+    for (const char c : result.entries[0].text(network::tag::patientName))
         EXPECT_GE((unsigned char)(c), 0x20U);
     const ObjectFolder folder(m_folder / "got", ObjectFolder::Durability::cached);
     try {

@@ -27,8 +27,8 @@
 #include "core/archive/reasons.h"
 #include "core/archive/receiving.h"
 #include "core/archive/sending.h"
-#include "core/exchange/link.h"
-#include "core/exchange/reasons.h"
+#include "core/network/client/link.h"
+#include "core/network/client/reasons.h"
 #include "core/task/error.h"
 #include "tests/network/pacs.h"
 #include "tests/network/processes.h"
@@ -170,7 +170,7 @@ protected:
         us.peer.associationSeconds = 30.0;
         const auto begin = Clock::now();
         try {
-            exchange::Link link(exchange::Connection{us.peer, exchange::Purpose::echo});
+            network::Link link(network::Connection{us.peer, network::Purpose::echo});
             link.echo();
         } catch (const task::Error &) {
             return std::nullopt;

@@ -22,7 +22,7 @@
 #include "core/archive/sending.h"
 #include "core/archive/server.h"
 #include "core/archive/transfer_log.h"
-#include "core/exchange/reasons.h"
+#include "core/network/client/reasons.h"
 #include "core/system/log.h"
 #include "tests/network/http_server.h"
 #include "tests/network/pacs.h"
@@ -143,7 +143,7 @@ TEST_F(Pacs, NeitherPatientsNorSecretsShowOutside) {
     Proxy proxy(dcmqrscp.port());
     proxy.set({.delayMs = 5}); // long enough to look at the helpers
     archive::Server server = serverAt(proxy.port(), "COMMON");
-    server.peer.authentication = exchange::Authentication::basic;
+    server.peer.authentication = network::Authentication::basic;
     server.peer.user = "reader";
     server.peer.secret = words.password;
     auto list = archive::ServerList::ofUser();
@@ -154,7 +154,7 @@ TEST_F(Pacs, NeitherPatientsNorSecretsShowOutside) {
         return HttpAnswer{401, "text/plain", "", ""};
     });
     archive::Server web{"web", archive::webPeer(refusing.url() + "/dicom-web")};
-    web.peer.authentication = exchange::Authentication::bearer;
+    web.peer.authentication = network::Authentication::bearer;
     web.peer.secret = words.token;
     list.put(web);
 

@@ -23,7 +23,7 @@
 namespace pellucid {
 
 using namespace test;
-namespace tag = exchange::tag;
+namespace tag = network::tag;
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/write_capture.h"
-#include "core/exchange/reasons.h"
+#include "core/network/client/reasons.h"
 #include "core/task/error.h"
 #include "tests/network/pacs.h"
 #include "tests/network/scripted_server.h"

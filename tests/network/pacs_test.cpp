@@ -24,8 +24,8 @@
 #include "core/archive/transfer_log.h"
 #include "core/dicom/arriving_series.h"
 #include "core/dicom/load_volume.h"
-#include "core/exchange/reasons.h"
-#include "core/network/reasons.h"
+#include "core/network/client/reasons.h"
+#include "core/network/process/reasons.h"
 #include "core/task/error.h"
 #include "tests/network/lying_server.h"
 #include "tests/network/pacs.h"
@@ -57,8 +57,8 @@ TEST_F(Pacs, EveryServiceOfEachServer) {
     const std::string study = studyIn(sent);
     for (const archive::Server &server : servers) {
         std::string offers;
-        exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::echo});
-        link.echo({}, [&](exchange::Step, const std::string &found) { offers = found; });
+        network::Link link(network::Connection{server.peer, network::Purpose::echo});
+        link.echo({}, [&](network::Step, const std::string &found) { offers = found; });
         EXPECT_EQ(offers, "C-FIND, C-GET, C-MOVE, C-STORE");
         put(server, sent);
         auto found = archive::search({server}, {.patientName = "Test^*"});
@@ -66,8 +66,8 @@ TEST_F(Pacs, EveryServiceOfEachServer) {
         for (int n = 0; n < 100 && found.entries.empty(); ++n, ::usleep(100000))
             found = archive::search({server}, {.patientName = "Test^*"});
         ASSERT_EQ(found.entries.size(), 1U);
-        EXPECT_EQ(found.entries[0].text(exchange::tag::studyUid), study);
-        EXPECT_EQ(found.entries[0].text(exchange::tag::patientName), "Test^A");
+        EXPECT_EQ(found.entries[0].text(network::tag::studyUid), study);
+        EXPECT_EQ(found.entries[0].text(network::tag::patientName), "Test^A");
         const std::string to = "got-" + server.peer.calledAe;
         const RetrievalReport report = get(server, study, to);
         EXPECT_TRUE(report.isComplete());
@@ -136,7 +136,7 @@ TEST_F(Pacs, EveryServiceOfDicomWeb) {
     archive::Server server{
         "web",
         archive::webPeer("http://127.0.0.1:" + std::to_string(orthanc.webPort()) + "/dicom-web")};
-    exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::echo});
+    network::Link link(network::Connection{server.peer, network::Purpose::echo});
     link.echo();
     const fs::path plain = series("A", 24),
                    compressed = series("B", 6, 48, dicom::TransferSyntax::jpegLs);
@@ -146,7 +146,7 @@ TEST_F(Pacs, EveryServiceOfDicomWeb) {
     EXPECT_EQ(found.entries.size(), 2U);
     const auto named = archive::search({server}, {.patientName = "Test^A"});
     ASSERT_EQ(named.entries.size(), 1U);
-    EXPECT_EQ(named.entries[0].text(exchange::tag::studyUid), studyIn(plain));
+    EXPECT_EQ(named.entries[0].text(network::tag::studyUid), studyIn(plain));
     for (const auto &[name, sent] : {std::pair("a", plain), std::pair("b", compressed)}) {
         const RetrievalReport report = get(server, studyIn(sent), name);
         EXPECT_TRUE(report.isComplete()) << report.missing.front().reason.english();

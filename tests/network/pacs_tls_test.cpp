@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/archive/listener.h"
-#include "core/exchange/link.h"
+#include "core/network/client/link.h"
 #include "core/task/error.h"
 #include "tests/network/pacs.h"
 #include "tests/support/command.h"
@@ -75,13 +75,13 @@ Offer offerIn(const std::string &bytes) {
     return offer;
 }
 
-class NoObjects : public exchange::Receiver {
+class NoObjects : public network::Receiver {
 public:
-    std::variant<int, std::uint16_t> open(const exchange::Arrival &) override {
-        return exchange::status::outOfResources;
+    std::variant<int, std::uint16_t> open(const network::Arrival &) override {
+        return network::status::outOfResources;
     }
-    std::uint16_t keep(const exchange::Arrival &, std::uint64_t) override {
-        return exchange::status::outOfResources;
+    std::uint16_t keep(const network::Arrival &, std::uint64_t) override {
+        return network::status::outOfResources;
     }
 };
 
@@ -178,7 +178,7 @@ protected:
     }
     static std::string echo(const archive::Server &server) {
         return failureOf([&] {
-            exchange::Link link(exchange::Connection{server.peer, exchange::Purpose::echo});
+            network::Link link(network::Connection{server.peer, network::Purpose::echo});
             link.echo();
         });
     }
@@ -199,11 +199,11 @@ TEST_F(PacsTls, ObjectsComeOverTls) {
     secure.peer.certificate = at("client.pem");
     secure.peer.key = at("client.key");
     std::string parameters;
-    exchange::Link link(exchange::Connection{secure.peer, exchange::Purpose::echo}, {},
-                        [&](exchange::Step step, const std::string &found) {
-                            if (step == exchange::Step::tls)
-                                parameters = found;
-                        });
+    network::Link link(network::Connection{secure.peer, network::Purpose::echo}, {},
+                       [&](network::Step step, const std::string &found) {
+                           if (step == network::Step::tls)
+                               parameters = found;
+                       });
     EXPECT_TRUE(parameters.starts_with("TLSv1.")) << parameters;
     const fs::path sent = series("T", 12);
     put(secure, sent);
@@ -228,7 +228,7 @@ TEST_F(PacsTls, WrongServersAreRefusedAndNamed) {
         stranger.peer.authorities = at("ca2.pem");
         EXPECT_THAT(echo(stranger), HasSubstr("--authorities"));
         stranger.peer.authorities = at("missing.pem");
-        EXPECT_THROW(exchange::Link(exchange::Connection{stranger.peer, exchange::Purpose::echo}),
+        EXPECT_THROW(network::Link(network::Connection{stranger.peer, network::Purpose::echo}),
                      task::Error);
         // A client that speaks no TLS.
         archive::Server plain = serverAt(storescp->port(), "COMMON");
@@ -242,7 +242,7 @@ TEST_F(PacsTls, WrongServersAreRefusedAndNamed) {
         without.peer.key = at("client.key");
         EXPECT_EQ(echo(without), "nothing failed");
         without.peer.key = at("good.key");
-        EXPECT_THROW(exchange::Link(exchange::Connection{without.peer, exchange::Purpose::echo}),
+        EXPECT_THROW(network::Link(network::Connection{without.peer, network::Purpose::echo}),
                      task::Error);
     }
     { // A server that speaks no TLS.
@@ -261,7 +261,7 @@ TEST_F(PacsTls, WrongServersAreRefusedAndNamed) {
             command.insert(command.end(), {"-Verify", "1", "-CAfile", at("ca.pem")});
         const test::Server openssl(command, port);
         archive::Server program = client(port);
-        program.peer.protocol = exchange::Protocol::web;
+        program.peer.protocol = network::Protocol::web;
         if (!demands)
             program.peer.authorities = at("ca2.pem");
         EXPECT_THAT(echo(program),
@@ -324,10 +324,10 @@ TEST_F(PacsTls, TheOfferFollowsTheProfile) {
         test::Proxy proxy(port);
         archive::Server program = client(proxy.port());
         if (isWeb)
-            program.peer.protocol = exchange::Protocol::web;
+            program.peer.protocol = network::Protocol::web;
         program.peer.associationSeconds = program.peer.silenceSeconds = 1.0;
         EXPECT_THROW(
-            exchange::Link(exchange::Connection{program.peer, exchange::Purpose::echo}).echo(),
+            network::Link(network::Connection{program.peer, network::Purpose::echo}).echo(),
             task::Error); // it is no server of this kind
         const Offer offer = offerIn(proxy.fromProgram());
         std::set<int> ciphers = offer.ciphers;
@@ -355,15 +355,15 @@ TEST_F(PacsTls, WeakServersAreRefused) {
         for (const bool isWeb : {false, true}) {
             archive::Server program = client(port);
             if (isWeb)
-                program.peer.protocol = exchange::Protocol::web;
+                program.peer.protocol = network::Protocol::web;
             program.peer.associationSeconds = program.peer.silenceSeconds = 1.0;
             std::string parameters, failure = "nothing failed";
             try {
-                exchange::Link link(exchange::Connection{program.peer, exchange::Purpose::echo}, {},
-                                    [&](exchange::Step step, const std::string &found) {
-                                        if (step == exchange::Step::tls)
-                                            parameters = found;
-                                    });
+                network::Link link(network::Connection{program.peer, network::Purpose::echo}, {},
+                                   [&](network::Step step, const std::string &found) {
+                                       if (step == network::Step::tls)
+                                           parameters = found;
+                                   });
                 link.echo();
             } catch (const task::Error &error) { // it is no DICOM server either
                 failure = error.reason().english();

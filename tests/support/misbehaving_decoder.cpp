@@ -15,11 +15,11 @@
 #include <unistd.h>
 #include <vector>
 
-#include "core/decoder/channel.h"
-#include "core/decoder/child.h"
-#include "core/helper/process.h"
-#include "core/parse/serve.h"
-#include "core/parse/watch.h"
+#include "core/confined/process.h"
+#include "core/decoding/client/channel.h"
+#include "core/decoding/client/child.h"
+#include "core/decoding/process/serve.h"
+#include "core/decoding/process/watch.h"
 #include "core/task/reason.h"
 #include "core/task/reasons.h"
 
@@ -27,18 +27,18 @@ namespace {
 
 using namespace pellucid;
 namespace because = task::because;
-using decoder::Mapping;
-using decoder::Message;
+using decoding::Mapping;
+using decoding::Message;
 
 constexpr std::size_t mib = std::size_t(1) << 20;
 
-void finishWith(const std::string &body, std::int32_t code = decoder::isUnusable) {
-    const Mapping arena(helper::fileDescriptor, mib, Mapping::Access::write);
+void finishWith(const std::string &body, std::int32_t code = decoding::isUnusable) {
+    const Mapping arena(confined::fileDescriptor, mib, Mapping::Access::write);
     std::memcpy(arena.data(), body.data(), body.size());
-    decoder::send(helper::socketDescriptor, {Message::Kind::done, code, body.size(), 0});
+    decoding::send(confined::socketDescriptor, {Message::Kind::done, code, body.size(), 0});
 }
 
-void finish(const task::Reason &reason, std::int32_t code = decoder::isUnusable) {
+void finish(const task::Reason &reason, std::int32_t code = decoding::isUnusable) {
     finishWith(reason.encoded(), code);
 }
 
@@ -59,7 +59,7 @@ bool tryForbidden(std::string_view word) {
     else if (word == "unlink")
         finish(outcome(::unlink("/tmp/anything") >= 0));
     else if (word == "write-arena-size")
-        finish(outcome(::ftruncate(helper::fileDescriptor, 16) >= 0));
+        finish(outcome(::ftruncate(confined::fileDescriptor, 16) >= 0));
     else if (word == "socket")
         finish(outcome(::socket(AF_INET, SOCK_STREAM, 0) >= 0));
     else if (word == "process")
@@ -73,8 +73,8 @@ bool tryForbidden(std::string_view word) {
         finish(outcome(::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1,
                               0) != MAP_FAILED));
     else if (word == "descriptor")
-        finish(outcome(decoder::send(helper::socketDescriptor, {Message::Kind::need, 0, mib, 0},
-                                     helper::socketDescriptor)));
+        finish(outcome(decoding::send(confined::socketDescriptor, {Message::Kind::need, 0, mib, 0},
+                                      confined::socketDescriptor)));
     else if (word == "kill-parent")
         finish(outcome(::kill(::getppid(), SIGTERM) >= 0));
     else if (word == "memory") {
@@ -100,8 +100,8 @@ void act(std::string_view word) {
         for (const itimerval never{};;)
             ::setitimer(ITIMER_PROF, &never, nullptr);
     else if (word == "dawdle") { // until its own clock ends it
-        parse::Watch watch;
-        watch.allow(decoder::decodingSeconds({Message::Kind::header, 0, 0, 0}));
+        decoding::process::Watch watch;
+        watch.allow(decoding::decodingSeconds({Message::Kind::header, 0, 0, 0}));
         for (;;)
             ::getppid();
     } else if (word == "silence")
@@ -109,28 +109,29 @@ void act(std::string_view word) {
     else if (tryForbidden(word))
         return;
     else if (word == "ask-for-all")
-        decoder::send(helper::socketDescriptor,
-                      {Message::Kind::need, 0, std::uint64_t(1) << 50, 0});
+        decoding::send(confined::socketDescriptor,
+                       {Message::Kind::need, 0, std::uint64_t(1) << 50, 0});
     else if (word == "ask-beyond-the-end")
-        decoder::send(helper::socketDescriptor,
-                      {Message::Kind::need, 0, (std::uint64_t(1) << 63) + 3 * mib, 0});
+        decoding::send(confined::socketDescriptor,
+                       {Message::Kind::need, 0, (std::uint64_t(1) << 63) + 3 * mib, 0});
     else if (word == "ask-to-the-end")
-        decoder::send(helper::socketDescriptor,
-                      {Message::Kind::need, 0, (std::uint64_t(1) << 63) - 1, 0});
+        decoding::send(confined::socketDescriptor,
+                       {Message::Kind::need, 0, (std::uint64_t(1) << 63) - 1, 0});
     else if (word == "flood") // without ever listening
         for (;;)
-            decoder::send(helper::socketDescriptor, {Message::Kind::need, 0, mib, 0});
+            decoding::send(confined::socketDescriptor, {Message::Kind::need, 0, mib, 0});
     else if (word == "large-body")
-        decoder::send(helper::socketDescriptor,
-                      {Message::Kind::done, 0, std::uint64_t(1) << 60, 8});
+        decoding::send(confined::socketDescriptor,
+                       {Message::Kind::done, 0, std::uint64_t(1) << 60, 8});
     else if (word == "large-data")
-        decoder::send(helper::socketDescriptor, {Message::Kind::done, 0, 8, ~std::uint64_t(0) - 8});
+        decoding::send(confined::socketDescriptor,
+                       {Message::Kind::done, 0, 8, ~std::uint64_t(0) - 8});
     else if (word == "other-kind")
-        decoder::send(helper::socketDescriptor, {Message::Kind(7777), 0, 0, 0});
+        decoding::send(confined::socketDescriptor, {Message::Kind(7777), 0, 0, 0});
     else if (word == "short-message")
-        (void)!::write(helper::socketDescriptor, "x", 1);
+        (void)!::write(confined::socketDescriptor, "x", 1);
     else if (word == "empty-header")
-        decoder::send(helper::socketDescriptor, {Message::Kind::done, 0, 0, 0});
+        decoding::send(confined::socketDescriptor, {Message::Kind::done, 0, 0, 0});
     else if (word == "no-reason")
         finishWith("");
     else if (word == "plain-reason")
@@ -147,25 +148,25 @@ void act(std::string_view word) {
             body += "inWords r1:";
         finishWith(body + "isEmpty;" + std::string(100, ';'));
     } else if (word == "lack")
-        finish(byHand(), decoder::needsMemory);
+        finish(byHand(), decoding::needsMemory);
     else if (word == "other-code")
         finish(byHand(), 77);
     else if (word == "samples-twice" || word == "half-the-samples") {
         const bool isTwice = word == "samples-twice";
-        decoder::send(helper::socketDescriptor,
-                      {Message::Kind::part, 0, 0, isTwice ? 4096U : 2048U});
-        decoder::receive(helper::socketDescriptor, decoder::Takes::descriptor); // go on
-        decoder::send(
-            helper::socketDescriptor,
+        decoding::send(confined::socketDescriptor,
+                       {Message::Kind::part, 0, 0, isTwice ? 4096U : 2048U});
+        decoding::receive(confined::socketDescriptor, decoding::Takes::descriptor); // go on
+        decoding::send(
+            confined::socketDescriptor,
             {isTwice ? Message::Kind::part : Message::Kind::done, 0, 0, isTwice ? 4096U : 0U});
     } else if (word == "more-samples")
-        decoder::send(helper::socketDescriptor, {Message::Kind::part, 0, 0, 1 << 16});
+        decoding::send(confined::socketDescriptor, {Message::Kind::part, 0, 0, 1 << 16});
     else if (word == "half-a-sample")
-        decoder::send(helper::socketDescriptor, {Message::Kind::part, 0, 0, 3});
+        decoding::send(confined::socketDescriptor, {Message::Kind::part, 0, 0, 3});
     else if (word == "no-samples") // and so on for ever
-        decoder::send(helper::socketDescriptor, {Message::Kind::part, 0, 0, 0});
+        decoding::send(confined::socketDescriptor, {Message::Kind::part, 0, 0, 0});
     else if (word == "fewer-samples")
-        decoder::send(helper::socketDescriptor, {Message::Kind::done, 0, 0, 0});
+        decoding::send(confined::socketDescriptor, {Message::Kind::done, 0, 0, 0});
     else
         finish(byHand());
 }
@@ -173,10 +174,10 @@ void act(std::string_view word) {
 } // namespace
 
 int main() {
-    const int confinement = parse::confine();
-    decoder::send(helper::socketDescriptor, {Message::Kind::ready, confinement, 0, 0});
+    const int confinement = decoding::process::confine();
+    decoding::send(confined::socketDescriptor, {Message::Kind::ready, confinement, 0, 0});
     while (const auto request =
-               decoder::receive(helper::socketDescriptor, decoder::Takes::descriptor)) {
+               decoding::receive(confined::socketDescriptor, decoding::Takes::descriptor)) {
         if (!request->descriptor) { // an answer to what it asked
             finish(because::inWords(request->message.kind == Message::Kind::refused ? "refused"
                                                                                     : "granted"));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The decoder as it is on a system that confines nothing.
-#include "core/helper/confinement.h"
-#include "core/helper/process.h"
-#include "core/parse/serve.h"
+#include "core/confined/confinement.h"
+#include "core/confined/process.h"
+#include "core/decoding/process/serve.h"
 
 int main() {
     using namespace pellucid;
-    parse::prepareToServe();
-    return parse::serve(helper::socketDescriptor, helper::fileDescriptor, helper::limitsHold);
+    decoding::process::prepareToServe();
+    return decoding::process::serve(confined::socketDescriptor, confined::fileDescriptor,
+                                    confined::limitsHold);
 }

@@ -17,7 +17,7 @@
 #include <QTimer>
 
 #include "core/batch/recipe.h"
-#include "core/decoder/read_volume_file.h"
+#include "core/decoding/client/read_volume_file.h"
 #include "core/files/video_file.h"
 #include "tests/support/files.h"
 
@@ -60,7 +60,7 @@ private slots:
         }
         // The values of the file are those of the picture.
         exported("Projection", 3, 1, false);
-        const volume::Volume values = decoder::readVolumeFile(m_folder / "out.nrrd");
+        const volume::Volume values = decoding::readVolumeFile(m_folder / "out.nrrd");
         const picture::ProjectionImage image =
             projection()->frames().renderer()(projection()->sceneOfPicture().camera);
         QCOMPARE(values.lattice().size(), (volume::GridSize{image.width, image.height, 1}));

@@ -6,11 +6,11 @@
 #include <QTranslator>
 #include <QtTest>
 
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/reasons.h"
+#include "core/decoding/process/reasons.h"
 #include "core/dicom/catalogue.h"
 #include "core/dicom/reasons.h"
 #include "core/files/reasons.h"
-#include "core/parse/reasons.h"
 #include "core/task/reasons.h"
 #include "core/volume/reasons.h"
 #include "ui/language/kept_reasons.h"

@@ -14,7 +14,7 @@
 
 #include <fmt/format.h>
 
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/reasons.h"
 #include "core/segment/reasons.h"
 #include "core/segment/write_segmentation.h"
 #include "core/volume/nrrd.h"

@@ -31,7 +31,7 @@ private slots:
         bench().servers.put(open.server());
         archive::Server locked = other.server();
         locked.name = "a&b"; // before the other
-        locked.peer.authentication = exchange::Authentication::basic;
+        locked.peer.authentication = network::Authentication::basic;
         locked.peer.user = "eva";
         bench().servers.put(locked);
         auto *const search = find<QLineEdit>("studySearch");

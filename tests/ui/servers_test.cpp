@@ -20,7 +20,7 @@
 
 #include "core/archive/reasons.h"
 #include "core/archive/sending.h"
-#include "core/exchange/reasons.h"
+#include "core/network/client/reasons.h"
 #include "ui/beside/study_beside.h"
 #include "ui/panels/study_panel.h"
 #include "ui/servers/open_request.h"
@@ -434,7 +434,7 @@ private slots:
         }
         archive::SearchTerms terms;
         terms.studyUid = document().sources().front().study.uid.toStdString();
-        terms.level = exchange::Level::series;
+        terms.level = network::Level::series;
         QCOMPARE(archive::search({server}, terms).entries.size(), std::size_t(2));
         // Why it fails is said where it was asked for.
         send("dead", 4);
@@ -670,7 +670,7 @@ private:
     QString studyUid() const {
         archive::Server server = bench().servers.servers().front();
         return QString::fromStdString(
-            archive::search({server}, {}).entries.at(0).text(exchange::tag::studyUid));
+            archive::search({server}, {}).entries.at(0).text(network::tag::studyUid));
     }
 
     std::unique_ptr<Dcmqrscp> m_dcmqrscp;

@@ -491,7 +491,7 @@ private:
             "pellucid://open?server=" + QString::fromUtf8(QUrl::toPercentEncoding(m_name)) +
             "&studyUID=1.2.3");
         lookAndClose("linkQuestion");
-        server.peer.authentication = exchange::Authentication::basic;
+        server.peer.authentication = network::Authentication::basic;
         server.peer.usesTls = true;
         server.peer.user = m_name.toStdString();
         bench().servers.withSecrets({server}, &mainWindow(), [](const auto &) {});

@@ -14,8 +14,8 @@
 #include <QPushButton>
 
 #include "app/exit_code.h"
-#include "core/helper/confinement.h"
-#include "core/helper/protection.h"
+#include "core/confined/confinement.h"
+#include "core/confined/protection.h"
 #include "core/task/error.h"
 #include "core/task/reasons.h"
 #include "tests/support/little_memory.h"
@@ -86,7 +86,7 @@ private slots:
         restart();
         auto *const label = find<QLabel>("unprotectedLabel");
         QVERIFY(!label->isVisible());
-        std::thread([] { helper::noteProtection("helpers", helper::limitsHold); }).join();
+        std::thread([] { confined::noteProtection("helpers", confined::limitsHold); }).join();
         QTRY_VERIFY(label->isVisible());
         QVERIFY(label->toolTip().contains("hostile file"));
         QVERIFY(find<QListWidget>("problemList")->item(0)->text().contains("cannot confine"));

@@ -21,7 +21,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
-#include "core/decoder/decoder.h"
+#include "core/decoding/client/decoder.h"
 #include "core/files/table_cell.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
@@ -114,8 +114,8 @@ void HeaderDialog::showFile(int file) {
     m_jobs.start(
         tr("Reading %1").arg(QFileInfo(path).fileName()),
         [this, path](const Job &job) {
-            const decoder::AttributeList list =
-                decoder::Decoder::shared().attributes(path.toStdString(), job.progress());
+            const decoding::AttributeList list =
+                decoding::Decoder::shared().attributes(path.toStdString(), job.progress());
             job.deliver([this, list] { fill(list); });
         },
         [this](const Outcome &outcome) {
@@ -128,7 +128,7 @@ void HeaderDialog::showFile(int file) {
         path);
 }
 
-void HeaderDialog::fill(const decoder::AttributeList &list) {
+void HeaderDialog::fill(const decoding::AttributeList &list) {
     m_warning = list.isComplete ? QString()
                                 : tr("The list is not complete: the file has more attributes, or "
                                      "the rest of it is damaged.");
@@ -138,7 +138,7 @@ void HeaderDialog::fill(const decoder::AttributeList &list) {
     m_tree->clear();
     std::vector<QTreeWidgetItem *> parents; // by depth
     QList<QTreeWidgetItem *> top;
-    for (const decoder::Attribute &attribute : list.attributes) {
+    for (const decoding::Attribute &attribute : list.attributes) {
         const bool isItem = attribute.tag == 0;
         auto *row = new QTreeWidgetItem;
         row->setText(tagColumn, text(tagText(attribute)));

@@ -4,7 +4,7 @@
 #include <QDialog>
 #include <QStringList>
 
-#include "core/decoder/attribute.h"
+#include "core/decoding/client/attribute.h"
 #include "ui/jobs/job_runner.h"
 
 class QLineEdit;
@@ -28,7 +28,7 @@ public:
     void showFile(int file);
 
 private:
-    void fill(const decoder::AttributeList &list);
+    void fill(const decoding::AttributeList &list);
     void search();
     void copySelected();
 

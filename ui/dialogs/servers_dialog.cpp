@@ -16,7 +16,7 @@
 #include <QVBoxLayout>
 
 #include "core/archive/login.h"
-#include "core/exchange/link.h"
+#include "core/network/client/link.h"
 #include "ui/dialogs/receiver_form.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"
@@ -32,9 +32,9 @@ namespace {
 
 using archive::RetrieveMethod;
 using archive::Server;
-using exchange::Authentication;
-using exchange::Protocol;
-using exchange::Step;
+using network::Authentication;
+using network::Protocol;
+using network::Step;
 
 QLineEdit *lineEdit(const char *name, const QString &tip) {
     auto *edit = new QLineEdit;
@@ -281,7 +281,7 @@ void ServersDialog::list(const QString &selected) {
 }
 
 void ServersDialog::showServer(const Server &server, bool isNew) {
-    const exchange::Peer &peer = server.peer;
+    const network::Peer &peer = server.peer;
     const bool isWeb = peer.protocol == Protocol::web;
     m_name->setText(shown(server.name));
     m_protocol->setCurrentIndex(isWeb ? 1 : 0);
@@ -323,9 +323,9 @@ Server ServersDialog::entered() const {
         server.peer = archive::webPeer(textOf(m_url));
     else
         server.peer = archive::dicomPeer(textOf(m_ae) + "@" +
-                                         exchange::hostPart(withoutBrackets(textOf(m_host))) + ":" +
+                                         network::hostPart(withoutBrackets(textOf(m_host))) + ":" +
                                          std::to_string(m_port->value()));
-    exchange::Peer &peer = server.peer;
+    network::Peer &peer = server.peer;
     if (peer.protocol == Protocol::dicom) {
         peer.usesTls = m_tls->isChecked();
         peer.callingAe = textOf(m_callingAe);
@@ -371,7 +371,7 @@ Server ServersDialog::entered() const {
 void ServersDialog::withEntered(const std::function<void(const Server &)> &then) {
     try {
         Server server = entered();
-        if (!exchange::hasInsecureLogin(server.peer)) {
+        if (!network::hasInsecureLogin(server.peer)) {
             then(server);
             return;
         }
@@ -430,9 +430,9 @@ void ServersDialog::test() {
                         report(lines->join("\n"), "muted");
                     });
                 };
-                archive::withLogin(complete, job.progress(), [&](const exchange::Peer &peer) {
-                    exchange::Link link(exchange::Connection{peer, exchange::Purpose::echo},
-                                        job.progress(), observe);
+                archive::withLogin(complete, job.progress(), [&](const network::Peer &peer) {
+                    network::Link link(network::Connection{peer, network::Purpose::echo},
+                                       job.progress(), observe);
                     link.echo(job.progress(), observe);
                 });
             },

@@ -10,8 +10,8 @@
 
 #include <QCryptographicHash>
 
-#include "core/decoder/read_volume_file.h"
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/read_volume_file.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/files/atomic_file.h"
@@ -257,7 +257,7 @@ private:
         if (!isCopied(file))
             return true;
         if (volume::isVolumeFile(file.path) &&
-            decoder::readVolumeFileHeader(file.path, progress).samplesFile != file.path) {
+            decoding::readVolumeFileHeader(file.path, progress).samplesFile != file.path) {
             const bool isTemporary = files::isInSessionFolder(file.path);
             m_result.skipped.push_back(
                 {file.path, isTemporary ? because::notImported : because::referredNotCopied});

@@ -4,7 +4,8 @@
 #include <filesystem>
 #include <set>
 
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/reasons.h"
+#include "core/files/reasons.h"
 
 namespace pellucid::ui {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/classify/couch.h"
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/preprocess/study_content.h"

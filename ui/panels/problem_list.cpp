@@ -9,8 +9,9 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/reasons.h"
 #include "core/dicom/reasons.h"
+#include "core/files/reasons.h"
 #include "ui/document/document.h"
 #include "ui/language/reasons.h"
 #include "ui/language/shown_text.h"

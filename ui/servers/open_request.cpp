@@ -4,7 +4,7 @@
 #include <QUrl>
 #include <QUrlQuery>
 
-#include "core/exchange/query.h"
+#include "core/network/client/query.h"
 #include "core/task/error.h"
 #include "ui/servers/reasons.h"
 
@@ -36,7 +36,7 @@ OpenRequest openRequestOf(const QString &link) {
             isUnderstood = false;
     }
     if (!isUnderstood || request.server.isEmpty() ||
-        !exchange::isUid(request.studyUid.toStdString()))
+        !network::isUid(request.studyUid.toStdString()))
         throw task::Error(task::ErrorCode::usage, task::because::isNoLink,
                           link.left(80).toStdString());
     return request;

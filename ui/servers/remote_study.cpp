@@ -6,7 +6,7 @@
 namespace pellucid::ui {
 
 RemoteStudy remoteStudy(const archive::FoundEntry &entry) {
-    namespace tag = exchange::tag;
+    namespace tag = network::tag;
     const auto text = [&](std::uint32_t tag) { return QString::fromStdString(entry.text(tag)); };
     RemoteStudy remote;
     StudyFacts &study = remote.study;

@@ -13,8 +13,8 @@
 
 #include <qt6keychain/keychain.h>
 
-#include "core/exchange/reasons.h"
 #include "core/files/user_folders.h"
+#include "core/network/client/reasons.h"
 #include "core/task/error.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/language/shown_text.h"
@@ -45,7 +45,7 @@ QString loginKey(const archive::Server &server) {
 }
 
 bool hasLogin(const archive::Server &server) {
-    return server.peer.authentication == exchange::Authentication::oauth;
+    return server.peer.authentication == network::Authentication::oauth;
 }
 
 QString keyPasswordKey(const archive::Server &server) {
@@ -235,14 +235,14 @@ void ServerBook::withSecrets(const std::vector<archive::Server> &servers, QWidge
         const std::size_t at = pending->servers.size();
         pending->servers.push_back(server);
         pending->isLeftOut.push_back(false);
-        const exchange::Peer &peer = server.peer;
+        const network::Peer &peer = server.peer;
         if (hasLogin(server))
             pending->needs.push_back({at, Kind::login, loginKey(server), {}});
-        else if (peer.authentication == exchange::Authentication::basic && peer.secret.empty())
+        else if (peer.authentication == network::Authentication::basic && peer.secret.empty())
             pending->needs.push_back(
                 {at, Kind::secret, secretKey(server),
                  tr("Password of %1 at %2").arg(QString::fromStdString(peer.user), name)});
-        else if (peer.authentication == exchange::Authentication::bearer && peer.secret.empty())
+        else if (peer.authentication == network::Authentication::bearer && peer.secret.empty())
             pending->needs.push_back(
                 {at, Kind::secret, secretKey(server), tr("Token for %1").arg(name)});
         if (peer.keyPassword.empty() && archive::isEncryptedKey(peer.key))

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/exchange/reasons.h"
+#include "core/network/client/reasons.h"
 
 namespace pellucid::ui {
 

@@ -9,8 +9,8 @@
 #include "core/archive/receiving.h"
 #include "core/archive/run_transfer.h"
 #include "core/archive/transfer_log.h"
-#include "core/exchange/reasons.h"
 #include "core/files/user_folders.h"
+#include "core/network/client/reasons.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
 #include "ui/servers/reasons.h"
@@ -105,7 +105,7 @@ archive::ListenerOptions StudyReceiver::options() const {
         options.authorities = m_settings.authorities.toStdString();
     }
     for (const archive::Server &server : m_book.servers())
-        if (server.peer.protocol == exchange::Protocol::dicom)
+        if (server.peer.protocol == network::Protocol::dicom)
             for (const std::string &host : archive::hostsOf(server))
                 options.senders.push_back({server.peer.calledAe, host});
     return options;

@@ -10,8 +10,8 @@
 #include <QFileInfo>
 #include <QWidget>
 
-#include "core/exchange/reasons.h"
 #include "core/files/user_folders.h"
+#include "core/network/client/reasons.h"
 #include "core/task/error.h"
 
 namespace pellucid::ui {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "core/helper/protection.h"
+#include "core/confined/protection.h"
 #include "core/task/progress.h"
 #include "ui/language/failure.h"
 #include "ui/widgets/plain_label.h"
@@ -17,7 +17,7 @@ constexpr qint64 silenceMs = 2000;
 } // namespace
 
 Application::Application(int &argc, char **argv) : QApplication(argc, argv) {
-    helper::whenUnprotected([this] {
+    confined::whenUnprotected([this] {
         QMetaObject::invokeMethod(
             this,
             [this] {
@@ -29,7 +29,7 @@ Application::Application(int &argc, char **argv) : QApplication(argc, argv) {
 }
 
 Application::~Application() {
-    helper::whenUnprotected({});
+    confined::whenUnprotected({});
 }
 
 bool Application::notify(QObject *receiver, QEvent *event) {

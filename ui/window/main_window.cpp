@@ -20,7 +20,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/helper/reasons.h"
+#include "core/confined/reasons.h"
 #include "core/system/log.h"
 #include "ui/beside/study_pair.h"
 #include "ui/beside/study_projection.h"

@@ -7,7 +7,7 @@
 
 #include "core/archive/pkce.h"
 #include "core/archive/reasons.h"
-#include "core/exchange/reasons.h"
+#include "core/network/client/reasons.h"
 #include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 Server serverWithLogin() {
     Server server{"Web", webPeer("https://pacs.example.org/dicom-web")};
-    server.peer.authentication = exchange::Authentication::oauth;
+    server.peer.authentication = network::Authentication::oauth;
     server.loginSettings.issuer = "https://login.example.org/realms/hospital";
     server.loginSettings.clientId = "pellucid";
     server.loginSettings.scope = "openid offline_access";
@@ -59,7 +59,7 @@ TEST(Pkce, RandomTextsDifferAndHaveTheCharactersOfAVerifier) {
 }
 
 TEST(LoginSettings, AddressesAreReadAsTheyAre) {
-    const exchange::Peer peer = loginPeer("https://login.example.org/o/token/?policy=a");
+    const network::Peer peer = loginPeer("https://login.example.org/o/token/?policy=a");
     EXPECT_TRUE(peer.usesTls);
     EXPECT_EQ(peer.host, "login.example.org");
     EXPECT_EQ(peer.port, 443);
@@ -81,7 +81,7 @@ TEST(LoginSettings, WhatIsWrongIsNamed) {
     EXPECT_NO_THROW(requireValid(serverWithLogin()));
     Server server = serverWithLogin();
     server.peer = dicomPeer("A@h");
-    server.peer.authentication = exchange::Authentication::oauth;
+    server.peer.authentication = network::Authentication::oauth;
     EXPECT_TRUE(isRefused(server, because::loginIsForDicomWeb));
     server = serverWithLogin();
     server.peer.usesTls = false;

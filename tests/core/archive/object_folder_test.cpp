@@ -22,7 +22,7 @@ namespace {
 namespace because = task::because;
 
 const std::string root = "1.2.826.0.1.3680043.8.498.";
-const exchange::Arrival announced{
+const network::Arrival announced{
     "1.2.840.10008.5.1.4.1.1.2", root + "1.1", "1.2.840.10008.1.2.1", {}};
 
 std::string objectWith(int value) {

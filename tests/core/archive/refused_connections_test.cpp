@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/archive/refused_connections.h"
-#include "core/exchange/reasons.h"
-#include "core/network/reasons.h"
+#include "core/network/client/reasons.h"
+#include "core/network/process/reasons.h"
 
 #include <gtest/gtest.h>
 

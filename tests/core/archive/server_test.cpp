@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/archive/search.h"
-#include "core/exchange/link.h"
-#include "core/exchange/reasons.h"
+#include "core/network/client/link.h"
+#include "core/network/client/reasons.h"
 #include "core/task/error.h"
 #include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"
@@ -27,13 +27,13 @@ std::string refusalOf(const SearchTerms &terms) {
 } // namespace
 
 TEST(Server, AddressesAreReadAndWritten) {
-    const exchange::Peer dicom = dicomPeer("ARCHIVE@pacs.example.org:4242");
+    const network::Peer dicom = dicomPeer("ARCHIVE@pacs.example.org:4242");
     EXPECT_EQ(dicom.calledAe, "ARCHIVE");
     EXPECT_EQ(dicom.host, "pacs.example.org");
     EXPECT_EQ(dicom.port, 4242);
     EXPECT_EQ(addressOf(dicom), "ARCHIVE@pacs.example.org:4242");
     EXPECT_EQ(dicomPeer("A@h").port, 104);
-    const exchange::Peer web = webPeer("https://pacs.example.org/dicom-web/");
+    const network::Peer web = webPeer("https://pacs.example.org/dicom-web/");
     EXPECT_TRUE(web.usesTls);
     EXPECT_EQ(web.port, 443);
     EXPECT_EQ(web.path, "/dicom-web");
@@ -54,7 +54,7 @@ TEST(Server, TheListIsKeptWithoutSecrets) {
     server.peer.authorities = "/ca.pem";
     server.peer.certificate = "/our.pem";
     server.peer.key = "/our.key";
-    server.peer.authentication = exchange::Authentication::basic;
+    server.peer.authentication = network::Authentication::basic;
     server.peer.user = "eva";
     server.peer.secret = "top secret";
     server.peer.keyPassword = "also secret";
@@ -92,7 +92,7 @@ TEST(Server, ALoginThatOthersCanReadIsRefused) {
     const auto put = [&](const Server &server) {
         return refusal([&] { ServerList(folder / "servers.json").put(server); });
     };
-    using exchange::Authentication;
+    using network::Authentication;
     for (const auto authentication : {Authentication::basic, Authentication::bearer}) {
         for (const char *const url :
              {"http://192.0.2.1/dicom-web", "http://pacs.example.org:8042", "http://126.0.0.1",
@@ -100,11 +100,10 @@ TEST(Server, ALoginThatOthersCanReadIsRefused) {
             Server server{"s", webPeer(url)};
             server.peer.authentication = authentication;
             EXPECT_EQ(put(server), "can be read") << url;
-            EXPECT_EQ(
-                refusal([&] {
-                    exchange::Link(exchange::Connection{server.peer, exchange::Purpose::echo});
-                }),
-                "can be read")
+            EXPECT_EQ(refusal([&] {
+                          network::Link(network::Connection{server.peer, network::Purpose::echo});
+                      }),
+                      "can be read")
                 << url;
         }
         for (const char *const url : {"https://192.0.2.1/dicom-web", "http://127.0.0.1:8042",
@@ -156,8 +155,8 @@ TEST(Search, TermsAreChecked) {
     EXPECT_TRUE(isRefused({.date = "2026"}));
     EXPECT_TRUE(isRefused({.date = "-"}));
     EXPECT_TRUE(isRefused({.studyUid = "x"}));
-    EXPECT_TRUE(isRefused({.level = exchange::Level::series}));
-    EXPECT_TRUE(isRefused({.studyUid = "1.2", .level = exchange::Level::image}));
+    EXPECT_TRUE(isRefused({.level = network::Level::series}));
+    EXPECT_TRUE(isRefused({.studyUid = "1.2", .level = network::Level::image}));
     EXPECT_FALSE(isRefused({.patientName = "M*ller^E?a", .date = "20260101-"}));
     EXPECT_FALSE(isRefused({.date = "-20260101"}));
     EXPECT_FALSE(isRefused({.date = "20240229"}));
@@ -175,7 +174,7 @@ TEST(Search, DatesAreOfTheCalendar) {
 
 // A server ignores what does not belong to the level.
 TEST(Search, TermsOfOtherLevelsAreRefused) {
-    using exchange::Level;
+    using network::Level;
     EXPECT_EQ(refusalOf({.patientName = "A", .studyUid = "1.2", .level = Level::series}),
               "--name does not apply to a search at the level 'series'");
     EXPECT_EQ(refusalOf({.date = "20260101", .level = Level::series}),

@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/archive/instance_list.h"
-#include "core/decoder/decoder.h"
+#include "core/decoding/client/decoder.h"
 #include "core/dicom/arriving_series.h"
 #include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
@@ -283,7 +283,7 @@ TEST(ArrivingSeries, RealSeriesArriveAsTheyAre) {
         const volume::Volume expected = dicom::loadVolume(*selected.volume).volume;
         std::vector<std::pair<int, fs::path>> numbered;
         for (const dicom::InstanceFile &file : selected.series->files)
-            numbered.emplace_back(decoder::Decoder::shared().header(file.path).instanceNumber,
+            numbered.emplace_back(decoding::Decoder::shared().header(file.path).instanceNumber,
                                   file.path);
         std::sort(numbered.begin(), numbered.end());
         std::vector<fs::path> files;

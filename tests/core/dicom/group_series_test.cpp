@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/decoder/dimensions.h"
+#include "core/decoding/client/dimensions.h"
 #include "tests/core/dicom/series_files.h"
 
 namespace pellucid {
@@ -181,7 +181,7 @@ TEST(GroupSeries, ValuesOfUnknownSignednessAreRefused) {
     header.highBit = 15;
     for (const int representation : {0, 1, 2, 7, -1}) {
         header.pixelRepresentation = representation;
-        const auto reason = decoder::whyUnusable(header);
+        const auto reason = decoding::whyUnusable(header);
         EXPECT_EQ(reason.has_value(), representation != 0 && representation != 1)
             << representation << (reason ? reason->english() : "");
     }
@@ -193,15 +193,15 @@ TEST(GroupSeries, UnusedFramesAreNotSurplus) {
     header.declaredFrames = 10; // of which one is in use
     const auto plane = std::uint32_t(2 * header.rows * header.columns);
     header.pixelBytes = 10 * plane;
-    EXPECT_FALSE(decoder::hasSurplusPixels(header));
+    EXPECT_FALSE(decoding::hasSurplusPixels(header));
     header.pixelBytes += plane;
-    EXPECT_TRUE(decoder::hasSurplusPixels(header));
+    EXPECT_TRUE(decoding::hasSurplusPixels(header));
 }
 
 TEST(GroupSeries, OtherSizesAndLocalizersAreSplitOff) {
     auto files = stack({0, 2, 4, 6, 8});
     files[1].header.columns = 5;
-    files[3].header.frames[0].dimensions[decoder::imageTypeTag] = "ORIGINAL\\PRIMARY\\LOCALIZER";
+    files[3].header.frames[0].dimensions[decoding::imageTypeTag] = "ORIGINAL\\PRIMARY\\LOCALIZER";
     EXPECT_EQ(group(files).size(), 3U);
 }
 

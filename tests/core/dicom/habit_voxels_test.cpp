@@ -12,7 +12,7 @@
 
 #include <dcmtk/dcmdata/dctk.h>
 
-#include "core/dcmtk/dictionary.h"
+#include "core/dcmtk/codecs.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/volume/nrrd.h"

@@ -8,8 +8,8 @@
 #include <map>
 #include <span>
 
+#include "core/decoding/process/parse.h"
 #include "core/dicom/write_series.h"
-#include "core/parse/parse.h"
 #include "core/phantom/phantom.h"
 #include "tests/core/dicom/habit_frames.h"
 #include "tests/core/dicom/outcome.h"
@@ -374,7 +374,7 @@ TEST(Habits, HeaderTimeIsProportionalToFrames) {
         double fastest = 1e9;
         for (int round = 0; round < 3; ++round) {
             const std::clock_t start = std::clock(); // CPU time of this process alone
-            const auto header = parse::parseHeader(std::as_bytes(std::span(file)));
+            const auto header = decoding::process::parseHeader(std::as_bytes(std::span(file)));
             fastest = std::min(fastest, double(std::clock() - start));
             EXPECT_EQ(header.frames.size(), std::size_t(frames));
         }

@@ -21,7 +21,7 @@ struct Stored {
 
 // Empty if one of the values does not fit 16 bits.
 std::optional<std::vector<std::int16_t>> valuesOf(const Stored &stored) {
-    decoder::DecodedFile file;
+    decoding::DecodedFile file;
     file.header.rows = 1;
     file.header.columns = columns;
     file.header.bitsStored = 16;

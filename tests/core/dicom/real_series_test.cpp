@@ -6,8 +6,8 @@
 #include <numbers>
 #include <set>
 
-#include "core/decoder/decoder.h"
-#include "core/decoder/read_volume_file.h"
+#include "core/decoding/client/decoder.h"
+#include "core/decoding/client/read_volume_file.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
@@ -76,7 +76,7 @@ TEST(RealSeries, TheTiltedHeadIsResampledAlongItsStackAndKeepsItsTilt) {
     EXPECT_GT(s.maximum, 1500.0);
     // The first thirteen slices lie where the frames do: their samples are untouched.
     const auto first =
-        decoder::Decoder::shared().image(test::testData() / "ct_head_tilt_ge_28/01.dcm");
+        decoding::Decoder::shared().image(test::testData() / "ct_head_tilt_ge_28/01.dcm");
     EXPECT_EQ(head.volume.value({256, 256, 0}),
               double(std::int16_t(first.samples[256 * 512 + 256])));
 }
@@ -102,8 +102,8 @@ fs::path syntaxFile(const char *uid) {
     return {};
 }
 
-decoder::DecodedImage decoded(const fs::path &path) {
-    const auto file = decoder::Decoder::shared().image(path);
+decoding::DecodedImage decoded(const fs::path &path) {
+    const auto file = decoding::Decoder::shared().image(path);
     return {file.header, {file.samples.begin(), file.samples.end()}};
 }
 
@@ -119,7 +119,7 @@ TEST(TransferSyntaxes, LosslessOnesDecodeToTheSamePixels) {
         EXPECT_EQ(decoded(syntaxFile(uid)).samples, plain.samples) << uid;
 }
 
-double rescaledValue(const decoder::DecodedImage &image, std::size_t n) {
+double rescaledValue(const decoding::DecodedImage &image, std::size_t n) {
     const double stored =
         image.header.isSigned() ? double(std::int16_t(image.samples[n])) : double(image.samples[n]);
     return image.header.frames[0].rescale.slope * stored + image.header.frames[0].rescale.intercept;
@@ -248,7 +248,7 @@ TEST(Nasty, HighBitsAreMaskedAndSignsExtended) {
     const auto striped = decoded(folder / "12bitUnsigned_0x0F0F.dcm");
     const auto signedOne = decoded(folder / "12bitSigned_0x0F0F.dcm");
     // The stripes set bits 0x0F0F and 0xFFFF: their 12 bits are 0xF0F and 0xFFF, or -241 and -1.
-    const auto count = [](const decoder::DecodedImage &image, int value) {
+    const auto count = [](const decoding::DecodedImage &image, int value) {
         return std::count(image.samples.begin(), image.samples.end(), std::uint16_t(value));
     };
     EXPECT_GT(count(striped, 0xF0F), 0);
@@ -281,7 +281,7 @@ TEST(Nasty, MonochromeOneAndModalityTable) {
     const auto lut = dicom::scan({test::testData() / "nasty_pydicom_data/mlut_18.dcm"});
     const auto loaded = dicom::loadVolume(*dicom::defaultSelection(lut).volume);
     const auto header =
-        decoder::Decoder::shared().header(test::testData() / "nasty_pydicom_data/mlut_18.dcm");
+        decoding::Decoder::shared().header(test::testData() / "nasty_pydicom_data/mlut_18.dcm");
     ASSERT_FALSE(header.modalityTable.empty());
     EXPECT_GE(volume::statistics(loaded.volume).minimum, 0.0); // table entries are unsigned
 }
@@ -319,15 +319,15 @@ TEST(Nasty, DicomdirsOfEveryKindListTheirFiles) {
     std::size_t known = 0;
     for (const char *name : {"DICOMDIR", "DICOMDIR-bigEnd", "DICOMDIR-implicit",
                              "DICOMDIR-nooffset", "DICOMDIR-nopatient", "DICOMDIR-reordered"}) {
-        const auto directory = decoder::Decoder::shared().directory(folder / name);
+        const auto directory = decoding::Decoder::shared().directory(folder / name);
         EXPECT_TRUE(directory.isDirectory) << name;
         EXPECT_GT(directory.files.size(), 0U) << name;
         for (const auto &parts : directory.files)
             known += fs::exists(folder / parts[0]) ? 1 : 0;
     }
     EXPECT_GT(known, 0U);
-    EXPECT_TRUE(decoder::Decoder::shared().directory(folder / "DICOMDIR-empty.dcm").files.empty());
-    EXPECT_EQ(decoder::Decoder::shared().directory(folder / "TINY_ALPHA/DICOMDIR").files.size(),
+    EXPECT_TRUE(decoding::Decoder::shared().directory(folder / "DICOMDIR-empty.dcm").files.empty());
+    EXPECT_EQ(decoding::Decoder::shared().directory(folder / "TINY_ALPHA/DICOMDIR").files.size(),
               50U);
     // The index leads to the same files as a search of its folders, used or not.
     const auto seen = [](const dicom::Catalogue &catalogue) {
@@ -345,7 +345,7 @@ TEST(Nasty, DicomdirsOfEveryKindListTheirFiles) {
 
 TEST(RealSeries, TheBonsaiIsAnNrrdVolume) {
     PELLUCID_NEEDS_TEST_DATA();
-    const auto bonsai = decoder::readVolumeFile(test::testData() / "vol_bonsai_256/bonsai.nhdr");
+    const auto bonsai = decoding::readVolumeFile(test::testData() / "vol_bonsai_256/bonsai.nhdr");
     EXPECT_EQ(bonsai.lattice().size(), (volume::GridSize{256, 256, 256}));
     EXPECT_EQ(volume::statistics(bonsai).maximum, 255.0);
 }

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "core/decoding/process/parse.h"
 #include "core/dicom/write_series.h"
-#include "core/parse/parse.h"
 #include "core/task/error.h"
 #include "tests/core/dicom/written_series.h"
 #include "tests/support/files.h"
@@ -79,7 +79,7 @@ TEST(Decode, ImpossibleSizesAreRefusedBeforeAllocation) {
         const test::LittleMemory little(256);
 #endif
         try {
-            parse::decodeImage(bytes);
+            decoding::process::decodeImage(bytes);
             ADD_FAILURE() << int(syntax);
         } catch (const task::Error &error) {
             EXPECT_EQ(error.reason().english(), "the pixel data is truncated") << int(syntax);

@@ -16,8 +16,8 @@ namespace pellucid {
 
 namespace {
 
-using decoder::InstanceHeader;
-using decoder::PetHeader;
+using decoding::InstanceHeader;
+using decoding::PetHeader;
 using dicom::UptakeScale;
 using volume::ValueUnit;
 

@@ -15,20 +15,20 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/helper/confinement.h"
-#include "core/network/confine.h"
+#include "core/confined/confinement.h"
+#include "core/network/process/confine.h"
 
-namespace pellucid::network {
+namespace pellucid::network::process {
 
 namespace {
 
 // Runs `attempt` in a process that has confined itself. *Shape*: its exit status, or minus the
 // signal that ended it.
-int confined(const std::function<bool()> &attempt, int (*confine)() = network::confine) {
+int confined(const std::function<bool()> &attempt, int (*confine)() = network::process::confine) {
     const pid_t child = ::fork();
     if (child == 0) {
         const int bits = confine();
-        const int needed = helper::limitsHold | helper::callsAreFiltered;
+        const int needed = confined::limitsHold | confined::callsAreFiltered;
         if ((bits & needed) != needed)
             ::_exit(99);
         ::_exit(attempt() ? 1 : 0);
@@ -121,7 +121,7 @@ TEST(NetworkConfinement, SendingConnectsNothing) {
         ::close(socket);
         return result == 0;
     };
-    for (const auto confine : {network::confine, network::confineToAccepting})
+    for (const auto confine : {network::process::confine, network::process::confineToAccepting})
         for (const bool listens : {false, true}) {
             // What frees a listening socket to connect.
             EXPECT_TRUE(refused(confine, listens, [&](int socket) {
@@ -138,7 +138,7 @@ TEST(NetworkConfinement, SendingConnectsNothing) {
     pollfd reached{service, POLLIN, 0};
     EXPECT_EQ(::poll(&reached, 1, 100), 0);
     for (const int how : {SHUT_RD, SHUT_RDWR})
-        EXPECT_TRUE(refused(network::confineToAccepting, true,
+        EXPECT_TRUE(refused(network::process::confineToAccepting, true,
                             [&](int socket) { return ::shutdown(socket, how) == 0; }));
     ::close(service);
 }
@@ -155,8 +155,8 @@ TEST(NetworkConfinement, TheNetworkIsEmptyWhereThatIsPossible) {
     };
     const bool isPossible =
         inChild([] { return ::unshare(CLONE_NEWUSER | CLONE_NEWNET) == 0 ? 1 : 0; }) == 1;
-    EXPECT_EQ(inChild([] { return confine(); }) & helper::networkIsEmpty,
-              isPossible ? helper::networkIsEmpty : 0);
+    EXPECT_EQ(inChild([] { return confine(); }) & confined::networkIsEmpty,
+              isPossible ? confined::networkIsEmpty : 0);
 }
 
 // The process that awaits a browser accepts connections on the socket that it has, and no more.
@@ -187,4 +187,4 @@ TEST(NetworkConfinement, OnlyOnePortIsAccepted) {
     ::close(client);
 }
 
-} // namespace pellucid::network
+} // namespace pellucid::network::process

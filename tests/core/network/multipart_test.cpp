@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/network/multipart.h"
+#include "core/network/process/multipart.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "core/network/dicom_json.h"
-#include "core/network/file_start.h"
-#include "core/network/statuses.h"
+#include "core/network/process/dicom_json.h"
+#include "core/network/process/file_start.h"
+#include "core/network/process/statuses.h"
 #include "core/task/error.h"
 #include "tests/support/dicom_writer.h"
 
-namespace pellucid::network {
+namespace pellucid::network::process {
 
 namespace {
 
@@ -80,10 +80,10 @@ TEST(DicomJson, AnswersAreRead) {
              "00080061": {"vr": "CS", "Value": ["CT", "SR"]},
              "00201208": {"vr": "IS", "Value": [512]}, "00080050": {"vr": "SH"}}])");
     ASSERT_EQ(answers.size(), 1U);
-    EXPECT_EQ(answers[0].at(exchange::tag::patientName), "M\xC3\xBCller^Eva");
-    EXPECT_EQ(answers[0].at(exchange::tag::modalitiesInStudy), "CT\\SR");
-    EXPECT_EQ(answers[0].at(exchange::tag::instancesInStudy), "512");
-    EXPECT_FALSE(answers[0].contains(exchange::tag::accessionNumber));
+    EXPECT_EQ(answers[0].at(network::tag::patientName), "M\xC3\xBCller^Eva");
+    EXPECT_EQ(answers[0].at(network::tag::modalitiesInStudy), "CT\\SR");
+    EXPECT_EQ(answers[0].at(network::tag::instancesInStudy), "512");
+    EXPECT_FALSE(answers[0].contains(network::tag::accessionNumber));
     EXPECT_TRUE(readDicomJson(" ").empty());
     EXPECT_TRUE(readDicomJson("[]").empty());
     for (const char *const bad : {"<html>", "{}", "[1]", "[", "[[]]"})
@@ -124,7 +124,7 @@ TEST(FileStart, TheMetaHeaderNamesTheObject) {
     EXPECT_FALSE(readFileStart(bytes)); // the data set may name another object
     const auto start = readFileStart(bytes, true);
     ASSERT_TRUE(start);
-    const exchange::Arrival &arrival = start->arrival;
+    const network::Arrival &arrival = start->arrival;
     EXPECT_EQ(arrival.sopClassUid, "1.2.3");
     EXPECT_EQ(arrival.sopInstanceUid, "1.2.3.4");
     EXPECT_EQ(arrival.transferSyntax, "1.2.840.10008.1.2.1");
@@ -149,7 +149,7 @@ TEST(FileStart, TheUidsOfTheDataSetCount) {
         const auto start = readFileStart(bytes);
         ASSERT_TRUE(start);
         EXPECT_EQ(file.substr(start->dataSet, 4), std::string("\x08\0\x05\0", 4));
-        const exchange::Arrival &arrival = start->arrival;
+        const network::Arrival &arrival = start->arrival;
         EXPECT_EQ(arrival.sopClassUid, "1.2.3");
         EXPECT_EQ(arrival.sopInstanceUid, "1.2.3.4");
     }
@@ -171,4 +171,4 @@ TEST(FileStart, AMislabelledEncodingIsFound) {
     }
 }
 
-} // namespace pellucid::network
+} // namespace pellucid::network::process

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/network/redirect.h"
+#include "core/network/process/redirect.h"
 
 #include <gtest/gtest.h>
 
-#include "core/network/login_json.h"
-#include "core/network/reasons.h"
+#include "core/network/process/login_json.h"
+#include "core/network/process/reasons.h"
 #include "core/task/error.h"
 
-namespace pellucid::network {
+namespace pellucid::network::process {
 
 namespace because = task::because;
 
@@ -51,15 +51,15 @@ TEST(Redirect, AnythingElseIsNotTheRedirect) {
     EXPECT_FALSE(loginResultOf("GET /?code=a&state=s", "s").has_value());
     EXPECT_FALSE(loginResultOf("GET /?code=a&state= HTTP/1.1\r\n\r\n", "").has_value());
     EXPECT_FALSE(loginResultOf("", "s").has_value());
-    EXPECT_FALSE(resultOf("/?state=the+state&code=" + std::string(exchange::longestCode + 1, 'a')));
+    EXPECT_FALSE(resultOf("/?state=the+state&code=" + std::string(network::longestCode + 1, 'a')));
 }
 
 TEST(LoginJson, TokensAreRead) {
-    const exchange::Tokens tokens = readTokens(
+    const network::Tokens tokens = readTokens(
         R"({"access_token": "a", "token_type": "BEARER", "expires_in": 300, "refresh_token": "r"})");
-    EXPECT_EQ(tokens, (exchange::Tokens{"a", "r", 300}));
+    EXPECT_EQ(tokens, (network::Tokens{"a", "r", 300}));
     EXPECT_EQ(readTokens(R"({"access_token": "a", "token_type": "Bearer", "expires_in": "60"})"),
-              (exchange::Tokens{"a", "", 60}));
+              (network::Tokens{"a", "", 60}));
     // A lifetime that makes no sense is unknown.
     for (const char *const lifetime : {"-1", "99999999999", "null", "[]", "\"soon\""})
         EXPECT_EQ(readTokens(std::string(R"({"access_token": "a", "token_type": "Bearer")") +
@@ -80,7 +80,7 @@ TEST(LoginJson, OtherAnswersAreRefusedWithoutTheirText) {
           std::string(R"({"access_token": "secret\r\nX: y", "token_type": "Bearer"})"),
           std::string(
               R"({"access_token": "a", "token_type": "Bearer", "refresh_token": "secret b"})"),
-          R"({"access_token": ")" + std::string(exchange::longestToken + 1, 's') +
+          R"({"access_token": ")" + std::string(network::longestToken + 1, 's') +
               R"(", "token_type": "Bearer"})"})
         EXPECT_EQ(refusalOf(readTokens, text), refusal) << text;
     EXPECT_EQ(readError(R"({"error": "invalid_grant"})"), "invalid_grant");
@@ -93,7 +93,7 @@ TEST(LoginJson, OtherAnswersAreRefusedWithoutTheirText) {
 TEST(LoginJson, TheDescriptionOfALoginServerIsRead) {
     EXPECT_EQ(readEndpoints(R"({"issuer": "https://h", "authorization_endpoint": "https://h/a",
                                 "token_endpoint": "https://h/t", "jwks_uri": "https://h/k"})"),
-              (exchange::Endpoints{"https://h", "https://h/a", "https://h/t"}));
+              (network::Endpoints{"https://h", "https://h/a", "https://h/t"}));
     const std::string refusal = task::Reason(because::issuerHasNoDescription).english();
     for (const char *const text :
          {"", "[]", R"({"issuer": "https://h", "token_endpoint": "https://h/t"})",
@@ -101,4 +101,4 @@ TEST(LoginJson, TheDescriptionOfALoginServerIsRead) {
         EXPECT_EQ(refusalOf(readEndpoints, text), refusal) << text;
 }
 
-} // namespace pellucid::network
+} // namespace pellucid::network::process

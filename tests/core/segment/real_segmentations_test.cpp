@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/decoder/read_volume_file.h"
+#include "core/decoding/client/read_volume_file.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/segment/segmentation.h"
@@ -31,7 +31,7 @@ TEST(RealSegmentations, LandOnTheirVoxels) {
     EXPECT_EQ(liver.segments[0].name, "Liver");
     EXPECT_TRUE(liver.warnings.empty());
     EXPECT_EQ(
-        dice(*liver.segments[0].coverage, decoder::readVolumeFile(folder / "liver_seg.nrrd"), 1.0),
+        dice(*liver.segments[0].coverage, decoding::readVolumeFile(folder / "liver_seg.nrrd"), 1.0),
         1.0);
     // Five segments in three volumes, because they overlap.
     const Segmentation parts = segment::loadSegmentation(folder / "partial_overlaps.dcm", ct);
@@ -39,7 +39,7 @@ TEST(RealSegmentations, LandOnTheirVoxels) {
     std::vector<bool> isFound(5);
     for (const char *const file :
          {"partial_overlaps-1.nrrd", "partial_overlaps-2.nrrd", "partial_overlaps-3.nrrd"}) {
-        const Volume labels = decoder::readVolumeFile(folder / file);
+        const Volume labels = decoding::readVolumeFile(folder / file);
         for (int s = 0; s < 5; ++s)
             if (dice(*parts.segments[std::size_t(s)].coverage, labels, s + 1.0) == 1.0)
                 isFound[std::size_t(s)] = true;
@@ -57,7 +57,7 @@ TEST(RealSegmentations, ALabelMapIsThatOfItsVolume) {
     for (const auto &[file, truth] :
          {std::pair("sparse-labelmap-noppv.dcm", "sparse_labelmap_noppv_seg.nrrd"),
           std::pair("sparse-labelmap-ppv5.dcm", "sparse_labelmap_ppv5_seg.nrrd")}) {
-        const Volume labels = decoder::readVolumeFile(folder / truth);
+        const Volume labels = decoding::readVolumeFile(folder / truth);
         const Segmentation loaded = segment::loadSegmentation(folder / file, labels);
         ASSERT_EQ(loaded.segments.size(), 1U) << file;
         EXPECT_TRUE(loaded.warnings.empty()) << file;

@@ -12,8 +12,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/decoder/reasons.h"
-#include "core/parse/reasons.h"
+#include "core/decoding/client/reasons.h"
+#include "core/decoding/process/reasons.h"
 #include "core/segment/reasons.h"
 #include "core/segment/segment_set.h"
 #include "core/task/error.h"

@@ -7,7 +7,8 @@
 #include <QPushButton>
 #include <QTreeWidget>
 
-#include "core/decoder/reasons.h"
+#include "core/decoding/client/reasons.h"
+#include "core/files/reasons.h"
 #include "ui/document/commands.h"
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/problem_list.h"

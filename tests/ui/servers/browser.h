@@ -13,7 +13,7 @@
 #include <QWidget>
 
 #include "core/archive/server.h"
-#include "core/exchange/peer.h"
+#include "core/network/client/peer.h"
 #include "tests/network/login_server.h"
 #include "tests/ui/patience.h"
 
@@ -59,7 +59,7 @@ inline archive::Server serverWithLogin(const std::string &name, const WebServer 
     archive::Server server;
     server.name = name;
     server.peer = archive::webPeer(web.url());
-    server.peer.authentication = exchange::Authentication::oauth;
+    server.peer.authentication = network::Authentication::oauth;
     server.loginSettings.issuer = login.url();
     server.loginSettings.clientId = "pellucid";
     server.loginSettings.scope = "openid offline_access";

@@ -17,7 +17,7 @@
 #include "core/archive/login.h"
 #include "core/archive/reasons.h"
 #include "core/archive/server.h"
-#include "core/network/reasons.h"
+#include "core/network/process/reasons.h"
 #include "core/task/reason.h"
 #include "ui/servers/login_dialog.h"
 

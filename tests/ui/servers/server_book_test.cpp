@@ -18,7 +18,7 @@
 namespace pellucid {
 
 using namespace test;
-using exchange::Authentication;
+using network::Authentication;
 
 class ServerBookTest : public ServerBooks {
     Q_OBJECT

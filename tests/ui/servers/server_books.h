@@ -62,7 +62,7 @@ protected:
     ui::ServerBook &book() const { return *m_book; }
 
     static archive::Server server(const std::string &name, int port,
-                                  exchange::Authentication authentication) {
+                                  network::Authentication authentication) {
         archive::Server server;
         server.name = name;
         server.peer = archive::webPeer("http://127.0.0.1:" + std::to_string(port) + "/dicom-web");
@@ -72,7 +72,7 @@ protected:
     }
     static archive::Server withPassword(const std::string &name, int port,
                                         const std::string &password) {
-        archive::Server made = server(name, port, exchange::Authentication::basic);
+        archive::Server made = server(name, port, network::Authentication::basic);
         made.peer.secret = password;
         return made;
     }
@@ -83,7 +83,7 @@ protected:
     archive::Server withKey(const std::string &name, const std::string &password) const {
         const std::filesystem::path key = m_folder / "key.pem";
         std::ofstream(key) << "-----BEGIN ENCRYPTED PRIVATE KEY-----\n";
-        archive::Server made = server(name, 4711, exchange::Authentication::none);
+        archive::Server made = server(name, 4711, network::Authentication::none);
         made.peer.certificate = made.peer.key = key.string();
         made.peer.keyPassword = password;
         return made;

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/network/process/control.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <poll.h>
+#include <unistd.h>
+
+namespace pellucid::network::process {
+
+std::string shortened(const std::string &text, std::size_t bytes) {
+    std::size_t end = std::min(text.size(), bytes);
+    while (end > 0 && end < text.size() && (std::uint8_t(text[end]) & 0xc0) == 0x80)
+        --end; // within a character
+    return text.substr(0, end);
+}
+
+void Control::send(const Message &message) {
+    if (!network::send(m_socket, message))
+        throw Disconnected();
+}
+
+network::Packet Control::wait() {
+    auto packet = network::receive(m_socket);
+    if (!packet)
+        throw Disconnected();
+    return *std::move(packet);
+}
+
+bool Control::isCancelled() {
+    pollfd waiting{m_socket, POLLIN, 0};
+    if (::poll(&waiting, 1, 0) <= 0)
+        return false;
+    return wait().message.kind == Message::Kind::cancel;
+}
+
+void Control::heartbeat(std::uint64_t bytes) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - m_lastBeat < std::chrono::seconds(1))
+        return;
+    m_lastBeat = now;
+    send({Message::Kind::progress, 0, bytes, {}});
+}
+
+void Control::step(network::Step step, const std::string &found) {
+    send({Message::Kind::step, std::int32_t(step), 0, shortened(found, longestComment)});
+}
+
+void Control::match(const network::Query &query, network::Attributes attributes) {
+    std::erase_if(attributes, [&](const auto &one) {
+        return !query.keys.contains(one.first) && one.first != network::tag::retrieveAe &&
+               one.first != network::tag::availability;
+    });
+    for (auto &[tag, value] : attributes) // the other half is for tags and lengths
+        value = shortened(value, network::largestPacket / 2 / attributes.size());
+    send({Message::Kind::match, 0, 0, network::pack(attributes)});
+}
+
+void Control::done(const std::string &body) {
+    send({Message::Kind::done, 0, 0, body});
+}
+
+void Control::failed(network::Failure failure, const task::Reason &reason) {
+    send({Message::Kind::failed, std::int32_t(failure), 0, reason.encoded()});
+}
+
+Storage::Storage(Control &control, const network::Arrival &arrival) : m_control(control) {
+    m_control.send({Message::Kind::arrival, 0, 0, network::pack(arrival)});
+    network::Packet packet = answer();
+    if (packet.message.kind == Message::Kind::refused)
+        m_status = std::uint16_t(packet.message.code);
+    else if (packet.message.kind == Message::Kind::file && packet.descriptor)
+        m_file = std::move(packet.descriptor);
+    else
+        throw Disconnected();
+}
+
+network::Packet Storage::answer() {
+    network::Packet packet = m_control.wait();
+    if (packet.message.kind == Message::Kind::cancel)
+        throw CancelledByProgram();
+    return packet;
+}
+
+void Storage::write(std::span<const std::byte> bytes) {
+    constexpr std::uint64_t reportedAtOnce = 4 << 20;
+    m_bytes += bytes.size();
+    while (!bytes.empty() && !m_hasFailed) {
+        const ssize_t written = ::write(m_file.get(), bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR)
+            continue;
+        m_hasFailed = written <= 0;
+        if (!m_hasFailed)
+            bytes = bytes.subspan(std::size_t(written));
+    }
+    if (m_bytes - m_reported < reportedAtOnce) {
+        m_control.heartbeat(m_bytes);
+        return;
+    }
+    m_reported = m_bytes;
+    m_control.send({Message::Kind::progress, 0, m_bytes, {}});
+}
+
+std::uint16_t Storage::finish() {
+    m_file = files::Descriptor();
+    if (m_hasFailed)
+        m_bytes = 0; // nothing that the program could keep
+    m_control.send({Message::Kind::received, 0, m_bytes, {}});
+    const network::Packet packet = answer();
+    if (packet.message.kind == Message::Kind::kept)
+        return network::status::success;
+    if (packet.message.kind != Message::Kind::refused)
+        throw Disconnected();
+    return std::uint16_t(packet.message.code);
+}
+
+} // namespace pellucid::network::process

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/network/process/serve.h"
+
+#include <memory>
+
+#include "core/dicom_text/dictionary.h"
+#include "core/dicom_text/iso2022.h"
+#include "core/network/client/reasons.h"
+#include "core/network/process/association.h"
+#include "core/network/process/dimse.h"
+#include "core/network/process/login_client.h"
+#include "core/network/process/redirect.h"
+#include "core/network/process/web_client.h"
+#include "core/task/reasons.h"
+
+namespace pellucid::network::process {
+
+namespace {
+
+namespace because = task::because;
+using Kind = Message::Kind;
+
+// The requests of a DICOM server, as WebClient has those of a DICOMweb service.
+struct DimseClient {
+    Association association;
+    Purpose purpose;
+
+    void echo(Control &control) { network::process::echo(association, control); }
+    network::QueryEnd find(const network::Query &query, Control &control) {
+        return network::process::find(association, query, control);
+    }
+    network::RetrievalEnd retrieve(const network::Retrieval &retrieval, Control &control) {
+        return purpose == Purpose::move ? move(association, retrieval, control)
+                                        : get(association, retrieval, control);
+    }
+    std::optional<task::Reason> store(int file, std::uint64_t bytes, Control &control) {
+        return network::process::store(association, file, bytes, control);
+    }
+};
+
+class Session {
+public:
+    explicit Session(int socket) : m_control(socket) {}
+
+    void run() {
+        network::Packet first = m_control.wait();
+        guarded([&] {
+            if (first.message.kind == Kind::accept) {
+                accept(first);
+                return;
+            }
+            if (first.message.kind == Kind::redirect) {
+                guardedRequest([&] {
+                    awaitRedirect(first.descriptor.get(),
+                                  network::unpack<network::Redirection>(first.message.body),
+                                  m_control);
+                });
+                return;
+            }
+            if (first.message.kind != Kind::connect)
+                throw Disconnected();
+            const auto connection = network::unpack<network::Connection>(first.message.body);
+            if (connection.purpose == Purpose::login) {
+                LoginClient client(connection.peer, m_control);
+                m_control.send({Kind::ready, client.confinement(), 0, {}});
+                while (answerNext(client)) {
+                }
+                return;
+            }
+            if (connection.peer.protocol == network::Protocol::web) {
+                WebClient client(connection, m_control);
+                m_control.send({Kind::ready, client.confinement(), 0, {}});
+                while (answerNext(client)) {
+                }
+                return;
+            }
+            DimseClient client{Association(connection, m_control), connection.purpose};
+            m_control.send({Kind::ready, client.association.confinement(), 0, {}});
+            while (answerNext(client)) {
+            }
+            client.association.release();
+        });
+    }
+
+private:
+    void accept(const network::Packet &packet) {
+        Association association(network::unpack<network::Acceptance>(packet.message.body),
+                                packet.descriptor.get(), m_control);
+        m_control.send({Kind::ready, association.confinement(), 0, {}});
+        provide(association, m_control);
+        m_control.done();
+    }
+
+    // Returns false when the program is done with the connection.
+    template <class Client> bool answerNext(Client &client) {
+        auto packet = network::receive(m_control.socket());
+        if (!packet)
+            return false;
+        const Message &message = packet->message;
+        guardedRequest([&] {
+            switch (message.kind) {
+            case Kind::echo:
+                client.echo(m_control);
+                m_control.done();
+                break;
+            case Kind::find:
+                m_control.done(network::pack(
+                    client.find(network::unpack<network::Query>(message.body), m_control)));
+                break;
+            case Kind::uids:
+                takeUids(message);
+                break;
+            case Kind::retrieve:
+                m_control.done(network::pack(client.retrieve(retrievalOf(message), m_control)));
+                break;
+            case Kind::store: {
+                const auto change =
+                    client.store(packet->descriptor.get(), message.number, m_control);
+                m_control.done(change ? change->encoded() : std::string());
+                break;
+            }
+            case Kind::cancel: // came after the request had ended
+                break;
+            default:
+                throw Disconnected();
+            }
+        });
+        return true;
+    }
+
+    bool answerNext(LoginClient &client) {
+        const auto packet = network::receive(m_control.socket());
+        if (!packet)
+            return false;
+        const Message &message = packet->message;
+        guardedRequest([&] {
+            switch (message.kind) {
+            case Kind::discover:
+                m_control.done(network::pack(client.discover()));
+                break;
+            case Kind::tokens:
+                m_control.done(network::pack(
+                    client.requestTokens(network::unpack<network::TokenRequest>(message.body))));
+                break;
+            case Kind::cancel: // came after the request had ended
+                break;
+            default:
+                throw Disconnected();
+            }
+        });
+        return true;
+    }
+
+    void takeUids(const Message &message) {
+        for (std::string &uid : network::unpack<std::vector<std::string>>(message.body))
+            m_uids.push_back(std::move(uid));
+    }
+    // With the instances that came before.
+    network::Retrieval retrievalOf(const Message &message) {
+        auto retrieval = network::unpack<network::Retrieval>(message.body);
+        retrieval.instanceUids = std::move(m_uids);
+        m_uids.clear();
+        return retrieval;
+    }
+
+    // A refused request leaves the connection in order.
+    template <class F> void guardedRequest(F &&work) {
+        try {
+            work();
+        } catch (const task::Error &error) {
+            m_control.failed(error.code() == task::ErrorCode::usage ? Failure::invalid
+                                                                    : Failure::refused,
+                             error.reason());
+        } catch (const CancelledByProgram &) {
+            m_control.failed(Failure::lost, because::wasCancelled);
+            throw Disconnected();
+        }
+    }
+
+    template <class F> void guarded(F &&work) {
+        try {
+            work();
+        } catch (const Lost &lost) {
+            m_control.failed(Failure::lost, lost.reason);
+        } catch (const CancelledByProgram &) {
+            m_control.failed(Failure::lost, because::wasCancelled);
+        } catch (const task::Error &error) {
+            const bool isRefused = error.reason().is(because::serverLacksTheService);
+            m_control.failed(isRefused ? Failure::refused : Failure::invalid,
+                             error.path().empty() ? error.reason()
+                                                  : task::Reason(because::at(error.path().string(),
+                                                                             error.reason())));
+        }
+    }
+
+    Control m_control;
+    std::vector<std::string> m_uids;
+};
+
+} // namespace
+
+void prepareToServe() {
+    dicom_text::prepareDictionary();
+    dicom_text::openCharacterTables();
+}
+
+int serve(int socket) {
+    try {
+        Session(socket).run();
+        return 0;
+    } catch (const Disconnected &) {
+        return 1;
+    }
+}
+
+} // namespace pellucid::network::process
