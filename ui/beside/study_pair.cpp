@@ -2,7 +2,6 @@
 #include "ui/beside/study_pair.h"
 
 #include <QApplication>
-#include <QSettings>
 #include <QVBoxLayout>
 
 #include "ui/beside/study_beside.h"
@@ -17,8 +16,6 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr auto bannerKey = "view/patientBanner";
-
 void showOverlaysOn(const Viewer &viewer, const Overlays &overlays) {
     for (MprView *const plane : viewer.planes)
         plane->setOverlays(overlays);
@@ -28,8 +25,7 @@ void showOverlaysOn(const Viewer &viewer, const Overlays &overlays) {
 } // namespace
 
 StudyPair::StudyPair(const Viewer &open, GraphicsCard &card, QWidget *parent)
-    : QSplitter(parent), m_open(open), m_card(card),
-      m_showsBanner(QSettings().value(bannerKey, true).toBool()), m_heading(new PlainLabel) {
+    : QSplitter(parent), m_open(open), m_card(card), m_heading(new PlainLabel) {
     setObjectName("viewers");
     setChildrenCollapsible(false);
     m_heading->setObjectName("studyHeading");
@@ -124,7 +120,6 @@ void StudyPair::setOverlays(const Overlays &overlays) {
 
 void StudyPair::setBannerShown(bool isShown) {
     m_showsBanner = isShown;
-    QSettings().setValue(bannerKey, isShown);
     if (m_beside != nullptr)
         m_beside->setNameShown(isShown);
     showHeading();

@@ -39,7 +39,7 @@ public:
     /// Applies to all panes, including later ones.
     void setOverlays(const Overlays &overlays);
     bool showsBanner() const { return m_showsBanner; }
-    /// Names the patient above the panes, also of a single study; remembered.
+    /// Names the patient above the panes, also of a single study.
     void setBannerShown(bool isShown);
 
 signals:
@@ -57,7 +57,7 @@ private:
     GraphicsCard &m_card;
     Tool m_tool = Tool::window;
     Overlays m_overlays;
-    bool m_showsBanner;
+    bool m_showsBanner = true;
     PlainLabel *m_heading;
     StudyBeside *m_beside = nullptr;
 };

@@ -18,16 +18,17 @@ namespace pellucid::ui {
 
 class Document;
 
-/// Replaces a value of the document. A kind of edit defines its id, which edits need in common to
-/// merge, and how the value is set.
+/// Replaces a value of the document; edits of one drag merge. A kind of edit defines how the value
+/// is set.
 template <class Value> class EditValue : public QUndoCommand {
 public:
     void undo() override { apply(m_before); }
     void redo() override { apply(m_after); }
     DragId drag() const { return m_drag; }
+    int id() const override { return 0; } // any other edit may be of the same kind
     bool mergeWith(const QUndoCommand *other) override {
-        const auto *next = static_cast<const EditValue *>(other); // of the same id
-        if (m_drag == noDrag || next->m_drag != m_drag)
+        const auto *next = dynamic_cast<const EditValue *>(other);
+        if (next == nullptr || m_drag == noDrag || next->m_drag != m_drag)
             return false;
         m_after = next->m_after;
         return true;
@@ -50,7 +51,6 @@ private:
 class EditScene : public EditValue<scene::Scene> {
 public:
     EditScene(Document &document, const scene::Scene &after, const QString &text, DragId drag);
-    int id() const override { return 1; }
 
 private:
     void apply(const scene::Scene &scene) override;
@@ -60,7 +60,6 @@ private:
 class EditDisplayWindow : public EditValue<volume::ValueWindow> {
 public:
     EditDisplayWindow(Document &document, const volume::ValueWindow &after, DragId drag = noDrag);
-    int id() const override { return 2; }
 
 private:
     void apply(const volume::ValueWindow &window) override;
@@ -71,7 +70,6 @@ class EditMeasurements : public EditValue<std::vector<measure::Measurement>> {
 public:
     EditMeasurements(Document &document, const std::vector<measure::Measurement> &after,
                      const QString &text, DragId drag = noDrag);
-    int id() const override { return 3; }
 
 private:
     void apply(const std::vector<measure::Measurement> &measurements) override;
@@ -82,7 +80,6 @@ class EditPlaneAxes : public EditValue<mpr::PlaneAxes> {
 public:
     EditPlaneAxes(Document &document, const mpr::PlaneAxes &after, const QString &text,
                   DragId drag = noDrag);
-    int id() const override { return 4; }
 
 private:
     void apply(const mpr::PlaneAxes &axes) override;

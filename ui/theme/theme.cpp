@@ -86,8 +86,10 @@ void Theme::apply(QApplication &application) const {
     application.setFont(font);
 
     // Whoever works on the style reads it from a file, without a build.
-    QString sheet = QString::fromUtf8(
-        resource(qEnvironmentVariable("PELLUCID_STYLE", ":/pellucid/styles/workstation.qss")));
+    QFile own(qEnvironmentVariable("PELLUCID_STYLE"));
+    QString sheet = QString::fromUtf8(own.open(QIODevice::ReadOnly)
+                                          ? own.readAll()
+                                          : resource(":/pellucid/styles/workstation.qss"));
     static const QRegularExpression role("@([a-z]+)");
     for (auto match = role.match(sheet); match.hasMatch();
          match = role.match(sheet, match.capturedStart())) {

@@ -110,7 +110,6 @@ void MainWindow::createPanes() {
         ++n;
     }
     m_projection = new ProjectionView(m_bench.study.document);
-    restoreTurning(*m_projection);
     panes[3] = m_projection;
     m_panes = new PaneArea(panes);
     for (MprView *view : m_mpr)
@@ -127,6 +126,7 @@ void MainWindow::createPanes() {
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     m_pair = new StudyPair({m_bench.study.document, m_mpr, m_projection, m_panes}, m_bench.card);
+    restoreView(*m_projection, *m_pair);
     connect(m_pair, &StudyPair::failed, &m_bench.notices, &Notices::report);
     column->addWidget(new RegionBar(m_bench.study.document));
     column->addWidget(m_pair, 1);

@@ -35,7 +35,7 @@ Menus menus();
 /// that was chosen last.
 void addToolButtons(QToolBar &bar, const ActionTable &actions);
 
-/// Turns the view as the user last chose.
-void restoreTurning(ProjectionView &projection);
+/// Turns the view, and shows the name of the patient or not, as the user last chose.
+void restoreView(ProjectionView &projection, StudyPair &pair);
 
 } // namespace pellucid::ui

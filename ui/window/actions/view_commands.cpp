@@ -19,6 +19,7 @@ struct ViewCommands {
 };
 
 constexpr auto freeRotationKey = "view/freeRotation";
+constexpr auto bannerKey = "view/patientBanner";
 
 Command standardView(const Scope &scope, const QString &id, const QString &text,
                      scene::StandardView view, const QString &fixedKey) {
@@ -61,8 +62,9 @@ void resetViews(const Viewer &viewer) {
 
 } // namespace
 
-void restoreTurning(ProjectionView &projection) {
+void restoreView(ProjectionView &projection, StudyPair &pair) {
     projection.setTurnsFreely(QSettings().value(freeRotationKey).toBool());
+    pair.setBannerShown(QSettings().value(bannerKey, true).toBool());
 }
 
 std::vector<Command> viewCommands(const Scope &scope) {
@@ -140,7 +142,11 @@ std::vector<Command> viewCommands(const Scope &scope) {
         {.id = "bannerAction",
          .text = ViewCommands::tr("Patient &banner"),
          .key = "Shift+B",
-         .run = [&pair] { pair.setBannerShown(!pair.showsBanner()); },
+         .run =
+             [&pair] {
+                 pair.setBannerShown(!pair.showsBanner());
+                 QSettings().setValue(bannerKey, pair.showsBanner());
+             },
          .isChecked = [&pair] { return pair.showsBanner(); }},
         {.id = "linkStudiesAction",
          .text = ViewCommands::tr("Lin&k views"),
