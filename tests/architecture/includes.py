@@ -124,6 +124,8 @@ for folder, several in rooms.items():
             wrong.append(f"{room.target} links pellucid_decoding_process, which is for confined processes alone")
         if "pellucid_network_process" in linked and room.target not in confined:
             wrong.append(f"{room.target} links pellucid_network_process, which is for pellucid-net alone")
+        if room.target == "pellucid-net" and "pellucid_dcmtk" in linked:
+            wrong.append("pellucid-net links pellucid_dcmtk: what reads a server's bytes has no codecs of images")
         if folder == "app/bench":
             wrong += [f"{room.target} links {link}" for link in linked if re.match(r"Qt6|DCMTK|ITK", link)]
 
