@@ -171,15 +171,11 @@ const classify::ShownFields &SceneRenderer::studyFields() {
 }
 
 // The plan is for the whole volume. The error of a part that contains little is known only after
-// rendering it; if it may miss the tolerance, render it with one kernel, then plan again, while
-// that helps.
+// rendering it; if it may miss the tolerance, plan again with a smaller one, while that helps, and
+// at last read it with one kernel. The workstation's plan stays.
 picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera, Check check) {
     m_progress.check();
     picture::ProjectionImage image = make(camera, check);
-    if (missesTolerance() && prepare::choosesWidths(*m_prepared)) {
-        useOneWidth();
-        image = make(camera, check);
-    }
     for (int tries = 0; tries < 3 && mayPlanCloser(); ++tries) {
         const double before = judgedError();
         m_planned.tolerance *= 0.8 * m_scene.tolerance / before;
@@ -187,6 +183,10 @@ picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera, Check
         image = make(camera, check);
         if (judgedError() > 0.8 * before)
             break; // what is left is not of the plan
+    }
+    if (missesTolerance() && prepare::choosesWidths(*m_prepared)) {
+        useOneWidth();
+        image = make(camera, check);
     }
     takeErrors();
     return image;

@@ -36,8 +36,8 @@ public:
     void cancel();
 
 signals:
-    /// Comes again while the interval becomes narrower, `isLast` once. Nothing comes of a picture
-    /// that cannot be measured.
+    /// Comes again while the interval becomes narrower. `isLast`: this is the final figure. Nothing
+    /// comes of a picture that cannot be measured.
     void measured(std::uint64_t number, const pellucid::error::StatedError &error, bool isLast);
 
 private:

@@ -42,7 +42,8 @@ ProjectionFrames::ProjectionFrames(Document &document)
     connect(&m_check, &QTimer::timeout, this, &ProjectionFrames::measureError);
     connect(&m_meter, &ErrorMeter::measured, this,
             [this](std::uint64_t number, const error::StatedError &error, bool isLast) {
-                if (!m_frame || m_frame->number != number)
+                // It may have been sent before the volume was left.
+                if (!m_engine || !m_frame || m_frame->number != number)
                     return;
                 m_error = error;
                 emit errorMeasured(error);
@@ -97,6 +98,8 @@ void ProjectionFrames::setPlanState(PlanState state) {
 }
 
 bool ProjectionFrames::forgetVolume() {
+    m_check.stop();
+    m_meter.cancel();
     m_engine.reset();
     m_uniform.reset();
     m_worker.setEngine(std::nullopt, nullptr, ++m_generation);
@@ -138,8 +141,8 @@ void ProjectionFrames::request(bool moving) {
     requestFrame(moving);
 }
 
-// Widths are chosen within the tolerance of the whole volume: a part of it may miss that, and one
-// kernel for every frequency brings it closer.
+// Widths are chosen within the tolerance of the whole volume. A part may miss the tolerance; with
+// one kernel for every frequency its error is smaller.
 bool ProjectionFrames::needsOneWidth() const {
     const prepare::PreparedEngine &prepared = m_engine->prepared;
     const scene::Scene &scene = m_document.scene();
@@ -292,8 +295,9 @@ std::function<picture::ProjectionImage(const scene::Camera &)> ProjectionFrames:
 }
 
 void ProjectionFrames::setComparing(bool isComparing) {
+    const bool was = m_isComparing;
     m_isComparing = isComparing && m_frame && m_comparison.before();
-    if (m_isComparing)
+    if (m_isComparing || was) // without the comparison, the picture may come within the tolerance
         request(false);
 }
 
