@@ -158,10 +158,18 @@ bool SceneRenderer::mayPlanCloser() const {
            m_scene.plannedFor != scene::PlannedFor::volume;
 }
 
-void SceneRenderer::useOneWidth() {
+// The next picture chooses its widths again, as in the window.
+picture::ProjectionImage SceneRenderer::imageOfOneWidth(const scene::Camera &camera, Check check) {
+    const auto prepared = m_prepared;
+    const auto onCard = m_onCard;
     m_prepared = prepare::withOneWidth(*m_prepared);
     if (m_onCard)
         m_onCard = m_onCard->withOneWidth();
+    picture::ProjectionImage image = make(camera, check);
+    m_prepared = prepared;
+    if (m_onCard) // it was not lost
+        m_onCard = onCard;
+    return image;
 }
 
 const classify::ShownFields &SceneRenderer::studyFields() {
@@ -181,13 +189,11 @@ picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera, Check
         m_planned.tolerance *= 0.8 * m_scene.tolerance / before;
         prepare();
         image = make(camera, check);
-        if (judgedError() > 0.8 * before)
+        if (judgedError() >= before)
             break; // what is left is not of the plan
     }
-    if (missesTolerance() && prepare::choosesWidths(*m_prepared)) {
-        useOneWidth();
-        image = make(camera, check);
-    }
+    if (missesTolerance() && prepare::choosesWidths(*m_prepared))
+        image = imageOfOneWidth(camera, check);
     takeErrors();
     return image;
 }
@@ -284,13 +290,17 @@ std::string SceneRenderer::missedText(double error, bool isWhole) const {
         error > m_scene.tolerance && (m_prepared->isCoarse || boundMeetsTolerance());
     if (!isMissed)
         return {};
-    return isWhole || m_prepared->isCoarse
-               ? fmt::format("the tolerance of {:.2g} is not met: {:.2g} was measured for this "
-                             "picture",
-                             m_scene.tolerance, error)
-               : fmt::format("the tolerance of {:.2g} is met for the whole volume, but the error "
-                             "of this part may be up to {:.2g}",
-                             m_scene.tolerance, error);
+    if (isWhole || m_prepared->isCoarse)
+        return fmt::format(
+            "the tolerance of {:.2g} is not met: {:.2g} was measured for this picture",
+            m_scene.tolerance, error);
+    if (error >= 1.0)
+        return fmt::format("the tolerance of {:.2g} is met for the whole volume, but this part "
+                           "contains so little that its error may exceed it",
+                           m_scene.tolerance);
+    return fmt::format("the tolerance of {:.2g} is met for the whole volume, but the error of this "
+                       "part may be up to {:.2g}",
+                       m_scene.tolerance, error);
 }
 
 void SceneRenderer::takeErrors() {

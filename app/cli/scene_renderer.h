@@ -53,7 +53,8 @@ public:
     void requireRoomFor(const scene::Camera &camera) const;
     /// Whether the error of a picture is measured, or only bounded.
     enum class Check { none, measure };
-    /// A picture whose measured error exceeds the tolerance is planned again, more closely; of a
+    /// A picture whose measured error exceeds the tolerance is planned again, more closely, unless
+    /// the scene sets its plan, and then rendered with one kernel for every frequency; of a
     /// part of the body, it is the upper limit that counts. The error is always measured if the
     /// fields were reduced to fit the memory. *Throws* Error{outOfMemory}, Cancelled.
     picture::ProjectionImage image(const scene::Camera &camera, Check check = Check::none);
@@ -107,8 +108,8 @@ private:
     double judgedError() const { return m_lastError.judged(m_wasWhole); }
     bool missesTolerance() const;
     bool mayPlanCloser() const;
-    void useOneWidth();
     picture::ProjectionImage make(const scene::Camera &camera, Check check);
+    picture::ProjectionImage imageOfOneWidth(const scene::Camera &camera, Check check);
     std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera);
     void measure(const scene::Camera &camera);
     void takeErrors();

@@ -345,13 +345,23 @@ Sums::Estimate Sums::errorOf(const Judged &picture) const {
     const double most = std::sqrt(folded.most) + rounding;
     // All of a repeated pixel is error: the field is not there.
     const double repeated = PictureSlice::repeatedEnergy(picture.period);
-    const auto relative = [&](double energy) {
-        return energy > 0.0 ? std::sqrt(energy / std::max(truth, 1e-6 * energy)) : 0.0;
+    // Relative to `exact`. Where that may be next to nothing, the error may be any number.
+    constexpr double largest = 1e6;
+    const auto relative = [](double energy, double exact) {
+        return energy > 0.0 ? std::sqrt(energy / std::max(exact, energy / (largest * largest)))
+                            : 0.0;
     };
     // Whether the two add up or cancel is not known.
     const double least = std::max(0.0, std::sqrt(low) - most), greatest = std::sqrt(high) + most;
-    return {{relative(error + folded.expected + repeated), StatedError::Kind::measured,
-             relative(least * least), relative(greatest * greatest + repeated), count()},
+    // The truth of a part is known from the picture, up to the error.
+    double leastTruth = truth, greatestTruth = truth;
+    if (!isComplete) {
+        leastTruth = std::pow(std::max(0.0, std::sqrt(truth) - greatest), 2);
+        greatestTruth = std::pow(std::sqrt(truth) + greatest, 2);
+    }
+    return {{relative(error + folded.expected + repeated, truth), StatedError::Kind::measured,
+             relative(least * least, greatestTruth),
+             relative(greatest * greatest + repeated, leastTruth), count()},
             width};
 }
 

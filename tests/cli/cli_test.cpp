@@ -111,9 +111,9 @@ TEST_F(Cli, PlansAPartOfAPictureMoreClosely) {
     EXPECT_LT(planned[84.0], 0.7 * planned[56.0]); // the middle is not planned again
 }
 
-// The plan of the workstation's scene stays, because one engine serves every view; a part that may
-// miss the tolerance is read by one kernel.
-TEST_F(Cli, ReadsAPartOfAWorkstationsPictureByOneKernel) {
+// The plan of a workstation's scene stays, because one engine serves every view; a part that may
+// miss the tolerance is rendered with one kernel.
+TEST_F(Cli, RendersAPartOfAWorkstationsPictureWithOneKernel) {
     const fs::path series = phantomFolder("--kind head --size 160x160x40"),
                    file = folder / "part.json";
     const auto figures = [&](double pixelMm, double panMm) {
@@ -130,10 +130,13 @@ TEST_F(Cli, ReadsAPartOfAWorkstationsPictureByOneKernel) {
     const json whole = figures(10.0, 0.0), beside = figures(0.5, 80.0);
     EXPECT_GT(whole["plan"]["kernel_widths"].size(), 1u);
     EXPECT_EQ(beside["plan"]["kernel_widths"].size(), 1u);
-    EXPECT_EQ(beside["plan"]["adaptive_error"], 0.0);
     EXPECT_EQ(beside["plan"]["padded"], whole["plan"]["padded"]);
     EXPECT_EQ(beside["plan"]["kernel"], whole["plan"]["kernel"]);
-    EXPECT_LT(beside["plan"]["predicted_error"], whole["plan"]["predicted_error"]);
+    EXPECT_EQ(beside["plan"]["predicted_error"], whole["plan"]["predicted_error"]);
+    // In air there is nothing that an error could be relative to.
+    const json air = figures(0.5, 150.0);
+    EXPECT_GT(air["measured_error"]["high"], 1.0);
+    EXPECT_NE(air["warnings"].dump().find("this part contains so little"), std::string::npos);
 }
 
 TEST_F(Cli, MeasuresTheErrorsThatAreAskedFor) {

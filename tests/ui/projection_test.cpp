@@ -334,6 +334,26 @@ private slots:
         QVERIFY(!find<QWidget>("phaseBar")->isVisible());
     }
 
+    // The frame of a phase stays on the screen until the next one has its own; what is measured of
+    // it meanwhile belongs to no engine.
+    void aPhaseIsLeftWhileItsPictureIsMeasured() {
+        writePhases("left", true);
+        open(QString::fromStdString((m_folder / "left").string()));
+        ui::Document &document = mainWindow().document();
+        scene::Camera part = document.scene().camera;
+        part.pixelMm /= 8.0;
+        part.panMm = {78.0, 60.0};
+        document.setPose(document.poseOf(part), true);
+        for (int n = 0; n < 12; ++n) {
+            settle();
+            QTest::qWait(300 + 20 * n); // the check begins after 300 ms
+            const int now = document.currentSource();
+            QTest::keyClick(&mainWindow(), Qt::Key_Period);
+            QTRY_VERIFY_WITH_TIMEOUT(document.currentSource() != now, patienceMs);
+        }
+        settle();
+    }
+
     void phasesKeepLookViewAndBrightness() {
         writePhases("phases", true);
         open(QString::fromStdString((m_folder / "phases").string()));

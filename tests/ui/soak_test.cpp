@@ -290,7 +290,7 @@ private:
     }
 
     // Resident memory when nothing is open, after the allocator has given back its reserve.
-    // A check of the last picture, of the lowest priority, may take a while to end on a busy
+    // The check of the last picture, at the lowest priority, may take a while to end on a busy
     // machine.
     double memoryAtRestMb(double inUseMb = std::numeric_limits<double>::infinity()) {
         settleDown();

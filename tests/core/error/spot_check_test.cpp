@@ -255,6 +255,31 @@ TEST(SpotCheck, OfAZoomedPictureIsThatOfItsPart) {
     EXPECT_LT(stated.frequencies, 4096);
 }
 
+// Beside the body a picture is mostly its own error: how much truth there is, it cannot tell.
+TEST(SpotCheck, OfAPartBesideTheBodyMayBeAnyNumber) {
+    const auto lattice = volume::Lattice::centred({64, 64, 64}, {1, 1, 1});
+    const auto field =
+        fieldOf(lattice, [](const glm::dvec3 &at) { return glm::length(at) < 0.45 ? 1.0F : 0.0F; });
+    scene::Scene scene = sceneOf(lattice, 1.1e-3);
+    const auto engine = prepare::prepareEngine({scene, classify::ShownFields{{field}, {}}}).engine;
+    scene::Camera camera = scene.camera;
+    camera.pixelMm = 0.25;
+    camera.width = camera.height = 40;
+    const reference::WideKernel exact(field.values, field.support);
+    double worst = 0.0;
+    for (const double pan : {0.0, 12.0, 16.0, 20.0, 24.0, 30.0}) {
+        camera.panMm = {pan, 0.0};
+        const auto stated = prepare::measuredError(*engine, {{field}, {}}, camera, scene.image);
+        const double truth = test::relativeL2(engine->render(camera, scene.image).samples,
+                                              exact.image(camera, scene.image));
+        EXPECT_LE(stated.low, truth) << pan;
+        EXPECT_LE(truth, stated.high) << pan;
+        EXPECT_LT(stated.frequencies, 4096) << pan; // a sample of them, not all
+        worst = std::max(worst, truth);
+    }
+    EXPECT_GT(worst, 1.0);
+}
+
 TEST(SpotCheck, OfAnEmptyPictureIsZero) {
     const auto lattice = volume::Lattice::centred({12, 12, 12}, {1, 1, 1});
     const auto field = fieldOf(lattice, [](const glm::dvec3 &) { return 0.0F; });
