@@ -133,7 +133,7 @@ private:
 
     void dialog(const char *name, const QString &picture) {
         auto *shown = find<QDialog>(name);
-        QVERIFY(QTest::qWaitForWindowExposed(shown));
+        QVERIFY(activate(*shown)); // which draws the focus
         compare(shown->grab().toImage(), picture, changingParts(shown));
         shown->close();
         QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
