@@ -10,7 +10,6 @@
 #include "app/cli/input.h"
 #include "app/cli/plan_json.h"
 #include "app/cli/scene_fields.h"
-#include "core/error/shown_part.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
 #include "core/task/reasons.h"
@@ -150,26 +149,35 @@ bool SceneRenderer::boundMeetsTolerance() const {
 
 // Whether the last picture may miss the tolerance although the plan keeps it.
 bool SceneRenderer::missesTolerance() const {
-    return m_lastError.isMeasured() && judgedError() > m_scene.tolerance && boundMeetsTolerance();
+    return prepare::missesTolerance(*m_prepared, m_lastError, m_shown, m_scene);
 }
 
 bool SceneRenderer::mayPlanCloser() const {
-    return missesTolerance() && m_scene.interpolation.isPlanned() &&
-           m_scene.plannedFor != scene::PlannedFor::volume;
+    return missesTolerance() && !m_lastError.mayBeAll(m_shown) &&
+           m_scene.interpolation.isPlanned() && m_scene.plannedFor != scene::PlannedFor::volume;
+}
+
+// Returns false if a closer plan does not fit into memory: the plan stays as it was.
+bool SceneRenderer::planCloser() {
+    const double before = m_planned.tolerance;
+    m_planned.tolerance *= 0.8 * m_scene.tolerance / judgedError();
+    try {
+        prepare();
+    } catch (const Error &error) {
+        if (error.code() != ErrorCode::outOfMemory)
+            throw;
+        m_planned.tolerance = before;
+        prepare();
+        return false;
+    }
+    return true;
 }
 
 // The next picture chooses its widths again, as in the window.
 picture::ProjectionImage SceneRenderer::imageOfOneWidth(const scene::Camera &camera, Check check) {
-    const auto prepared = m_prepared;
-    const auto onCard = m_onCard;
-    m_prepared = prepare::withOneWidth(*m_prepared);
-    if (m_onCard)
-        m_onCard = m_onCard->withOneWidth();
-    picture::ProjectionImage image = make(camera, check);
-    m_prepared = prepared;
-    if (m_onCard) // it was not lost
-        m_onCard = onCard;
-    return image;
+    return make(
+        camera, check,
+        {prepare::withOneWidth(*m_prepared), m_onCard ? m_onCard->withOneWidth() : nullptr});
 }
 
 const classify::ShownFields &SceneRenderer::studyFields() {
@@ -180,17 +188,16 @@ const classify::ShownFields &SceneRenderer::studyFields() {
 
 // The plan is for the whole volume. The error of a part that contains little is known only after
 // rendering it; if it may miss the tolerance, plan again with a smaller one, while that helps, and
-// at last read it with one kernel. The workstation's plan stays.
+// finally render it with one kernel. The workstation's plan stays.
 picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera, Check check) {
     m_progress.check();
     picture::ProjectionImage image = make(camera, check);
     for (int tries = 0; tries < 3 && mayPlanCloser(); ++tries) {
         const double before = judgedError();
-        m_planned.tolerance *= 0.8 * m_scene.tolerance / before;
-        prepare();
+        const bool isCloser = planCloser();
         image = make(camera, check);
-        if (judgedError() >= before)
-            break; // what is left is not of the plan
+        if (!isCloser || judgedError() >= before)
+            break; // a closer plan no longer helps
     }
     if (missesTolerance() && prepare::choosesWidths(*m_prepared))
         image = imageOfOneWidth(camera, check);
@@ -198,25 +205,29 @@ picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera, Check
     return image;
 }
 
-picture::ProjectionImage SceneRenderer::make(const scene::Camera &camera, Check check) {
-    std::optional<picture::ProjectionImage> image = imageOfCard(camera);
-    if (!image)
-        image = m_prepared->projector().render(camera, m_scene.image, m_scene.shading, &m_times);
-    m_wasWhole = error::showsAllOf(m_prepared->plan.spectrum.box, m_prepared->lattice, camera);
+picture::ProjectionImage SceneRenderer::make(const scene::Camera &camera, Check check, Makers by) {
+    std::optional<picture::ProjectionImage> image;
+    if (by.onCard)
+        image = imageOfCard(camera, *by.onCard);
+    if (!image) {
+        by.onCard.reset();
+        image = by.prepared.projector().render(camera, m_scene.image, m_scene.shading, &m_times);
+    }
+    m_shown = prepare::shownOf(by.prepared, camera);
     const auto known = bound();
     if (known)
         m_lastError = *known;
     // Nothing could check the exact reference.
     if (!isExact() && (check == Check::measure || !known))
-        measure(camera);
+        measure(camera, by.onCard ? static_cast<render::ProjectionEngine &>(*by.onCard)
+                                  : *by.prepared.engine);
     return std::move(*image);
 }
 
-std::optional<picture::ProjectionImage> SceneRenderer::imageOfCard(const scene::Camera &camera) {
-    if (!m_onCard)
-        return std::nullopt;
+std::optional<picture::ProjectionImage> SceneRenderer::imageOfCard(const scene::Camera &camera,
+                                                                   gpu::GpuEngine &card) {
     try {
-        return m_onCard->render(camera, m_scene.image, m_scene.shading, &m_times);
+        return card.render(camera, m_scene.image, m_scene.shading, &m_times);
     } catch (const Error &error) {
         // The card was lost, or is too small for this image: the processor takes over, unless the
         // user requires the card.
@@ -228,8 +239,7 @@ std::optional<picture::ProjectionImage> SceneRenderer::imageOfCard(const scene::
     }
 }
 
-void SceneRenderer::measure(const scene::Camera &camera) {
-    render::ProjectionEngine &maker = m_onCard ? *m_onCard : *m_prepared->engine;
+void SceneRenderer::measure(const scene::Camera &camera, render::ProjectionEngine &maker) {
     // The question is whether the picture keeps the tolerance, not by how much.
     m_lastError =
         prepare::measuredError(maker, studyFields(), camera, m_scene.image, m_scene.shading,
@@ -278,25 +288,25 @@ std::vector<std::string> SceneRenderer::warnings() const {
 }
 
 std::string SceneRenderer::warningOfView() const {
-    return missedText(judgedError(), m_wasWhole);
+    return missedText(judgedError(), m_shown);
 }
 
 std::string SceneRenderer::warningOfViews() const {
-    return missedText(m_viewError, m_isWhole);
+    return missedText(m_viewError, m_allShown);
 }
 
-std::string SceneRenderer::missedText(double error, bool isWhole) const {
+std::string SceneRenderer::missedText(double error, error::Shown shown) const {
     const bool isMissed =
         error > m_scene.tolerance && (m_prepared->isCoarse || boundMeetsTolerance());
     if (!isMissed)
         return {};
-    if (isWhole || m_prepared->isCoarse)
+    if (shown == error::Shown::whole || m_prepared->isCoarse)
         return fmt::format(
             "the tolerance of {:.2g} is not met: {:.2g} was measured for this picture",
             m_scene.tolerance, error);
-    if (error >= 1.0)
+    if (error >= 1.0) // all of it may be error
         return fmt::format("the tolerance of {:.2g} is met for the whole volume, but this part "
-                           "contains so little that its error may exceed it",
+                           "contains so little that it may exceed the tolerance",
                            m_scene.tolerance);
     return fmt::format("the tolerance of {:.2g} is met for the whole volume, but the error of this "
                        "part may be up to {:.2g}",
@@ -307,7 +317,8 @@ void SceneRenderer::takeErrors() {
     m_viewError = std::max(m_viewError, judgedError());
     if (m_lastError.isMeasured() && (!m_measured || m_lastError.relative > m_measured->relative))
         m_measured = m_lastError;
-    m_isWhole = m_isWhole && m_wasWhole;
+    if (m_shown == error::Shown::part)
+        m_allShown = error::Shown::part;
 }
 
 } // namespace pellucid::cli

@@ -53,10 +53,10 @@ public:
     void requireRoomFor(const scene::Camera &camera) const;
     /// Whether the error of a picture is measured, or only bounded.
     enum class Check { none, measure };
-    /// A picture whose measured error exceeds the tolerance is planned again, more closely, unless
-    /// the scene sets its plan, and then rendered with one kernel for every frequency; of a
-    /// part of the body, it is the upper limit that counts. The error is always measured if the
-    /// fields were reduced to fit the memory. *Throws* Error{outOfMemory}, Cancelled.
+    /// If the measured error (of a part, its upper limit) exceeds the tolerance, the picture is
+    /// planned again, unless the scene sets its plan. If it still exceeds it, the picture is
+    /// rendered with one kernel for every frequency. The error is always measured if the fields
+    /// were reduced to fit the memory. *Throws* Error{outOfMemory}, Cancelled.
     picture::ProjectionImage image(const scene::Camera &camera, Check check = Check::none);
     /// The scene's own exposure or, measured once, that of the study.
     const scene::Exposure &exposure();
@@ -95,7 +95,7 @@ public:
     /// For all pictures together: the largest measured error, and whether each showed the whole
     /// volume.
     const std::optional<error::StatedError> &largestMeasured() const { return m_measured; }
-    bool wereWhole() const { return m_isWhole; }
+    bool wereWhole() const { return m_allShown == error::Shown::whole; }
 
 private:
     void makeFields(const MemoryLimit &memory);
@@ -105,15 +105,25 @@ private:
     bool isExact() const { return m_prepared->exact != nullptr; }
     bool boundMeetsTolerance() const;
     std::size_t bytesForLight() const;
-    double judgedError() const { return m_lastError.judged(m_wasWhole); }
+    double judgedError() const { return m_lastError.judged(m_shown); }
     bool missesTolerance() const;
     bool mayPlanCloser() const;
-    picture::ProjectionImage make(const scene::Camera &camera, Check check);
+    bool planCloser();
+    /// An engine, and the same on the card or null.
+    struct Makers {
+        const prepare::PreparedEngine &prepared;
+        std::shared_ptr<gpu::GpuEngine> onCard;
+    };
+    picture::ProjectionImage make(const scene::Camera &camera, Check check, Makers by);
+    picture::ProjectionImage make(const scene::Camera &camera, Check check) {
+        return make(camera, check, {*m_prepared, m_onCard});
+    }
     picture::ProjectionImage imageOfOneWidth(const scene::Camera &camera, Check check);
-    std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera);
-    void measure(const scene::Camera &camera);
+    std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera,
+                                                        gpu::GpuEngine &card);
+    void measure(const scene::Camera &camera, render::ProjectionEngine &maker);
     void takeErrors();
-    std::string missedText(double error, bool isWhole) const;
+    std::string missedText(double error, error::Shown shown) const;
     const classify::ShownFields &studyFields();
 
     scene::Scene m_scene;
@@ -136,10 +146,10 @@ private:
     double m_fieldMs = 0.0, m_prepareMs = 0.0;
     picture::FrameTimes m_times;
     error::StatedError m_lastError;
-    bool m_wasWhole = true; ///< the last picture showed all of the fields
+    error::Shown m_shown = error::Shown::whole; ///< by the last picture
     double m_viewError = 0.0;
     std::optional<error::StatedError> m_measured;
-    bool m_isWhole = true;
+    error::Shown m_allShown = error::Shown::whole; ///< by each picture
 };
 
 } // namespace pellucid::cli

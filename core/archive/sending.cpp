@@ -22,6 +22,7 @@
 #include "core/network/client/link.h"
 #include "core/network/client/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::archive {
 

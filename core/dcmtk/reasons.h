@@ -7,9 +7,6 @@
 namespace pellucid::task::because {
 
 // clang-format off
-// DICOM files
-
-// Pixels
 PELLUCID_REASON(jpeg2000EncodingFailed, "JPEG 2000 encoding failed")
 // clang-format on
 

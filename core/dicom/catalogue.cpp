@@ -9,6 +9,7 @@
 #include "core/dicom/reasons.h"
 #include "core/files/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::dicom {
 

@@ -33,9 +33,9 @@ std::array<double, directions> edgeEnergies(const PictureSlice &slice, double ro
         for (int column = 0; column < columns / 2; ++column) {
             const double u = 2.0 * column / columns, v = 2.0 * row / rows,
                          radius = std::sqrt(u * u + v * v);
-            if (radius < first || radius > last)
-                continue;
             const double factor = scene::rollOffFactor(rollOff, radius);
+            if (radius < first || radius > last || factor == 0.0)
+                continue;
             const auto n = std::size_t(directionOf(u, v));
             sums[n] += slice.energy(column, row) / (factor * factor);
             counts[n] += 1.0;
@@ -133,9 +133,9 @@ std::vector<LatticeBand> latticeBands(const picture::PeriodPicture &period,
         slice.forEach([&](int column, int row, double weight, double radius) {
             const double turns = step.x * column / slice.columns() + step.y * row / slice.rows(),
                          q = 2.0 * std::abs(turns);
-            if (radius >= 1.0 - image.rollOff || q < first || q > last)
-                return;
             const double factor = scene::rollOffFactor(image.rollOff, q);
+            if (radius >= 1.0 - image.rollOff || q < first || q > last || factor == 0.0)
+                return;
             band.energy += weight * slice.energy(column, row) / (factor * factor);
         });
         // From the sum over the grid to the integral across, at one frequency along.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/error/stated_error.h"
 #include "core/scene/camera.h"
 #include "core/volume/lattice.h"
 
@@ -11,10 +12,9 @@ namespace pellucid::error {
 double shownShare(const volume::VoxelBox &box, const volume::Lattice &lattice,
                   const scene::Camera &camera);
 
-/// Whether it shows all of it.
-inline bool showsAllOf(const volume::VoxelBox &box, const volume::Lattice &lattice,
-                       const scene::Camera &camera) {
-    return shownShare(box, lattice, camera) == 1.0;
+inline Shown shownOf(const volume::VoxelBox &box, const volume::Lattice &lattice,
+                     const scene::Camera &camera) {
+    return shownShare(box, lattice, camera) == 1.0 ? Shown::whole : Shown::part;
 }
 
 } // namespace pellucid::error

@@ -18,6 +18,7 @@
 #include "core/error/folded_tails.h"
 #include "core/error/picture_slice.h"
 #include "core/error/shown_part.h"
+#include "core/scene/camera.h"
 
 namespace pellucid::error {
 
@@ -74,7 +75,8 @@ struct Judged {
         : period(of), slice(of, progress), folded(foldedTails(of, slice, image, rows.lattice())),
           share(
               std::max(shownShare(rows.box(), rows.lattice(), of.shownCamera()),
-                       double(of.width) * of.height / (double(of.image.width) * of.image.height))) {
+                       double(of.width) * of.height / (double(of.image.width) * of.image.height))),
+          mayStandForFiner(of.camera.pixelMm <= scene::finestPixelMm(rows.lattice())) {
         progress.check();
         slice.forEach([&](int column, int row, double weight, double radius) {
             (radius < 1.0 ? inBand : beyondBand) += weight * slice.energy(column, row);
@@ -86,6 +88,9 @@ struct Judged {
     /// The share of the error to expect in the shown part. Aliases are where the body is, and
     /// rounding is everywhere in the period.
     double share;
+    /// Smaller pixels are not checked, see `prepare::checkedCamera`: they show the same part, but
+    /// not the same places of it.
+    bool mayStandForFiner;
     double inBand = 0.0, beyondBand = 0.0; ///< energies; beyond the band, everything is an error
 };
 
@@ -309,7 +314,9 @@ Sums::Estimate Sums::errorOf(const Judged &picture) const {
     double width = 1.0;
     // Energies in the part that is shown.
     double error = 0.0, low = 0.0, high = 0.0, truth = 0.0;
-    if (isComplete) {
+    const bool isPart = picture.share < 1.0,
+               areKnown = isComplete && !(isPart && picture.mayStandForFiner);
+    if (areKnown) {
         // Where every frequency is known, so is every pixel.
         for (int c = 0; c < slice.channels(); ++c) {
             const auto energies = slice.energiesInPart(c, picture.period, [&](const auto &set) {
@@ -345,20 +352,20 @@ Sums::Estimate Sums::errorOf(const Judged &picture) const {
     const double most = std::sqrt(folded.most) + rounding;
     // All of a repeated pixel is error: the field is not there.
     const double repeated = PictureSlice::repeatedEnergy(picture.period);
-    // Relative to `exact`. Where that may be next to nothing, the error may be any number.
-    constexpr double largest = 1e6;
     const auto relative = [](double energy, double exact) {
+        constexpr double largest = StatedError::largest;
         return energy > 0.0 ? std::sqrt(energy / std::max(exact, energy / (largest * largest)))
                             : 0.0;
     };
     // Whether the two add up or cancel is not known.
     const double least = std::max(0.0, std::sqrt(low) - most), greatest = std::sqrt(high) + most;
-    // The truth of a part is known from the picture, up to the error.
-    double leastTruth = truth, greatestTruth = truth;
-    if (!isComplete) {
-        leastTruth = std::pow(std::max(0.0, std::sqrt(truth) - greatest), 2);
-        greatestTruth = std::pow(std::sqrt(truth) + greatest, 2);
-    }
+    // The truth of a part is known from the picture, up to the error, or from the frequencies, up
+    // to what folds back.
+    const double unknown = !isPart    ? 0.0
+                           : areKnown ? most
+                                      : greatest,
+                 leastTruth = std::pow(std::max(0.0, std::sqrt(truth) - unknown), 2),
+                 greatestTruth = std::pow(std::sqrt(truth) + unknown, 2);
     return {{relative(error + folded.expected + repeated, truth), StatedError::Kind::measured,
              relative(least * least, greatestTruth),
              relative(greatest * greatest + repeated, leastTruth), count()},

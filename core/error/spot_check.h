@@ -38,8 +38,9 @@ struct CheckEffort {
 /// of these pairs. Everything that happened to the picture is in P': the spectrum, the kernels, the
 /// transform, the graphics card. *Shape*: `period` is the whole period of the picture, in its
 /// camera. For a part of the body, `relative` is what is expected if the error is spread evenly;
-/// `low` and `high` allow it anywhere. `refined` is called with each estimate but the last.
-/// *Throws* Cancelled within a transform of the picture, Error{outOfMemory}.
+/// `low` and `high` allow it anywhere, so that `high` may be any number where a part shows little.
+/// `refined` is called with each estimate but the last. *Throws* Cancelled within a transform of
+/// the picture, Error{outOfMemory}.
 StatedError spotCheck(const picture::PeriodPicture &period, const scene::ImageDefinition &image,
                       const ShownRows &rows, const CheckEffort &effort = {},
                       const task::Progress &progress = {},

@@ -14,6 +14,7 @@ PELLUCID_REASON(isALinkOfAnotherUser, "is a link that another user made, in a fo
 PELLUCID_REASON(isTruncated, "is truncated")
 PELLUCID_REASON(cannotBeWritten, "cannot be written: %1")
 PELLUCID_REASON(cannotBeMade, "cannot be created: %1")
+PELLUCID_REASON(cannotBeMapped, "cannot be mapped: %1")
 PELLUCID_REASON(cannotBeEncoded, "cannot be encoded: %1")
 PELLUCID_REASON(isTooLargeForItsKind, "is larger than the %1 MB limit for this kind of file")
 PELLUCID_REASON(noTemporaryFolder, "there is no folder for temporary files")
@@ -51,8 +52,6 @@ PELLUCID_REASON(hasNo, "has no %1")
 // Export
 PELLUCID_REASON(videosNeedFfmpeg, "Videos need ffmpeg, which is not installed; export frames instead")
 PELLUCID_REASON(ffmpegReports, "ffmpeg: %1")
-PELLUCID_REASON(cannotBeMapped, "cannot be mapped: %1")
-PELLUCID_REASON(isNotDicom, "is not a DICOM file")
 // clang-format on
 
 } // namespace pellucid::task::because

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/classify/coarse_field.h"
+#include "core/error/shown_part.h"
 #include "core/plan/folded_tails.h"
 #include "core/plan/reasons.h"
 #include "core/prepare/reasons.h"
@@ -216,6 +217,17 @@ std::optional<error::StatedError> boundOf(const PreparedEngine &prepared,
         return std::nullopt;
     const double gain = scene::detailGain(image) / scene::detailGain(prepared.plan.image);
     return error::StatedError::atMost(prepared.plan.predictedError * gain);
+}
+
+bool missesTolerance(const PreparedEngine &prepared, const error::StatedError &measured,
+                     error::Shown shown, const scene::Scene &scene) {
+    const auto bound = boundOf(prepared, scene.image);
+    return measured.isMeasured() && measured.judged(shown) > scene.tolerance && bound &&
+           bound->relative <= scene.tolerance;
+}
+
+error::Shown shownOf(const PreparedEngine &prepared, const scene::Camera &camera) {
+    return error::shownOf(prepared.plan.spectrum.box, prepared.lattice, camera);
 }
 
 PreparedEngine withOneWidth(const PreparedEngine &prepared) {

@@ -91,6 +91,13 @@ PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progre
 std::optional<error::StatedError> boundOf(const PreparedEngine &prepared,
                                           const scene::ImageDefinition &image);
 
+/// Whether the measured error of a picture exceeds a tolerance that its plan keeps for the whole
+/// volume, so that another plan, or one kernel for every frequency, may help.
+bool missesTolerance(const PreparedEngine &prepared, const error::StatedError &measured,
+                     error::Shown shown, const scene::Scene &scene);
+/// What a camera shows of the prepared fields.
+error::Shown shownOf(const PreparedEngine &prepared, const scene::Camera &camera);
+
 /// Whether frames choose the widths of their kernels, within the tolerance of the whole volume.
 inline bool choosesWidths(const PreparedEngine &prepared) {
     return prepared.plan.adaptiveError > 0.0;

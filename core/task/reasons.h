@@ -10,6 +10,7 @@ namespace pellucid::task::because {
 // Files and folders
 PELLUCID_REASON(isEmpty, "is empty")
 PELLUCID_REASON(isNotARegularFile, "is not a regular file")
+PELLUCID_REASON(isNotDicom, "is not a DICOM file")
 PELLUCID_REASON(isDamagedBy, "is damaged: %1")
 PELLUCID_REASON(inWords, "%1")
 

@@ -875,6 +875,10 @@
         <comment>window width and center</comment>
         <translation>窗寬 %1  窗位 %2</translation>
     </message>
+    <message>
+        <source>Not for diagnostic use</source>
+        <translation>不得用於診斷</translation>
+    </message>
 </context>
 <context>
     <name>ProjectionTexts</name>
@@ -5957,10 +5961,6 @@ Open it side by side?</source>
     <message>
         <source>Images only: not a volume</source>
         <translation>僅有影像：不構成體積</translation>
-    </message>
-    <message>
-        <source>Not for diagnostic use</source>
-        <translation>不得用於診斷</translation>
     </message>
 </context>
 <context>

@@ -119,13 +119,12 @@ for source in sources:
 for folder, several in rooms.items():
     for room in several:
         linked = everything(room.target)
-        confined = ("pellucid_decoding_process", "pellucid-decode", "pellucid_network_process", "pellucid-net")
-        if "pellucid_decoding_process" in linked and room.target not in confined:
-            wrong.append(f"{room.target} links pellucid_decoding_process, which is for confined processes alone")
-        if "pellucid_network_process" in linked and room.target not in confined:
-            wrong.append(f"{room.target} links pellucid_network_process, which is for pellucid-net alone")
-        if room.target == "pellucid-net" and "pellucid_dcmtk" in linked:
-            wrong.append("pellucid-net links pellucid_dcmtk: what reads a server's bytes has no codecs of images")
+        for process, program in (("pellucid_decoding_process", "pellucid-decode"), ("pellucid_network_process", "pellucid-net")):
+            if process in linked and room.target not in (process, program):
+                wrong.append(f"{room.target} links {process}, which is for {program} alone")
+        if room.target == "pellucid-net":
+            codecs = [link for link in linked if re.search(r"pellucid_dcmtk|JXL|OPENJPEG|LibArchive|CharLS|ITK", link, re.I)]
+            wrong += [f"pellucid-net links {link}: what reads a server's bytes has no codecs" for link in codecs]
         if folder == "app/bench":
             wrong += [f"{room.target} links {link}" for link in linked if re.match(r"Qt6|DCMTK|ITK", link)]
 

@@ -28,7 +28,7 @@ void writePackedValues(const fs::path &folder) {
               task::because::serverStatus(task::because::serverIsBusy, "0xA700").encoded());
 }
 
-void writeExchangeMessages(const fs::path &folder) {
+void writeNetworkMessages(const fs::path &folder) {
     network::Connection connection;
     connection.peer.host = "host";
     connection.peer.secret = "secret";
@@ -131,8 +131,8 @@ void writeFileStarts(const fs::path &folder) {
 void writeNetworkCorpus(const std::string &target, const fs::path &folder) {
     if (target == "packing")
         writePackedValues(folder);
-    else if (target == "exchange_message")
-        writeExchangeMessages(folder);
+    else if (target == "network_message")
+        writeNetworkMessages(folder);
     else if (target == "packet")
         writePackets(folder);
     else if (target == "control")

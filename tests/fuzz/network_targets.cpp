@@ -123,7 +123,7 @@ void packing(Bytes bytes) {
     refusing([&] { check(isOneLine(confined::unpackedReason(bytes, refusal).encoded())); });
 }
 
-void exchangeMessage(Bytes bytes) {
+void networkMessage(Bytes bytes) {
     const std::string body = textOf(bytes);
     unpackTwice(body, network::unpack<network::Connection>);
     unpackTwice(body, network::unpack<network::Acceptance>);

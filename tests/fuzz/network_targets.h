@@ -8,7 +8,7 @@ namespace pellucid::fuzz {
 
 // What crosses the border between the program and `pellucid-net`, in both directions.
 void packing(std::span<const std::byte> bytes);
-void exchangeMessage(std::span<const std::byte> bytes);
+void networkMessage(std::span<const std::byte> bytes);
 void packet(std::span<const std::byte> bytes);
 void control(std::span<const std::byte> bytes);
 

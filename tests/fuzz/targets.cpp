@@ -274,7 +274,7 @@ const std::vector<NamedTarget> &targets() {
                                               {"library", library},
                                               {"wisdom", wisdom},
                                               {"packing", packing},
-                                              {"exchange_message", exchangeMessage},
+                                              {"network_message", networkMessage},
                                               {"packet", packet},
                                               {"control", control},
                                               {"multipart", multipart},

@@ -27,8 +27,8 @@ namespace {
 
 using namespace pellucid;
 namespace because = task::because;
-using decoding::Mapping;
 using decoding::Message;
+using files::Mapping;
 
 constexpr std::size_t mib = std::size_t(1) << 20;
 

@@ -20,6 +20,7 @@
 #include "core/decoding/client/read_volume_file.h"
 #include "core/files/video_file.h"
 #include "tests/support/files.h"
+#include "ui/views/mpr_view.h"
 
 namespace pellucid {
 
@@ -66,6 +67,23 @@ private slots:
         QCOMPARE(values.lattice().size(), (volume::GridSize{image.width, image.height, 1}));
         QCOMPARE(float(values.value({100, 200, 0})),
                  image.samples[200 * std::size_t(image.width) + 100]);
+    }
+
+    // What a picture has besides has lines of its own.
+    void annotationsOfAPlaneAreAsInItsPane() {
+        auto *const axial = find<ui::MprView>("axialView");
+        projection()->setFocus(); // the frame of the focus is not exported
+        const int line = axial->fontMetrics().height() + 3, width = axial->width();
+        const QRect left(8, 8, width / 2 - 20, 2 * line),
+            right(width / 2 + 12, 8, width / 2 - 20, 2 * line), below(left.translated(0, 2 * line)),
+            belowRight(right.translated(0, 2 * line));
+        const QImage shown = axial->grab().toImage(), picture = exported("Axial", 0, 1, true);
+        QVERIFY(picture.size() == shown.size());
+        const auto differ = [&](const QRect &part) {
+            return changed(shown.copy(part), picture.copy(part)) > 0.0;
+        };
+        QVERIFY(!differ(left) && !differ(right));
+        QVERIFY(differ(below) && differ(belowRight));
     }
 
     // What is exported of this study can be made of others on the command line.

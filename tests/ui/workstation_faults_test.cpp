@@ -12,6 +12,7 @@
 #include <QListWidget>
 #include <QProcess>
 #include <QPushButton>
+#include <QStatusBar>
 
 #include "app/exit_code.h"
 #include "core/confined/confinement.h"
@@ -79,6 +80,26 @@ private slots:
         QVERIFY(list->item(0)->text().contains("damaged or truncated"));
         settle();
         QVERIFY(changed(before, projection()->picture()) < 0.001);
+    }
+
+    // Nothing is written into the picture of a study that is not concerned.
+    void aFailedLoadLeavesThePictureClear() {
+        restart();
+        open(headPath());
+        const auto middle = [&] {
+            const QRect all = projection()->rect();
+            return projection()
+                ->grab(all.adjusted(all.width() / 4, all.height() / 4, -all.width() / 4,
+                                    -all.height() / 4))
+                .toImage();
+        };
+        const QImage before = middle();
+        drop(mainWindow(), {QUrl::fromLocalFile("/no/such/place")});
+        QTRY_VERIFY_WITH_TIMEOUT(
+            find<QListWidget>("problemList")->count() == 1 && !jobs().isRunning(), patienceMs);
+        QVERIFY(mainWindow().statusBar()->currentMessage().contains("place: does not exist"));
+        settle();
+        QCOMPARE(changed(before, middle()), 0.0);
     }
 
     // On a system that cannot confine the helpers, the window says so.

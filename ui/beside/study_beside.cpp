@@ -74,11 +74,7 @@ StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *pare
     layout->addWidget(m_viewer.area, 1);
     m_viewer.area->arrangeAs(*leader.area);
     connectProjection(m_study, *m_viewer.projection, card);
-    connect(&m_study.jobs, &JobRunner::failed, this,
-            [this](const task::Reason &what, const QString &path) {
-                m_viewer.projection->setMessage(translated(what));
-                emit failed(what, path);
-            });
+    connect(&m_study.jobs, &JobRunner::failed, this, &StudyBeside::failed);
     connect(&m_measurements, &MeasurementStore::failed, this, &StudyBeside::failed);
     // Also if a load is cancelled and the former study comes back. A failed load keeps its name.
     document().whenever(Change::currentSource, this, &StudyBeside::showName);

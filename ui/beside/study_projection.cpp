@@ -16,6 +16,7 @@ void connectProjection(OpenStudy &study, ProjectionView &projection, GraphicsCar
     deliver(study.opener, &StudyOpener::notProjectable, &ProjectionView::setMessage);
     deliver(study.jobs, &JobRunner::started, &ProjectionView::jobStarted);
     deliver(study.jobs, &JobRunner::finished, &ProjectionView::jobEnded);
+    deliver(study.jobs, &JobRunner::failed, &ProjectionView::jobFailed);
     ProjectionFrames &frames = projection.frames();
     QObject::connect(&study.opener, &StudyOpener::phaseLeft, &frames,
                      &ProjectionFrames::holdExposure);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -25,10 +26,12 @@ public:
     void undo() override { apply(m_before); }
     void redo() override { apply(m_after); }
     DragId drag() const { return m_drag; }
-    int id() const override { return 0; } // any other edit may be of the same kind
+    int id() const override { return 0; } // one for all: `mergeWith` compares the types
     bool mergeWith(const QUndoCommand *other) override {
-        const auto *next = dynamic_cast<const EditValue *>(other);
-        if (next == nullptr || m_drag == noDrag || next->m_drag != m_drag)
+        if (m_drag == noDrag || typeid(*other) != typeid(*this))
+            return false;
+        const auto *next = static_cast<const EditValue *>(other);
+        if (next->m_drag != m_drag)
             return false;
         m_after = next->m_after;
         return true;

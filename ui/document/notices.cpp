@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/document/notices.h"
 
+#include <QFileInfo>
+
 #include "core/task/error.h"
 #include "ui/document/document.h"
 #include "ui/language/reasons.h"
@@ -15,7 +17,8 @@ Notices::Notices(Document &document, QObject *parent) : QObject(parent), m_docum
 
 void Notices::report(const task::Reason &what, const QString &path) {
     m_document.addProblems({{path.toStdString(), what}});
-    emit shown(translated(what), 8000);
+    const QString name = shownText(QFileInfo(path).fileName());
+    emit shown(name.isEmpty() ? translated(what) : name + ": " + translated(what), 8000);
 }
 
 void Notices::say(const QString &text) {

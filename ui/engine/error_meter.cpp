@@ -55,14 +55,15 @@ void ErrorMeter::run(const std::stop_token &stop) {
 void ErrorMeter::measureOne(Picture &picture, const std::stop_token &stop) {
     try {
         const picture::PeriodPicture period = picture.period.get();
-        const auto report = [&](const error::StatedError &error, bool isLast) {
+        const auto report = [&](const error::StatedError &error, Figure figure) {
             if (!stop.stop_requested())
-                emit measured(picture.number, error, isLast);
+                emit measured(picture.number, error, figure);
         };
         const error::StatedError last = prepare::measuredError(
             picture.study, picture.scale, period, picture.image, picture.shading, {},
-            task::Progress(stop), [&](const error::StatedError &error) { report(error, false); });
-        report(last, true);
+            task::Progress(stop),
+            [&](const error::StatedError &error) { report(error, Figure::refined); });
+        report(last, Figure::last);
     } catch (const task::Cancelled &) {   // the view has moved
     } catch (const std::future_error &) { // the window closes
     } catch (...) {

@@ -35,10 +35,13 @@ public:
     /// Ends the measurement soon; does not wait.
     void cancel();
 
+    enum class Figure { refined, last };
+
 signals:
-    /// Comes again while the interval becomes narrower. `isLast`: this is the final figure. Nothing
-    /// comes of a picture that cannot be measured.
-    void measured(std::uint64_t number, const pellucid::error::StatedError &error, bool isLast);
+    /// Comes again while the interval becomes narrower. Nothing comes of a picture that cannot be
+    /// measured.
+    void measured(std::uint64_t number, const pellucid::error::StatedError &error,
+                  pellucid::ui::ErrorMeter::Figure figure);
 
 private:
     void run(const std::stop_token &stop);

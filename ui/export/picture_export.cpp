@@ -69,21 +69,17 @@ void putOver(QImage &picture, const Annotations &annotations, double pixelRatio)
     picture.setDevicePixelRatio(1.0);
 }
 
-// Names the patient and the date of the study in a corner that the pane leaves free for it.
-// *Units*: `line`: of text from the top.
-void paintPatient(QPainter &painter, const QRect &area, int line, const PictureExport &what,
-                  const dicom::CaptureLabels &labels) {
+// Patient and date of the study; empty if the picture must not name them.
+QString patientLine(const PictureExport &what, const dicom::CaptureLabels &labels) {
     if (what.isDeidentified)
-        return;
+        return {};
     const QDate date = QDate::fromString(QString::fromStdString(labels.studyDate), "yyyyMMdd");
     QStringList parts;
     if (!what.patient.isEmpty())
         parts << what.patient;
     if (date.isValid())
         parts << date.toString(Qt::ISODate);
-    const int height = painter.fontMetrics().height() + 3;
-    drawText(painter, area.adjusted(10, 8 + line * height, -10, -8), Qt::AlignRight | Qt::AlignTop,
-             parts.join("  "), overlayColors("accent").text);
+    return parts.join("  ");
 }
 
 // `isGrey`: the picture is grey; its annotations then lose their color, as fewer programs read
@@ -124,8 +120,7 @@ PictureMaker planeMaker(const PictureExport &what, const Panes &panes, const Doc
     const Names names = what.isDeidentified ? Names::hidden : Names::shown;
     return [make = view.pictureMaker(what.scale), ratio = view.devicePixelRatioF() * what.scale,
             over = recorded(what.isAnnotated, [&](QPainter &painter) {
-                view.paintOver(painter, names);
-                paintPatient(painter, view.rect(), 1, what, studyLabels(document));
+                view.paintOver(painter, names, patientLine(what, studyLabels(document)));
             })](const task::Progress &progress) {
         QImage picture = make();
         progress.report(0.3);
@@ -272,7 +267,9 @@ ProjectionJob projectionJob(const PictureExport &what, const Panes &panes, const
             recorded(what.isAnnotated && what.isPicture(), [&](QPainter &painter) {
                 view.paintAnnotations(
                     painter, view.turnedAroundPatient(document.scene().camera, degrees), names);
-                paintPatient(painter, view.rect(), 0, what, study);
+                drawText(painter, view.rect().adjusted(10, 8, -10, -8),
+                         Qt::AlignRight | Qt::AlignTop, patientLine(what, study),
+                         overlayColors("accent").text);
             }));
     }
     job.labels = labelsOf(document, {camera.axes()[0], camera.axes()[1]}, camera.pixelMm);

@@ -29,7 +29,7 @@ public:
         QSvgRenderer(drawing).render(painter, rect);
     }
     QPixmap pixmap(const QSize &size, QIcon::Mode mode, QIcon::State state) override {
-        if (size.isEmpty()) // of a button that a narrow window has squeezed
+        if (size.isEmpty()) // a squeezed button asks for it; QPainter would warn
             return {};
         QPixmap pixmap(size);
         pixmap.fill(Qt::transparent);

@@ -28,6 +28,17 @@ QByteArray resource(const QString &path) {
     return file.readAll();
 }
 
+// Whoever works on the style reads it from a file, without a build.
+QByteArray styleSheet() {
+    if (const QString own = qEnvironmentVariable("PELLUCID_STYLE"); !own.isEmpty()) {
+        QFile file(own);
+        if (file.open(QIODevice::ReadOnly))
+            return file.readAll();
+        qWarning("PELLUCID_STYLE: %s: %s", qPrintable(own), qPrintable(file.errorString()));
+    }
+    return resource(":/pellucid/styles/workstation.qss");
+}
+
 Theme &appliedTheme() {
     static Theme theme = Theme::named("dark");
     return theme;
@@ -85,11 +96,7 @@ void Theme::apply(QApplication &application) const {
     font.setFamilies(families);
     application.setFont(font);
 
-    // Whoever works on the style reads it from a file, without a build.
-    QFile own(qEnvironmentVariable("PELLUCID_STYLE"));
-    QString sheet = QString::fromUtf8(own.open(QIODevice::ReadOnly)
-                                          ? own.readAll()
-                                          : resource(":/pellucid/styles/workstation.qss"));
+    QString sheet = QString::fromUtf8(styleSheet());
     static const QRegularExpression role("@([a-z]+)");
     for (auto match = role.match(sheet); match.hasMatch();
          match = role.match(sheet, match.capturedStart())) {

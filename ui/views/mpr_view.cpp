@@ -214,14 +214,10 @@ std::function<QImage()> MprView::pictureMaker(int scale) const {
     };
 }
 
-void MprView::paintOver(QPainter &painter, Names names) const {
+void MprView::paintOver(QPainter &painter, Names names, const QString &patient) const {
     m_tools.paint(painter, surface(), names == Names::shown ? Marks::plain : Marks::nameless, {});
-    paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, TextsFor::picture,
-                    names);
-    const OverlayColors colors = overlayColors(colorRole(m_orientation));
-    const int line = painter.fontMetrics().height() + 3;
-    drawText(painter, rect().adjusted(8, 8 + line, -8, -8), Qt::AlignLeft | Qt::AlignTop,
-             tr("Not for diagnostic use"), colors.muted);
+    paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, TextsFor::picture, names,
+                    patient);
 }
 
 void MprView::resizeEvent(QResizeEvent *) {

@@ -38,7 +38,7 @@ public:
     /// side; it may run on any thread.
     std::function<QImage()> pictureMaker(int scale) const;
     /// Paints the annotations of an exported slice. *Units*: logical pixels.
-    void paintOver(QPainter &painter, Names names) const;
+    void paintOver(QPainter &painter, Names names, const QString &patient) const;
 
     /// The part of the plane that the pane shows.
     struct View {

@@ -125,7 +125,7 @@ QString valueText(const volume::Volume &volume, volume::PatientPoint at,
 
 void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &mapping,
                      const Document &document, mpr::Orientation orientation, TextsFor reader,
-                     Names names) {
+                     Names names, const QString &patient) {
     // Over white, as PET and some radiographs are shown, light letters would vanish.
     const OverlayColors colors = document.volume() && document.displayWindow().isInverted
                                      ? filmColors(colorRole(orientation))
@@ -154,27 +154,39 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
             : PlaneTextsTexts::tr("image %1")
                   .arg(1 + int(std::lround(
                                document.volume()->lattice().voxel(document.crosshair()).v.z)));
-    drawText(painter, inner, Qt::AlignRight | Qt::AlignTop, position, colors.text);
-    int lines = 1; // used at the top right
+    int left = 1, right = 0; // lines that are used at the top
+    const auto drawAtLeft = [&](const QString &text, const QColor &color) {
+        drawText(painter, inner.adjusted(0, line * left++, 0, 0), Qt::AlignLeft | Qt::AlignTop,
+                 text, color);
+    };
+    const auto drawAtRight = [&](const QString &text, const QColor &color) {
+        drawText(painter, inner.adjusted(0, line * right++, 0, 0), Qt::AlignRight | Qt::AlignTop,
+                 text, color);
+    };
+    drawAtRight(position, colors.text);
     if (const QString slice = sliceText(document, axis); !slice.isEmpty())
-        drawText(painter, inner.adjusted(0, line * lines++, 0, 0), Qt::AlignRight | Qt::AlignTop,
-                 slice, colors.text);
+        drawAtRight(slice, colors.text);
     // The text must not reach the letter in the middle.
     const auto fitsBesideLetter = [&](const QString &text) {
         return painter.fontMetrics().horizontalAdvance(text) < inner.width() / 2 - line;
     };
     if (const QString window = windowText(document); fitsBesideLetter(window))
-        drawText(painter, inner.adjusted(0, line, 0, 0), Qt::AlignLeft | Qt::AlignTop, window,
-                 colors.muted);
+        drawAtLeft(window, colors.muted);
+    if (reader == TextsFor::picture)
+        drawAtLeft(PlaneTextsTexts::tr("Not for diagnostic use"), colors.muted);
     if (cut.options.slab.thicknessMm > 0.0)
-        drawText(painter, inner.adjusted(0, line * lines++, 0, 0), Qt::AlignRight | Qt::AlignTop,
-                 slabText(cut.options.slab), colors.text);
+        drawAtRight(slabText(cut.options.slab), colors.text);
     if (paintGapEdges(painter, area, mapping, *document.volume(), document.crosshair(),
                       colors.warning)) {
         const QString whole = PlaneTextsTexts::tr("interpolated: no image acquired here");
-        drawText(painter, inner.adjusted(0, line * lines, 0, 0), Qt::AlignRight | Qt::AlignTop,
-                 fitsBesideLetter(whole) ? whole : PlaneTextsTexts::tr("interpolated"),
-                 colors.warning);
+        drawAtRight(fitsBesideLetter(whole) ? whole : PlaneTextsTexts::tr("interpolated"),
+                    colors.warning);
+    }
+    if (!patient.isEmpty()) {
+        if (!fitsBesideLetter(patient)) // below all that it could cross
+            right = std::max({left, right, 2});
+        drawAtRight(painter.fontMetrics().elidedText(patient, Qt::ElideRight, inner.width()),
+                    colors.text);
     }
     if (notes.placed)
         drawOrientationLetters(painter, area, mapping.plane.axes.right, mapping.plane.axes.up,

@@ -28,9 +28,9 @@ enum class TextsFor {
 };
 
 /// Paints the texts over a plane: name, position, slice, window, slab, orientation letters, scale
-/// and warnings.
+/// and warnings; over a picture also its purpose and, unless empty, the patient.
 void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &mapping,
                      const Document &document, mpr::Orientation orientation, TextsFor reader,
-                     Names names = Names::shown);
+                     Names names = Names::shown, const QString &patient = {});
 
 } // namespace pellucid::ui

@@ -6,7 +6,6 @@
 
 #include <QCoreApplication>
 
-#include "core/error/shown_part.h"
 #include "ui/document/document.h"
 #include "ui/language/reasons.h"
 
@@ -40,16 +39,17 @@ ProjectionFrames::ProjectionFrames(Document &document)
     m_check.setSingleShot(true);
     m_check.setInterval(checkMs);
     connect(&m_check, &QTimer::timeout, this, &ProjectionFrames::measureError);
-    connect(&m_meter, &ErrorMeter::measured, this,
-            [this](std::uint64_t number, const error::StatedError &error, bool isLast) {
-                // It may have been sent before the volume was left.
-                if (!m_engine || !m_frame || m_frame->number != number)
-                    return;
-                m_error = error;
-                emit errorMeasured(error);
-                if (isLast && needsOneWidth())
-                    useOneWidth();
-            });
+    connect(
+        &m_meter, &ErrorMeter::measured, this,
+        [this](std::uint64_t number, const error::StatedError &error, ErrorMeter::Figure figure) {
+            // It may have been sent before the volume was left.
+            if (!m_engine || !m_frame || m_frame->number != number)
+                return;
+            m_error = error;
+            emit errorMeasured(error);
+            if (figure == ErrorMeter::Figure::last && needsOneWidth())
+                useOneWidth();
+        });
     connect(&m_worker, &RenderWorker::frameReady, this, &ProjectionFrames::take);
     connect(&m_worker, &RenderWorker::failed, this, [this](const task::Reason &reason) {
         m_pending = false;
@@ -145,11 +145,9 @@ void ProjectionFrames::request(bool moving) {
 // one kernel for every frequency its error is smaller.
 bool ProjectionFrames::needsOneWidth() const {
     const prepare::PreparedEngine &prepared = m_engine->prepared;
-    const scene::Scene &scene = m_document.scene();
     return !m_uniform && !m_pending && !m_isComparing && prepare::choosesWidths(prepared) &&
-           prepare::boundOf(prepared, scene.image) &&
-           m_error->judged(error::showsAllOf(prepared.plan.spectrum.box, prepared.lattice,
-                                             m_frame->camera)) > scene.tolerance;
+           prepare::missesTolerance(prepared, *m_error, prepare::shownOf(prepared, m_frame->camera),
+                                    m_document.scene());
 }
 
 void ProjectionFrames::useOneWidth() {
@@ -158,6 +156,7 @@ void ProjectionFrames::useOneWidth() {
                  onCard ? onCard->withOneWidth() : nullptr, m_engine->reason};
     giveToWorker();
     requestFrame(false);
+    m_uniformFrame = m_requested;
 }
 
 void ProjectionFrames::requestFrame(bool moving) {
@@ -165,7 +164,7 @@ void ProjectionFrames::requestFrame(bool moving) {
     const bool draft = moving && m_fullFrameMs > smoothFrameMs;
     m_pending = true;
     const volume::Lattice &lattice = m_document.volume()->lattice();
-    // The picture that this one is compared with may be read by one kernel.
+    // The picture that this one is compared with may have been rendered with one kernel.
     const bool isAdaptive = prepare::choosesWidths(prepared) && !used().onCard && !m_isComparing;
     const double finest = isAdaptive ? 0.0
                                      : std::min(scene::finestPixelMm(lattice),
@@ -214,10 +213,13 @@ void ProjectionFrames::take(const std::shared_ptr<const RenderedFrame> &frame) {
             return; // the frame of the moved view follows
     }
     m_frame = frame;
-    m_error = prepare::boundOf(used().prepared, m_document.scene().image);
+    // The view may have moved meanwhile, and uses chosen widths again.
+    const bool isOfOneWidth = frame->number == m_uniformFrame;
+    const ShownEngine &engine = isOfOneWidth ? used() : *m_engine;
+    m_error = prepare::boundOf(engine.prepared, m_document.scene().image);
     m_frameStage = m_stage;
     m_pending = m_rest.isActive() || frame->number != m_requested;
-    if (!frame->draft && !m_uniform) {
+    if (!frame->draft && !isOfOneWidth) {
         m_fullFrameMs = frame->times.totalMs() / (m_isFirstOfKind ? firstFrameFactor : 1.0);
         m_isFirstOfKind = false;
     }
@@ -297,7 +299,7 @@ std::function<picture::ProjectionImage(const scene::Camera &)> ProjectionFrames:
 void ProjectionFrames::setComparing(bool isComparing) {
     const bool was = m_isComparing;
     m_isComparing = isComparing && m_frame && m_comparison.before();
-    if (m_isComparing || was) // without the comparison, the picture may come within the tolerance
+    if (m_isComparing || was) // while comparing, no picture is rendered with one kernel
         request(false);
 }
 

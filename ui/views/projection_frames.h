@@ -141,6 +141,7 @@ private:
     bool m_pending = false;
     bool m_isComparing = false;
     std::uint64_t m_requested = 0, m_generation = 0;
+    std::uint64_t m_uniformFrame = 0; ///< the last request with one kernel
 };
 
 } // namespace pellucid::ui

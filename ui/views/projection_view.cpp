@@ -114,6 +114,11 @@ void ProjectionView::setPlanState(PlanState state) {
     showTexts();
 }
 
+void ProjectionView::jobFailed(const task::Reason &what) {
+    if (m_document.volume() && !showsPicture())
+        setMessage(translated(what));
+}
+
 void ProjectionView::setMessage(const QString &message) {
     m_message = message;
     setWaiting(Waiting::no);

@@ -34,6 +34,8 @@ public:
     /// Shows the name of the look below that of the pane.
     void setLookName(const QString &name);
     void setMessage(const QString &message);
+    /// Says why there is no picture. One that is shown stays clear: what failed is not in it.
+    void jobFailed(const task::Reason &what);
     /// Looks the way another camera does, at the same pixel size, within the limits of the zoom.
     /// `pivotMm`: what that camera turns about, if it shows another volume; this view then shows
     /// its own pivot at the same place.

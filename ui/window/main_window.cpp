@@ -266,7 +266,7 @@ void MainWindow::createStatusBar() {
         connect(application, &Application::failed, &m_bench.notices, &Notices::report);
     }
     connect(&m_bench.notices, &Notices::shown, statusBar(), &QStatusBar::showMessage);
-    connect(&m_bench.study.jobs, &JobRunner::failed, this, &MainWindow::reportLoad);
+    connect(&m_bench.study.jobs, &JobRunner::failed, &m_bench.notices, &Notices::report);
     connect(m_projection, &ProjectionView::engineDescribed, this, [this](const QString &text) {
         if (text != m_engine->text())
             system::log(text.toStdString());
@@ -347,12 +347,6 @@ void MainWindow::showTitle() {
 
 void MainWindow::openPhantom(const QString &kind) {
     m_bench.study.opener.openPhantom(kind);
-}
-
-void MainWindow::reportLoad(const task::Reason &what, const QString &path) {
-    m_bench.notices.report(what, path);
-    if (m_bench.study.document.volume())
-        m_projection->setMessage(translated(what));
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent *event) {

@@ -78,8 +78,6 @@ private:
     void showVolumeState();
     void showPictures();
     void showTitle();
-    /// Reports the failure of a job in the projection's pane, too.
-    void reportLoad(const task::Reason &what, const QString &path);
 
     Workbench &m_bench;
     Preferences m_preferences;

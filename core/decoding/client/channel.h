@@ -7,12 +7,10 @@
 #include "core/confined/packet.h"
 #include "core/decoding/client/message.h"
 #include "core/files/descriptor.h"
-#include "core/files/mapping.h"
 
 namespace pellucid::decoding {
 
 using files::Descriptor;
-using files::Mapping;
 
 /// Sends a message, and a descriptor unless it is -1; never blocks. False if the other end is
 /// closed or does not read.

@@ -188,7 +188,7 @@ Child::Answer Child::take(const Message &message) {
         message.dataBytes > m_arenaBytes - dataOffset(message.size))
         throw Error(ErrorCode::unusable, because::implausibleAnswer);
     if (m_mapped.size() < m_arenaBytes)
-        m_mapped = Mapping(m_arena.get(), m_arenaBytes, Mapping::Access::read);
+        m_mapped = files::Mapping(m_arena.get(), m_arenaBytes, files::Mapping::Access::read);
     m_body.assign(reinterpret_cast<const char *>(m_mapped.data()), message.size);
     const auto body = std::as_bytes(std::span(m_body));
     if (message.kind == Message::Kind::done) {

@@ -7,6 +7,7 @@
 
 #include "core/confined/process.h"
 #include "core/decoding/client/channel.h"
+#include "core/files/mapping.h"
 #include "core/task/progress.h"
 
 namespace pellucid::decoding {
@@ -54,7 +55,7 @@ private:
 
     confined::Process m_process;
     Descriptor m_arena;
-    Mapping m_mapped;
+    files::Mapping m_mapped;
     std::uint64_t m_arenaBytes = 0, m_grantedBytes = 0;
     std::string m_body;
     std::chrono::steady_clock::time_point m_end; ///< deadline

@@ -18,8 +18,8 @@ void dropUnreadable(DcmItem &dataset);
 
 /// The header of a loaded dataset; a mosaic is still one image. `fileBytes` limits the number of
 /// frames: each takes at least one byte.
-decoding::InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes);
+InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes);
 /// The same, with the rest of the file's information.
-decoding::InstanceHeader headerOf(const LoadedFile &file, std::size_t fileBytes);
+InstanceHeader headerOf(const LoadedFile &file, std::size_t fileBytes);
 
 } // namespace pellucid::decoding::process

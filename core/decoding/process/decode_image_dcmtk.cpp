@@ -162,7 +162,7 @@ void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::
         whyUndecodable(h))
         fail(because::compressedImageContradictsHeader);
     if (precision > h.bitsStored && exceedsStored(dataset, h, precision)) {
-        h.oddities |= decoding::otherPrecision;
+        h.oddities |= otherPrecision;
         // A stream as wide as the words does not tell their bits: its samples are masked like plain
         // ones.
         if (precision < h.bitsAllocated) {
@@ -236,11 +236,11 @@ void decodeLongSamples(DcmDataset &dataset, DecodedImage &image) {
     };
     moved(h.paddingValue);
     moved(h.paddingLimit);
-    for (decoding::FrameHeader &frame : h.frames) {
+    for (FrameHeader &frame : h.frames) {
         frame.rescale.intercept += frame.rescale.slope * double(least);
         frame.rescale.slope *= std::exp2(lost);
         if (std::max(std::abs(frame.rescale.intercept), std::abs(frame.rescale.slope)) >
-            decoding::largestRescale)
+            largestRescale)
             fail(because::rescaleGivesNoValues);
     }
 }
@@ -271,7 +271,7 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
 bool isPlain(const LoadedFile &file, const InstanceHeader &h) {
     if (isNative(file.syntaxUid))
         return true;
-    if ((h.oddities & decoding::definedLengthPixels) == 0)
+    if ((h.oddities & definedLengthPixels) == 0)
         return false;
     DcmElement *element = nullptr;
     Uint8 *data = nullptr;
@@ -304,7 +304,7 @@ void decodeFrames(const LoadedFile &file, std::size_t fileBytes, DecodedImage &i
             decodeJpegXlFrames(frames, image);
             return;
         }
-        if ((h.oddities & decoding::definedLengthPixels) != 0)
+        if ((h.oddities & definedLengthPixels) != 0)
             fail(because::noFragments(syntaxName(file.syntaxUid)));
         decodeByDcmtk(file, frames, fileBytes, image.header);
     }
@@ -334,7 +334,7 @@ DecodedImage decoded(std::span<const std::byte> bytes) {
 void requireWholePixels(const LoadedFile &file, const InstanceHeader &h) {
     DcmElement *pixels = nullptr;
     if (!file.isComplete && file.dataset().findAndGetElement(DCM_PixelData, pixels).good() &&
-        pixels->transferState() != ERW_ready && (h.oddities & decoding::missingDelimiter) == 0)
+        pixels->transferState() != ERW_ready && (h.oddities & missingDelimiter) == 0)
         fail(because::pixelsTruncated);
 }
 

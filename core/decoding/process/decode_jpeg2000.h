@@ -12,6 +12,6 @@ namespace pellucid::decoding::process {
 /// Decodes a codestream or JP2 file of one component. *Throws* Error{unusable}, also if it does not
 /// match the data set's header.
 dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data,
-                                    const decoding::InstanceHeader &expected);
+                                    const InstanceHeader &expected);
 
 } // namespace pellucid::decoding::process

@@ -63,7 +63,7 @@ bool hasEnd(std::span<const std::byte> data) {
 } // namespace
 
 dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data,
-                                    const decoding::InstanceHeader &expected) {
+                                    const InstanceHeader &expected) {
     const auto fail = [](const task::Reason &why) {
         throw Error(ErrorCode::unusable, because::jpeg2000(why));
     };

@@ -49,7 +49,7 @@ std::size_t unpackedBytes(std::span<const std::byte> segment, std::size_t wanted
 } // namespace
 
 void requireMatchesHeader(std::int64_t rows, std::int64_t columns, int components, int precision,
-                          const decoding::InstanceHeader &expected) {
+                          const InstanceHeader &expected) {
     const auto fail = [](const task::Reason &reason) {
         throw task::Error(task::ErrorCode::unusable, reason);
     };

@@ -24,7 +24,7 @@ std::optional<JpegFrame> jpegFrame(std::span<const std::byte> frame);
 /// Compares a compressed frame with the data set's header. *Requires*: the header's `bitsAllocated`
 /// is 8 or 16. *Throws* Error{unusable} if they differ.
 void requireMatchesHeader(std::int64_t rows, std::int64_t columns, int components, int precision,
-                          const decoding::InstanceHeader &expected);
+                          const InstanceHeader &expected);
 
 /// Why a run-length frame does not unpack to exactly rows x columns samples of this many bytes
 /// (PS3.5, annex G); empty if it does.

@@ -20,6 +20,6 @@ std::vector<volume::ValueWindow> readWindows(DcmItem &item, const dicom_text::Ch
 /// type come from the groups only if the header has none yet. `fileBytes` limits the number of
 /// frames: each takes at least one byte.
 void readFrames(DcmDataset &dataset, const dicom_text::CharacterSets &sets, std::size_t fileBytes,
-                decoding::InstanceHeader &header);
+                InstanceHeader &header);
 
 } // namespace pellucid::decoding::process

@@ -47,14 +47,14 @@ void readOrientation(DcmItem *item, FrameHeader &frame) {
 
 void readPosition(DcmItem *item, FrameHeader &frame) {
     if (const auto position = vector3(readNumbers(item, DCM_ImagePositionPatient, 3), 0);
-        position && glm::length(*position) <= decoding::farthestMm)
+        position && glm::length(*position) <= farthestMm)
         frame.positionMm = position;
 }
 
 std::optional<glm::dvec2> spacingIn(DcmItem *item, const DcmTagKey &tag) {
     const auto spacing = readNumbers(item, tag, 2);
-    if (spacing.size() != 2 || !(std::min(spacing[0], spacing[1]) >= decoding::smallestSpacingMm) ||
-        !(std::max(spacing[0], spacing[1]) <= decoding::largestSpacingMm))
+    if (spacing.size() != 2 || !(std::min(spacing[0], spacing[1]) >= smallestSpacingMm) ||
+        !(std::max(spacing[0], spacing[1]) <= largestSpacingMm))
         return std::nullopt;
     return glm::dvec2(spacing[1], spacing[0]); // the attribute gives the distance of rows first
 }
@@ -104,13 +104,13 @@ bool isMultiple(DcmItem *item, const DcmTagKey &tag) {
 
 // An unusable value is recorded, because ignoring it changes the values.
 void readRescale(DcmItem *item, FrameHeader &frame) {
-    decoding::Rescale &rescale = frame.rescale;
+    Rescale &rescale = frame.rescale;
     const auto take = [&](const DcmTagKey &tag, double &into, bool &isReadable, bool &isStated) {
         if (readText(item, tag).empty()) // empty or missing
             return;
         isStated = true;
         const auto value = readNumber(item, tag);
-        isReadable = value && std::abs(*value) <= decoding::largestRescale &&
+        isReadable = value && std::abs(*value) <= largestRescale &&
                      (*value == 0.0 || std::abs(*value) >= smallestRescale) &&
                      !isMultiple(item, tag);
         if (isReadable)
@@ -137,7 +137,7 @@ void readDimensions(DcmItem *item, int levels, FrameHeader &frame) {
         auto *const sequence = dynamic_cast<DcmSequenceOfItems *>(object);
         if (levels > 0 && sequence != nullptr && object->ident() == EVR_SQ && sequence->card() == 1)
             readDimensions(sequence->getItem(0), levels - 1, frame);
-        else if (std::any_of(decoding::dimensions.begin(), decoding::dimensions.end(),
+        else if (std::any_of(dimensions.begin(), dimensions.end(),
                              [&](const auto &dimension) { return dimension.tag == number; }))
             if (std::string value = readText(item, tag); !value.empty())
                 frame.dimensions[number] = std::move(value);
@@ -153,7 +153,7 @@ void readFunctionalGroups(DcmItem *groups, FrameHeader &frame) {
     for (const DcmTagKey &tag : {DCM_MRImageFrameTypeSequence, DCM_CTImageFrameTypeSequence})
         if (DcmItem *type = sequenceItem(groups, tag))
             if (std::string value = readText(type, DCM_FrameType); !value.empty())
-                frame.dimensions[decoding::imageTypeTag] = value;
+                frame.dimensions[imageTypeTag] = value;
     if (DcmItem *segment = sequenceItem(groups, DCM_SegmentIdentificationSequence))
         frame.segment = std::clamp(readInteger(segment, DCM_ReferencedSegmentNumber), 0, 65535);
 }
@@ -248,13 +248,12 @@ std::vector<double> depthsOf(DcmItem &dataset, const FrameHeader &first, Instanc
     const bool hasSpacing = spacing && *spacing != 0.0;
     // A negative spacing runs against the normal of the slices.
     const double stepMm = hasSpacing ? *spacing : std::max(thickness.value_or(0.0), 0.0);
-    if (!(std::abs(stepMm) >= decoding::smallestSpacingMm &&
-          std::abs(stepMm) <= decoding::largestSpacingMm))
+    if (!(std::abs(stepMm) >= smallestSpacingMm && std::abs(stepMm) <= largestSpacingMm))
         return {};
     if (!hasSpacing)
-        header.oddities |= decoding::placedByThickness;
+        header.oddities |= placedByThickness;
     else if (!isNuclear)
-        header.oddities |= decoding::placedBySpacing;
+        header.oddities |= placedBySpacing;
     const auto slices = vectorOf(dataset, DCM_SliceVector, count);
     for (std::size_t n = 0; n < count; ++n)
         depths.push_back((slices.empty() ? double(n) : slices[n] - 1.0) * stepMm);
@@ -271,7 +270,7 @@ void placeFrames(DcmItem &dataset, const FrameHeader &first, InstanceHeader &hea
     for (std::size_t n = 0; n < depths.size(); ++n) {
         const glm::dvec3 place =
             *first.positionMm + depths[n] * glm::cross(*first.rowAxis, *first.columnAxis);
-        if (glm::length(place) <= decoding::farthestMm)
+        if (glm::length(place) <= farthestMm)
             header.frames[n].positionMm = place;
     }
 }
@@ -349,7 +348,7 @@ void readFrames(DcmDataset &dataset, const CharacterSets &sets, std::size_t file
     }
     const auto count = readNumber(&dataset, DCM_NumberOfFrames);
     const bool hasCount = count && *count >= 1.0;
-    const double most = std::min(double(decoding::maxFrames), double(fileBytes));
+    const double most = std::min(double(maxFrames), double(fileBytes));
     header.declaredFrames = hasCount ? int(std::min(*count, 2147483647.0)) : 1;
     readPerFrame(dataset, sets, shared, hasCount ? int(std::min(*count, most)) : 1, header);
     readVectors(dataset, header);

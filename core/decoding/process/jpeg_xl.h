@@ -18,6 +18,6 @@ struct JpegXlImage {
 
 /// Decodes a codestream or a container of one component. *Throws* Error{unusable}, also if it does
 /// not match the data set's header.
-JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoding::InstanceHeader &expected);
+JpegXlImage decodeJpegXl(std::span<const std::byte> data, const InstanceHeader &expected);
 
 } // namespace pellucid::decoding::process

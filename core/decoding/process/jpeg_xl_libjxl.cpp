@@ -27,8 +27,7 @@ struct Destroy {
 
 } // namespace
 
-JpegXlImage decodeJpegXl(std::span<const std::byte> data,
-                         const decoding::InstanceHeader &expected) {
+JpegXlImage decodeJpegXl(std::span<const std::byte> data, const InstanceHeader &expected) {
     const std::unique_ptr<JxlDecoder, Destroy> decoder(JxlDecoderCreate(nullptr));
     if (!decoder)
         throw std::bad_alloc();

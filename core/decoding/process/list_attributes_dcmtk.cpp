@@ -73,7 +73,7 @@ public:
 
 private:
     bool push(Attribute attribute) {
-        if (m_list.attributes.size() == decoding::maxAttributes)
+        if (m_list.attributes.size() == maxAttributes)
             return false;
         m_list.attributes.push_back(std::move(attribute));
         return true;
@@ -97,7 +97,7 @@ private:
             return false;
         if (!isSequence)
             return true;
-        if (depth + 2 > decoding::maxAttributeDepth)
+        if (depth + 2 > maxAttributeDepth)
             return false;
         for (unsigned long n = 0; n < sequence->card(); ++n)
             if (!push({depth + 1, 0, {}, std::to_string(n + 1), {}}) ||

@@ -22,7 +22,7 @@ struct LoadedFile {
 
     std::unique_ptr<DcmFileFormat> format;
     std::string syntaxUid;      ///< as stated in the file; empty if missing
-    std::uint32_t oddities = 0; ///< of decoding::Oddity
+    std::uint32_t oddities = 0; ///< of Oddity
     bool isComplete = true;     ///< false: reading ended early
     std::string failure;        ///< why it ended
 };

@@ -105,14 +105,14 @@ LoadedFile loadFile(std::span<const std::byte> bytes, Extent extent) {
     dcmtk::prepareDcmtk();
     if (bytes.empty())
         throw Error(ErrorCode::unusable, because::isEmpty);
-    if (!decoding::looksLikeDicom(bytes))
+    if (!looksLikeDicom(bytes))
         throw Error(ErrorCode::unusable, because::isNotDicom);
     LoadedFile loaded;
     const auto meta = metaOf(bytes);
     const Uint32 longest = extent == Extent::header ? 4096 : DCM_MaxReadLength;
     OFCondition read = EC_Normal;
     if (meta && looksImplicit(bytes, *meta)) {
-        loaded.oddities |= decoding::mislabelledEncoding;
+        loaded.oddities |= mislabelledEncoding;
         // The meta header contains the SOP class, which data sets may lack.
         const auto head = memoryInput(bytes.first(meta->end));
         loaded.format->transferInit();

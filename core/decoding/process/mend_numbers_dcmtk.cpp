@@ -134,8 +134,7 @@ std::uint32_t mendNumbers(DcmItem &dataset) {
         if (!values)
             values = mended(text);
         if (values) {
-            oddities |= (hasComma ? decoding::decimalCommas : 0U) |
-                        (isNumber ? 0U : decoding::numbersOfWrongType);
+            oddities |= (hasComma ? decimalCommas : 0U) | (isNumber ? 0U : numbersOfWrongType);
             all.push_back({parent, tag, std::move(*values)});
         }
     }

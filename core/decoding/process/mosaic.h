@@ -21,21 +21,21 @@ struct Mosaic {
 };
 
 /// Whether ImageType contains MOSAIC.
-bool isMosaic(const decoding::InstanceHeader &header);
+bool isMosaic(const InstanceHeader &header);
 
 /// Empty unless ImageType contains MOSAIC and the number of slices is known and fits the image.
 /// `header`: that of the whole image, as read.
-std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoding::InstanceHeader &header);
+std::optional<Mosaic> mosaicOf(DcmItem &dataset, const InstanceHeader &header);
 
 /// The same where the number of slices is lost, as some anonymisers remove it: the size of a tile
 /// is that of the acquired matrix, and tiles at the end without a sample other than 0 are no
 /// slices. `image`: the samples of the whole image; none: as if all tiles were slices.
-std::optional<Mosaic> guessedMosaic(DcmItem &dataset, const decoding::InstanceHeader &header,
+std::optional<Mosaic> guessedMosaic(DcmItem &dataset, const InstanceHeader &header,
                                     std::span<const std::uint16_t> image);
 
 /// Makes the tiles the frames of a header, each at its position. In the file, positions refer to
 /// the corner of the whole image as if it were centred on the tile.
-void splitTiles(decoding::InstanceHeader &header, const Mosaic &mosaic);
+void splitTiles(InstanceHeader &header, const Mosaic &mosaic);
 
 /// The tiles of an image one after the other. *Shape*: rows x columns of a tile.
 std::vector<std::uint16_t> tilesOf(std::span<const std::uint16_t> image, const Mosaic &mosaic,

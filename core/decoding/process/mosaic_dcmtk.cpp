@@ -91,13 +91,13 @@ CsaHeader csaHeaderOf(DcmItem &dataset) {
 
 constexpr int largestSide = 100;
 
-bool fits(const Mosaic &mosaic, const decoding::InstanceHeader &header) {
+bool fits(const Mosaic &mosaic, const InstanceHeader &header) {
     return mosaic.slices >= 1 && mosaic.side >= 1 && mosaic.side <= largestSide &&
            header.rows >= mosaic.side && header.columns >= mosaic.side &&
            header.rows % mosaic.side == 0 && header.columns % mosaic.side == 0;
 }
 
-glm::dvec3 normalOf(const CsaHeader &csa, const decoding::FrameHeader &frame) {
+glm::dvec3 normalOf(const CsaHeader &csa, const FrameHeader &frame) {
     glm::dvec3 normal(0.0);
     if (const auto n = csa.numbers("SliceNormalVector"); n.size() == 3)
         normal = {n[0], n[1], n[2]};
@@ -127,12 +127,12 @@ std::optional<std::pair<int, int>> acquiredMatrix(DcmItem &dataset) {
 
 } // namespace
 
-bool isMosaic(const decoding::InstanceHeader &header) {
+bool isMosaic(const InstanceHeader &header) {
     return header.frames.size() == 1 &&
            header.frames[0].imageType().find("MOSAIC") != std::string::npos;
 }
 
-std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoding::InstanceHeader &header) {
+std::optional<Mosaic> mosaicOf(DcmItem &dataset, const InstanceHeader &header) {
     if (!isMosaic(header))
         return std::nullopt;
     const CsaHeader csa = csaHeaderOf(dataset);
@@ -149,7 +149,7 @@ std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoding::InstanceHeader 
     return mosaic;
 }
 
-std::optional<Mosaic> guessedMosaic(DcmItem &dataset, const decoding::InstanceHeader &header,
+std::optional<Mosaic> guessedMosaic(DcmItem &dataset, const InstanceHeader &header,
                                     std::span<const std::uint16_t> image) {
     const auto matrix = acquiredMatrix(dataset);
     if (!isMosaic(header) || !matrix)
@@ -185,9 +185,9 @@ std::optional<Mosaic> guessedMosaic(DcmItem &dataset, const decoding::InstanceHe
     return mosaic;
 }
 
-void splitTiles(decoding::InstanceHeader &header, const Mosaic &mosaic) {
+void splitTiles(InstanceHeader &header, const Mosaic &mosaic) {
     const int rows = header.rows / mosaic.side, columns = header.columns / mosaic.side;
-    decoding::FrameHeader first = header.frames[0];
+    FrameHeader first = header.frames[0];
     if (first.positionMm && first.rowAxis && first.columnAxis && first.spacingMm)
         *first.positionMm +=
             *first.rowAxis * (first.spacingMm->x * 0.5 * (header.columns - columns)) +

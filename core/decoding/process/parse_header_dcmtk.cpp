@@ -125,7 +125,7 @@ void readPet(DcmDataset &dataset, InstanceHeader &h) {
     const auto number = [](DcmItem *item, const DcmTagKey &tag) {
         return readNumber(item, tag).value_or(0.0);
     };
-    decoding::PetHeader pet;
+    PetHeader pet;
     pet.units = readText(&dataset, DCM_Units);
     pet.uptakeType = readText(&dataset, DCM_SUVType);
     pet.decayCorrection = readText(&dataset, DCM_DecayCorrection);
@@ -203,9 +203,9 @@ InstanceHeader headerOf(const LoadedFile &file, std::size_t fileBytes) {
         header.sopClassUid = readText(file.format->getMetaInfo(), DCM_MediaStorageSOPClassUID);
     const bool isCompressed = !isNative(file.syntaxUid);
     if (isCompressed && header.pixelBytes > 0)
-        header.oddities |= decoding::definedLengthPixels;
+        header.oddities |= definedLengthPixels;
     else if (isCompressed && !file.isComplete)
-        header.oddities |= decoding::missingDelimiter;
+        header.oddities |= missingDelimiter;
     if (isCompressed)
         header.pixelBytes = 0;
     return header;
@@ -236,7 +236,7 @@ InstanceHeader parsed(std::span<const std::byte> bytes) {
     else if (!whyUnusable(header) && guessedMosaic(dataset, header, {}))
         return decodeImage(bytes).header; // the pixels tell how many tiles are slices
     else if (isMosaic(header))
-        header.oddities |= decoding::unreadMosaic;
+        header.oddities |= unreadMosaic;
     return header;
 }
 

@@ -122,7 +122,7 @@ VolumeLayout parseMetaImage(std::span<const std::byte> file) {
     VolumeLayout layout;
     layout.size = gridSize({(*sizes)[0], (*sizes)[1], (*sizes)[2]});
     if (dimensions == 4) {
-        if ((*sizes)[3] < 1 || (*sizes)[3] > decoding::maxVolumes)
+        if ((*sizes)[3] < 1 || (*sizes)[3] > maxVolumes)
             fail(because::holdsTooManyVolumes);
         layout.volumes = int((*sizes)[3]);
     }
@@ -132,8 +132,8 @@ VolumeLayout parseMetaImage(std::span<const std::byte> file) {
         fail(because::metaImageText);
     layout.scalar = scalarOf(header.find({"elementtype"}).value_or(""));
     const bool isBig = header.isTrue({"binarydatabyteordermsb", "elementbyteordermsb"});
-    layout.isSwapped = decoding::bytesOf(layout.scalar) > 1 &&
-                       isBig == (std::endian::native == std::endian::little);
+    layout.isSwapped =
+        bytesOf(layout.scalar) > 1 && isBig == (std::endian::native == std::endian::little);
     layout.isDeflated = header.isTrue({"compresseddata"});
     const std::string where = header.find({"elementdatafile"}).value_or("");
     if (where.empty())

@@ -205,18 +205,17 @@ VolumeLayout parseNifti(std::span<const std::byte> header, bool isDeflated) {
     for (std::size_t n = 5; double(n) <= dimensions; ++n)
         if (size(n) > 1.0)
             fail(because::holdsSeveralValues);
-    if (volumes > decoding::maxVolumes)
+    if (volumes > maxVolumes)
         fail(because::holdsTooManyVolumes);
     layout.volumes = int(volumes);
     layout.scalar = scalarOf(int(h.number<std::int16_t, std::int16_t>(70, 12)));
-    layout.isSwapped = h.isSwapped && decoding::bytesOf(layout.scalar) > 1;
+    layout.isSwapped = h.isSwapped && bytesOf(layout.scalar) > 1;
     layout.isDeflated = isDeflated;
     const double slope = h.number<float, double>(112, 176),
                  intercept = h.number<float, double>(116, 184);
     if (slope != 0.0 && std::isfinite(slope) &&
         std::isfinite(intercept)) { // a slope of 0 means none
-        if (std::abs(slope) > decoding::largestRescale ||
-            std::abs(intercept) > decoding::largestRescale)
+        if (std::abs(slope) > largestRescale || std::abs(intercept) > largestRescale)
             fail(because::rescaleGivesNoValues);
         layout.slope = slope;
         layout.intercept = intercept;

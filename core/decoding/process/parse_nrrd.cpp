@@ -237,9 +237,9 @@ void parseLattice(const Fields &fields, VolumeLayout &layout) {
 // The segments of a labelled volume, as 3D Slicer and dcmqi name them: Segment0_Name,
 // Segment0_Color, Segment0_LabelValue, and so on. Incomplete ones and those with the label of
 // another are left out.
-std::vector<decoding::SegmentDescription> segmentsOf(const Header &header) {
-    std::vector<decoding::SegmentDescription> segments;
-    for (std::size_t n = 0; n < decoding::maxSegments; ++n) {
+std::vector<SegmentDescription> segmentsOf(const Header &header) {
+    std::vector<SegmentDescription> segments;
+    for (std::size_t n = 0; n < maxSegments; ++n) {
         const auto find = [&](const char *key) -> std::string {
             const auto it = header.pairs.find(fmt::format("Segment{}_{}", n, key));
             return it == header.pairs.end() ? std::string() : it->second;
@@ -251,7 +251,7 @@ std::vector<decoding::SegmentDescription> segmentsOf(const Header &header) {
         if (!label || !(*label >= 1.0 && *label <= 65535.0) ||
             std::any_of(segments.begin(), segments.end(), isTaken))
             continue;
-        decoding::SegmentDescription segment;
+        SegmentDescription segment;
         segment.number = int(*label);
         segment.label = dicom_text::oneLine(find("Name"));
         std::istringstream color(find("Color"));
@@ -281,7 +281,7 @@ VolumeLayout parseNrrd(std::span<const std::byte> file) {
     layout.isDeflated = encoding == "gzip" || encoding == "gz";
     if (!layout.isDeflated && encoding != "raw")
         fields.fail(because::nrrdEncoding(encoding.substr(0, maxQuotedLength)));
-    if (decoding::bytesOf(*scalar) > 1) {
+    if (bytesOf(*scalar) > 1) {
         const std::string endian = system::lowered(fields.get({"endian"}));
         if (endian != "little" && endian != "big")
             fields.fail(because::nrrdEndian(endian.substr(0, maxQuotedLength)));

@@ -69,8 +69,8 @@ std::vector<SegmentDescription> readSegments(DcmDataset &dataset, const Characte
             fail(because::segmentNumberOutOfRange);
         if (!numbers.insert(segment.number).second)
             fail(because::describesSegmentTwice(segment.number));
-        if (segments.size() == decoding::maxSegments)
-            fail(because::hasTooManySegments(decoding::maxSegments));
+        if (segments.size() == maxSegments)
+            fail(because::hasTooManySegments(maxSegments));
         segment.label = readText(item, DCM_SegmentLabel, &sets);
         segment.color = readColor(item);
         segment.category = readCode(item, DCM_SegmentedPropertyCategoryCodeSequence, sets);

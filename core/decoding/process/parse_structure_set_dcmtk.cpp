@@ -64,7 +64,7 @@ std::optional<std::vector<double>> coordinatesIn(std::string_view text) {
         double value = 0.0;
         const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), value);
         if (error != std::errc() || end != item.data() + item.size() ||
-            !(std::abs(value) <= decoding::farthestMm))
+            !(std::abs(value) <= farthestMm))
             return std::nullopt;
         numbers.push_back(value);
     }
@@ -108,8 +108,8 @@ private:
             structure.name = readText(item, DCM_ROIName, &m_sets);
             if (find(structure.number) != nullptr)
                 fail(because::structureNumberTwice(structure.number));
-            if (m_result.header.structures.size() == decoding::maxSegments)
-                fail(because::hasTooManySegments(decoding::maxSegments));
+            if (m_result.header.structures.size() == maxSegments)
+                fail(because::hasTooManySegments(maxSegments));
             if (m_frameOfReference.empty())
                 m_frameOfReference = readText(item, DCM_ReferencedFrameOfReferenceUID);
             m_result.header.structures.push_back(std::move(structure));
@@ -147,8 +147,8 @@ private:
             return;
         }
         m_pointCount += numbers->size() / 3;
-        if (m_pointCount > decoding::maxContourPoints)
-            fail(because::hasTooManyPoints(decoding::maxContourPoints));
+        if (m_pointCount > maxContourPoints)
+            fail(because::hasTooManyPoints(maxContourPoints));
         structure.contourSizes.push_back(std::uint32_t(numbers->size() / 3));
         auto &points = m_points[structure.number];
         points.insert(points.end(), numbers->begin(), numbers->end());

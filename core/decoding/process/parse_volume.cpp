@@ -48,11 +48,10 @@ volume::GridSize gridSize(const std::array<long long, 3> &sizes) {
 void requireLattice(const VolumeLayout &layout) {
     // It throws the reason.
     (void)volume::Lattice::make(layout.size, {layout.originMm}, layout.stepsMm);
-    if (glm::length(layout.originMm) > decoding::farthestMm)
+    if (glm::length(layout.originMm) > farthestMm)
         throw Error(ErrorCode::unusable, because::originTooFar);
     for (const glm::dvec3 &step : layout.stepsMm)
-        if (glm::length(step) < decoding::smallestSpacingMm ||
-            glm::length(step) > decoding::largestSpacingMm)
+        if (glm::length(step) < smallestSpacingMm || glm::length(step) > largestSpacingMm)
             throw Error(ErrorCode::unusable, because::samplesTooCloseOrFar);
 }
 

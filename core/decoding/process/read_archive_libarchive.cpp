@@ -73,7 +73,7 @@ bool forEachFile(struct archive *reader, const std::function<bool(const ArchiveF
 // Returns false if the reader is no longer usable.
 bool readFile(struct archive *reader, const ArchiveFile &file, std::span<std::byte> part,
               const TakeData &take) {
-    for (std::int32_t flags = decoding::firstPart; (flags & decoding::lastPart) == 0;) {
+    for (std::int32_t flags = firstPart; (flags & lastPart) == 0;) {
         std::size_t filled = 0;
         la_ssize_t got = 1;
         while (filled < part.size() && got > 0) {
@@ -86,13 +86,12 @@ bool readFile(struct archive *reader, const ArchiveFile &file, std::span<std::by
             const char *const text = archive_error_string(reader);
             const std::string why =
                 because::isDamagedInTheArchive(text != nullptr ? text : "").encoded();
-            take(file, std::as_bytes(std::span(why)),
-                 flags | decoding::lastPart | decoding::damagedPart);
+            take(file, std::as_bytes(std::span(why)), flags | lastPart | damagedPart);
             return got != ARCHIVE_FATAL;
         }
-        flags |= got == 0 ? decoding::lastPart : 0;
+        flags |= got == 0 ? lastPart : 0;
         take(file, part.first(filled), flags);
-        flags &= ~decoding::firstPart;
+        flags &= ~firstPart;
     }
     return true;
 }
@@ -108,7 +107,7 @@ void listArchive(std::span<const std::byte> archive,
 }
 
 void readArchive(std::span<const std::byte> archive, const TakeData &take) {
-    std::vector<std::byte> part(decoding::archivePartBytes);
+    std::vector<std::byte> part(archivePartBytes);
     std::size_t done = 0;
     bool isDone = false;
     for (int damaged = 0; !isDone && damaged <= maxDamaged; ++damaged) {

@@ -17,6 +17,7 @@
 #include "core/decoding/process/reasons.h"
 #include "core/decoding/process/watch.h"
 #include "core/dicom_text/iso2022.h"
+#include "core/files/mapping.h"
 #include "core/task/error.h"
 
 namespace pellucid::decoding::process {
@@ -36,15 +37,14 @@ public:
 
     // Returns false when the other side is gone.
     bool serveNext() {
-        const auto request = decoding::receive(m_socket, decoding::Takes::descriptor);
+        const auto request = receive(m_socket, Takes::descriptor);
         if (!request)
             return false;
-        m_watch.allow(decoding::decodingSeconds(request->message));
+        m_watch.allow(decodingSeconds(request->message));
         try {
             orDamaged([&] { answer(*request); });
         } catch (const Error &error) {
-            finish(error.code() == ErrorCode::outOfMemory ? decoding::needsMemory
-                                                          : decoding::isUnusable,
+            finish(error.code() == ErrorCode::outOfMemory ? needsMemory : isUnusable,
                    error.reason().encoded(), {});
         }
         m_watch.pause();
@@ -52,52 +52,52 @@ public:
     }
 
 private:
-    void answer(const decoding::Received &request) {
-        const Mapping file(request.descriptor.get(), request.message.size, Mapping::Access::read);
+    void answer(const Received &request) {
+        const files::Mapping file(request.descriptor.get(), request.message.size,
+                                  files::Mapping::Access::read);
         switch (request.message.kind) {
         case Message::Kind::header:
             // Only the header is needed, without read-ahead: discs and network shares are slow.
             ::madvise(file.data(), file.size(), MADV_RANDOM);
-            finish(0, decoding::pack(parseHeader(file.bytes())), {});
+            finish(0, pack(parseHeader(file.bytes())), {});
             break;
         case Message::Kind::image: {
             const DecodedImage image = decodeImage(file.bytes());
-            finish(0, decoding::pack(image.header), std::as_bytes(std::span(image.samples)));
+            finish(0, pack(image.header), std::as_bytes(std::span(image.samples)));
             break;
         }
         case Message::Kind::segmentation: {
             const DecodedSegmentation decoded = decodeSegmentation(file.bytes());
-            finish(0, decoding::pack(decoded.header), decoded.pixels);
+            finish(0, pack(decoded.header), decoded.pixels);
             break;
         }
         case Message::Kind::structureSet: {
             const DecodedStructureSet decoded = decodeStructureSet(file.bytes());
-            finish(0, decoding::pack(decoded.header), std::as_bytes(std::span(decoded.points)));
+            finish(0, pack(decoded.header), std::as_bytes(std::span(decoded.points)));
             break;
         }
         case Message::Kind::attributes:
             ::madvise(file.data(), file.size(), MADV_RANDOM);
-            finish(0, decoding::pack(listAttributes(file.bytes())), {});
+            finish(0, pack(listAttributes(file.bytes())), {});
             break;
         case Message::Kind::uncompressed:
             finish(0, {},
-                   uncompress(file.bytes(), request.message.code == 1
-                                                ? decoding::explicitLittleEndian
-                                                : decoding::implicitLittleEndian));
+                   uncompress(file.bytes(), request.message.code == 1 ? explicitLittleEndian
+                                                                      : implicitLittleEndian));
             break;
         case Message::Kind::directory:
-            finish(0, decoding::pack(parseDirectory(file.bytes())), {});
+            finish(0, pack(parseDirectory(file.bytes())), {});
             break;
         case Message::Kind::archive:
             answerArchive(file.bytes());
             break;
         case Message::Kind::layout:
-            finish(0, decoding::pack(parseVolumeLayout(file.bytes())), {});
+            finish(0, pack(parseVolumeLayout(file.bytes())), {});
             break;
         case Message::Kind::samples:
             readSamples(file.bytes(), samplesOf(request.message),
                         [&](std::span<const std::byte> data, bool hasMore) {
-                            part(hasMore ? decoding::moreFollows : 0, {}, data);
+                            part(hasMore ? moreFollows : 0, {}, data);
                         });
             finish(0, {}, {});
             break;
@@ -108,25 +108,25 @@ private:
 
     static SampleRange samplesOf(const Message &request) {
         const auto has = [&](int flag) { return (request.code & flag) != 0; };
-        return {request.dataBytes,      request.code & 15, has(decoding::deflated),
-                has(decoding::swapped), request.at,        request.skip};
+        return {request.dataBytes, request.code & 15, has(deflated),
+                has(swapped),      request.at,        request.skip};
     }
 
     void answerArchive(std::span<const std::byte> archive) {
         std::vector<ArchiveFile> announced;
         const auto announce = [&] {
-            part(decoding::announcement, decoding::pack(announced), {});
+            part(announcement, pack(announced), {});
             announced.clear();
         };
         listArchive(archive, [&](const ArchiveFile &file) {
             announced.push_back(file);
-            if (announced.size() == decoding::filesAnnouncedAtOnce)
+            if (announced.size() == filesAnnouncedAtOnce)
                 announce();
         });
         announce();
         readArchive(archive, [&](const ArchiveFile &file, std::span<const std::byte> data,
                                  std::int32_t flags) {
-            part(flags, decoding::pack(std::vector<ArchiveFile>{file}), data);
+            part(flags, pack(std::vector<ArchiveFile>{file}), data);
         });
         finish(0, {}, {});
     }
@@ -134,9 +134,9 @@ private:
     // The time that the other side takes to answer does not count.
     Message ask(const Message &message) {
         m_watch.pause();
-        if (!decoding::send(m_socket, message))
+        if (!send(m_socket, message))
             throw Disconnected();
-        const auto reply = decoding::receive(m_socket, decoding::Takes::descriptor);
+        const auto reply = receive(m_socket, Takes::descriptor);
         if (!reply)
             throw Disconnected();
         m_watch.resume();
@@ -144,7 +144,7 @@ private:
     }
 
     void put(const std::string &body, std::span<const std::byte> data) {
-        const std::uint64_t at = decoding::dataOffset(body.size()), needed = at + data.size();
+        const std::uint64_t at = dataOffset(body.size()), needed = at + data.size();
         if (needed > m_arenaBytes) {
             const Message reply = ask({Message::Kind::need, 0, needed, 0});
             if (reply.kind != Message::Kind::granted || reply.size < needed)
@@ -152,7 +152,7 @@ private:
             m_arenaBytes = reply.size;
         }
         if (m_mapped.size() < m_arenaBytes)
-            m_mapped = Mapping(m_arena, m_arenaBytes, Mapping::Access::write);
+            m_mapped = files::Mapping(m_arena, m_arenaBytes, files::Mapping::Access::write);
         std::memcpy(m_mapped.data(), body.data(), body.size());
         if (!data.empty())
             std::memcpy(m_mapped.data() + at, data.data(), data.size());
@@ -166,12 +166,12 @@ private:
 
     void finish(int code, const std::string &body, std::span<const std::byte> data) {
         put(body, data);
-        if (!decoding::send(m_socket, {Message::Kind::done, code, body.size(), data.size()}))
+        if (!send(m_socket, {Message::Kind::done, code, body.size(), data.size()}))
             throw Disconnected();
     }
 
     int m_socket, m_arena;
-    Mapping m_mapped;
+    files::Mapping m_mapped;
     std::uint64_t m_arenaBytes = 1; // unknown before the first answer, which requests it
     Watch m_watch;
 };
@@ -184,7 +184,7 @@ void prepareToServe() {
 }
 
 int serve(int socket, int arena, int confinement) {
-    if (!decoding::send(socket, {Message::Kind::ready, confinement, 0, 0}))
+    if (!send(socket, {Message::Kind::ready, confinement, 0, 0}))
         return 1;
     try {
         for (Server server(socket, arena); server.serveNext();) {

@@ -28,10 +28,10 @@ public:
     /// for the purpose: one presentation context for each kind of object and transfer syntax,
     /// because servers choose from a list, and convert. Reports its steps. *Throws* Lost;
     /// Error{usage} with the file that cannot be read.
-    Association(const network::Connection &connection, Control &control);
+    Association(const Connection &connection, Control &control);
     /// Answers a client through a connected socket; confines this process as well. Offers storage
     /// and verification. *Throws* the same.
-    Association(const network::Acceptance &acceptance, int socket, Control &control);
+    Association(const Acceptance &acceptance, int socket, Control &control);
     ~Association();
     Association(const Association &) = delete;
     Association &operator=(const Association &) = delete;
@@ -45,7 +45,7 @@ public:
     /// The number of the context for a kind of object. *Throws* Error{unusable} if the server does
     /// not offer it.
     unsigned char contextFor(const std::string &sopClassUid) const;
-    std::optional<unsigned char> contextFor(const network::Encoding &encoding) const;
+    std::optional<unsigned char> contextFor(const Encoding &encoding) const;
     std::string syntaxOf(unsigned char context) const;
     /// Whether the server refuses a kind of object in every encoding, and does not blame the
     /// encodings (PS3.8, table 9-18).
@@ -61,7 +61,7 @@ public:
     void release();
 
 private:
-    void negotiate(const network::Connection &connection);
+    void negotiate(const Connection &connection);
     [[noreturn]] void failRequest(const std::string &text, bool usesTls) const;
     /// Accepts objects of all kinds, and reports what is refused.
     void acceptContexts(Control &control);

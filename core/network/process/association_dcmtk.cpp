@@ -83,7 +83,7 @@ const std::vector<std::string> plainSyntaxes{UID_LittleEndianExplicitTransferSyn
 // Servers that convert choose any encoding that they are offered. These two are hardly ever stored,
 // and what is stored in them is asked for by itself when it has not come.
 std::vector<std::string> usualSyntaxes() {
-    std::vector<std::string> syntaxes = network::transferSyntaxes();
+    std::vector<std::string> syntaxes = transferSyntaxes();
     std::erase(syntaxes, UID_DeflatedExplicitVRLittleEndianTransferSyntax);
     std::erase(syntaxes, UID_BigEndianExplicitTransferSyntax);
     return syntaxes;
@@ -103,7 +103,7 @@ void proposeEach(std::vector<Proposal> &proposals, const std::vector<std::string
                 proposals.push_back({sopClass, {syntax}, ASC_SC_ROLE_SCP});
 }
 
-std::vector<Proposal> proposalsFor(const network::Connection &connection) {
+std::vector<Proposal> proposalsFor(const Connection &connection) {
     std::vector<Proposal> proposals;
     switch (connection.purpose) {
     case Purpose::echo:
@@ -123,12 +123,11 @@ std::vector<Proposal> proposalsFor(const network::Connection &connection) {
     case Purpose::get:
         proposals.push_back({UID_GETStudyRootQueryRetrieveInformationModel, plainSyntaxes});
         proposeEach(
-            proposals,
-            connection.sopClasses.empty() ? network::commonClasses() : connection.sopClasses,
+            proposals, connection.sopClasses.empty() ? commonClasses() : connection.sopClasses,
             connection.transferSyntaxes.empty() ? usualSyntaxes() : connection.transferSyntaxes);
         break;
     case Purpose::store:
-        for (const network::Encoding &encoding : connection.encodings)
+        for (const Encoding &encoding : connection.encodings)
             if (proposals.size() < maxContexts && !isHighThroughput(encoding.transferSyntax))
                 proposals.push_back({encoding.sopClassUid, {encoding.transferSyntax}});
         break;
@@ -140,10 +139,10 @@ std::vector<Proposal> proposalsFor(const network::Connection &connection) {
 
 } // namespace
 
-Association::Association(const network::Connection &connection, Control &control)
+Association::Association(const Connection &connection, Control &control)
     : m_characterSet(connection.peer.characterSet),
       m_silenceSeconds(connection.peer.silenceSeconds) {
-    const network::Peer &peer = connection.peer;
+    const Peer &peer = connection.peer;
     prepareNetwork(peer.connectSeconds, peer.silenceSeconds);
     ConnectionEvents events{
         [this, &control, &peer](int) {
@@ -166,8 +165,8 @@ Association::Association(const network::Connection &connection, Control &control
     control.step(Step::association, m_parameters->theirImplementationVersionName);
 }
 
-void Association::negotiate(const network::Connection &connection) {
-    const network::Peer &peer = connection.peer;
+void Association::negotiate(const Connection &connection) {
+    const Peer &peer = connection.peer;
     T_ASC_Parameters *parameters = nullptr;
     ASC_createAssociationParameters(&parameters, ASC_MAXIMUMPDUSIZE);
     ASC_setAPTitles(parameters, peer.callingAe.c_str(), peer.calledAe.c_str(), nullptr);
@@ -184,7 +183,7 @@ void Association::negotiate(const network::Connection &connection) {
                                    int(syntaxes.size()), proposal.role);
         id = T_ASC_PresentationContextID(id + 2);
     }
-    if (peer.authentication == network::Authentication::basic)
+    if (peer.authentication == Authentication::basic)
         ASC_setIdentRQUserPassword(parameters, peer.user.c_str(), peer.secret.c_str(), OFFalse);
     const OFCondition requested = ASC_requestAssociation(m_network, parameters, &m_association);
     m_parameters = m_association != nullptr ? m_association->params : parameters;
@@ -214,7 +213,7 @@ void Association::failRequest(const std::string &text, bool usesTls) const {
     throw Lost{because::associationFails(text)};
 }
 
-Association::Association(const network::Acceptance &acceptance, int socket, Control &control)
+Association::Association(const Acceptance &acceptance, int socket, Control &control)
     : m_silenceSeconds(acceptance.silenceSeconds) {
     prepareNetwork(acceptance.silenceSeconds, acceptance.silenceSeconds);
     ConnectionEvents events{
@@ -291,7 +290,7 @@ void Association::acceptContexts(Control &control) {
             objects.emplace_back(contexts[n].abstractSyntax);
     }
     accept({UID_VerificationSOPClass}, plainSyntaxes);
-    accept(objects, network::transferSyntaxes());
+    accept(objects, transferSyntaxes());
     std::string refused;
     for (const T_ASC_PresentationContext &context : contexts)
         if (syntaxOf(context.presentationContextID).empty())
@@ -320,7 +319,7 @@ unsigned char Association::contextFor(const std::string &sopClassUid) const {
     return id;
 }
 
-std::optional<unsigned char> Association::contextFor(const network::Encoding &encoding) const {
+std::optional<unsigned char> Association::contextFor(const Encoding &encoding) const {
     const T_ASC_PresentationContextID id = ASC_findAcceptedPresentationContextID(
         m_association, encoding.sopClassUid.c_str(), encoding.transferSyntax.c_str());
     if (id == 0 || syntaxOf(id) != encoding.transferSyntax)

@@ -16,7 +16,7 @@ struct Connected {
 
 /// Connects to a server: to the first of its addresses that answers. Reports Step::name. *Throws*
 /// Lost.
-Connected connectTo(const network::Peer &peer, Control &control);
+Connected connectTo(const Peer &peer, Control &control);
 
 /// Takes the connection over: the next socket that a library of this process connects becomes it,
 /// whatever address the library names. DCMTK 3.6.7 knows no IPv6.

@@ -21,8 +21,8 @@ void Control::send(const Message &message) {
         throw Disconnected();
 }
 
-network::Packet Control::wait() {
-    auto packet = network::receive(m_socket);
+Packet Control::wait() {
+    auto packet = receive(m_socket);
     if (!packet)
         throw Disconnected();
     return *std::move(packet);
@@ -43,31 +43,31 @@ void Control::heartbeat(std::uint64_t bytes) {
     send({Message::Kind::progress, 0, bytes, {}});
 }
 
-void Control::step(network::Step step, const std::string &found) {
+void Control::step(Step step, const std::string &found) {
     send({Message::Kind::step, std::int32_t(step), 0, shortened(found, longestComment)});
 }
 
-void Control::match(const network::Query &query, network::Attributes attributes) {
+void Control::match(const Query &query, Attributes attributes) {
     std::erase_if(attributes, [&](const auto &one) {
-        return !query.keys.contains(one.first) && one.first != network::tag::retrieveAe &&
-               one.first != network::tag::availability;
+        return !query.keys.contains(one.first) && one.first != tag::retrieveAe &&
+               one.first != tag::availability;
     });
     for (auto &[tag, value] : attributes) // the other half is for tags and lengths
-        value = shortened(value, network::largestPacket / 2 / attributes.size());
-    send({Message::Kind::match, 0, 0, network::pack(attributes)});
+        value = shortened(value, largestPacket / 2 / attributes.size());
+    send({Message::Kind::match, 0, 0, pack(attributes)});
 }
 
 void Control::done(const std::string &body) {
     send({Message::Kind::done, 0, 0, body});
 }
 
-void Control::failed(network::Failure failure, const task::Reason &reason) {
+void Control::failed(Failure failure, const task::Reason &reason) {
     send({Message::Kind::failed, std::int32_t(failure), 0, reason.encoded()});
 }
 
-Storage::Storage(Control &control, const network::Arrival &arrival) : m_control(control) {
-    m_control.send({Message::Kind::arrival, 0, 0, network::pack(arrival)});
-    network::Packet packet = answer();
+Storage::Storage(Control &control, const Arrival &arrival) : m_control(control) {
+    m_control.send({Message::Kind::arrival, 0, 0, pack(arrival)});
+    Packet packet = answer();
     if (packet.message.kind == Message::Kind::refused)
         m_status = std::uint16_t(packet.message.code);
     else if (packet.message.kind == Message::Kind::file && packet.descriptor)
@@ -76,8 +76,8 @@ Storage::Storage(Control &control, const network::Arrival &arrival) : m_control(
         throw Disconnected();
 }
 
-network::Packet Storage::answer() {
-    network::Packet packet = m_control.wait();
+Packet Storage::answer() {
+    Packet packet = m_control.wait();
     if (packet.message.kind == Message::Kind::cancel)
         throw CancelledByProgram();
     return packet;
@@ -107,9 +107,9 @@ std::uint16_t Storage::finish() {
     if (m_hasFailed)
         m_bytes = 0; // nothing that the program could keep
     m_control.send({Message::Kind::received, 0, m_bytes, {}});
-    const network::Packet packet = answer();
+    const Packet packet = answer();
     if (packet.message.kind == Message::Kind::kept)
-        return network::status::success;
+        return status::success;
     if (packet.message.kind != Message::Kind::refused)
         throw Disconnected();
     return std::uint16_t(packet.message.code);

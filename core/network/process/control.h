@@ -28,19 +28,19 @@ public:
 
     int socket() const { return m_socket; }
     void send(const Message &message);
-    network::Packet wait();
+    Packet wait();
     /// Whether the program has asked to cancel. Any other message would be lost; the program sends
     /// none while a request runs.
     bool isCancelled();
 
     /// Tells the program that work goes on, once a second. `bytes`: of the current object so far.
     void heartbeat(std::uint64_t bytes = 0);
-    void step(network::Step step, const std::string &found);
+    void step(Step step, const std::string &found);
     /// Passes on an answer of a server: the keys that the query asked for, and where the study is.
     /// Long values are cut, so that every answer fits into a message.
-    void match(const network::Query &query, network::Attributes attributes);
+    void match(const Query &query, Attributes attributes);
     void done(const std::string &body = {});
-    void failed(network::Failure failure, const task::Reason &reason);
+    void failed(Failure failure, const task::Reason &reason);
 
 private:
     int m_socket;
@@ -51,7 +51,7 @@ private:
 class Storage {
 public:
     /// Asks the program for the file. *Throws* Disconnected, CancelledByProgram.
-    Storage(Control &control, const network::Arrival &arrival);
+    Storage(Control &control, const Arrival &arrival);
 
     /// Whether the program wants it; if not, `status` is the answer to the sender.
     bool isWanted() const { return bool(m_file); }
@@ -65,7 +65,7 @@ public:
     std::uint16_t finish();
 
 private:
-    network::Packet answer();
+    Packet answer();
 
     Control &m_control;
     files::Descriptor m_file;

@@ -10,7 +10,7 @@ namespace pellucid::network::process {
 
 /// The data sets of an answer in DICOM JSON (PS3.18, annex F): the texts and numbers of their top
 /// level, in UTF-8. *Throws* Error{unusable} if it is not such an answer.
-std::vector<network::Attributes> readDicomJson(const std::string &text);
+std::vector<Attributes> readDicomJson(const std::string &text);
 
 /// What a server reports about the objects it was sent (PS3.18, 10.5.3).
 struct StoreAnswer {

@@ -73,8 +73,8 @@ std::string valueOf(const Json &attribute) {
     return dicom_text::oneLine(text);
 }
 
-network::Attributes attributesOf(const Json &dataset) {
-    network::Attributes attributes;
+Attributes attributesOf(const Json &dataset) {
+    Attributes attributes;
     if (!dataset.is_object())
         fail();
     for (const auto &[name, attribute] : dataset.items())
@@ -101,13 +101,13 @@ int numberOf(const std::string &text) {
 
 } // namespace
 
-std::vector<network::Attributes> readDicomJson(const std::string &text) {
+std::vector<Attributes> readDicomJson(const std::string &text) {
     if (text.find_first_not_of(" \t\r\n") == std::string::npos)
         return {};
     const Json json = parsed(text);
     if (!json.is_array())
         fail();
-    std::vector<network::Attributes> datasets;
+    std::vector<Attributes> datasets;
     for (const Json &dataset : json)
         datasets.push_back(attributesOf(dataset));
     return datasets;
@@ -124,7 +124,7 @@ StoreAnswer readStoreAnswer(const std::string &text) {
     const auto itemsAt = [&](const char *sequence, std::uint32_t reason) {
         std::vector<StoreAnswer::Item> items;
         for (const Json &item : itemsOf(json, sequence)) {
-            network::Attributes attributes = attributesOf(item);
+            Attributes attributes = attributesOf(item);
             items.push_back({attributes[referencedInstance], numberOf(attributes[reason])});
         }
         return items;

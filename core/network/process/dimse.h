@@ -11,13 +11,11 @@ namespace pellucid::network::process {
 
 void echo(Association &association, Control &control);
 /// Sends a `match` for each answer.
-network::QueryEnd find(Association &association, const network::Query &query, Control &control);
+QueryEnd find(Association &association, const Query &query, Control &control);
 /// C-GET: the objects come on the same association, each as `Storage`.
-network::RetrievalEnd get(Association &association, const network::Retrieval &retrieval,
-                          Control &control);
+RetrievalEnd get(Association &association, const Retrieval &retrieval, Control &control);
 /// C-MOVE: the objects come to the server of the destination.
-network::RetrievalEnd move(Association &association, const network::Retrieval &retrieval,
-                           Control &control);
+RetrievalEnd move(Association &association, const Retrieval &retrieval, Control &control);
 /// C-STORE of an open file of this size: its data set goes out byte for byte. *Returns* how
 /// the server changed the object; nothing if it stored it unchanged.
 std::optional<task::Reason> store(Association &association, int file, std::uint64_t bytes,

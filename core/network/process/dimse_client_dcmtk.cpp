@@ -56,7 +56,7 @@ bool isAscii(const std::string &text) {
 }
 
 // A question in the server's character set if it has all letters, else in UTF-8.
-void encode(DcmDataset &identifier, const network::Attributes &keys, const std::string &set) {
+void encode(DcmDataset &identifier, const Attributes &keys, const std::string &set) {
     bool isPlain = true;
     for (const auto &[tag, value] : keys) {
         identifier.putAndInsertString(keyOf(tag), value.c_str());
@@ -171,24 +171,23 @@ private:
     std::optional<Clock::time_point> m_end;
 };
 
-network::Attributes attributesOf(DcmDataset &dataset, const network::Query &query,
-                                 const std::string &defaultSet) {
+Attributes attributesOf(DcmDataset &dataset, const Query &query, const std::string &defaultSet) {
     if (!defaultSet.empty() && !dataset.tagExistsWithValue(DCM_SpecificCharacterSet))
         dataset.putAndInsertString(DCM_SpecificCharacterSet, defaultSet.c_str());
     const dicom_text::CharacterSets sets(dataset);
-    network::Attributes attributes;
+    Attributes attributes;
     const auto take = [&](std::uint32_t tag) {
         if (std::string text = dicom_text::readText(&dataset, keyOf(tag), &sets); !text.empty())
             attributes[tag] = std::move(text);
     };
     for (const auto &[tag, value] : query.keys)
         take(tag);
-    take(network::tag::retrieveAe);
-    take(network::tag::availability);
+    take(tag::retrieveAe);
+    take(tag::availability);
     return attributes;
 }
 
-DcmDataset identifierOf(const network::Retrieval &retrieval) {
+DcmDataset identifierOf(const Retrieval &retrieval) {
     DcmDataset identifier;
     identifier.putAndInsertString(DCM_QueryRetrieveLevel, nameOf(retrieval.level));
     identifier.putAndInsertString(DCM_StudyInstanceUID, retrieval.studyUid.c_str());
@@ -203,27 +202,27 @@ DcmDataset identifierOf(const network::Retrieval &retrieval) {
     return identifier;
 }
 
-void takeFailed(DcmDataset &dataset, network::RetrievalEnd &end) {
+void takeFailed(DcmDataset &dataset, RetrievalEnd &end) {
     OFString uids;
     if (dataset.findAndGetOFStringArray(DCM_FailedSOPInstanceUIDList, uids).bad())
         return;
     std::istringstream each(std::string(uids.c_str()));
     for (std::string uid; std::getline(each, uid, '\\');)
-        if (network::isUid(uid) && end.failedInstances.size() < network::uidsAtOnce)
+        if (isUid(uid) && end.failedInstances.size() < uidsAtOnce)
             end.failedInstances.push_back(uid);
 }
 
 // The responses of C-GET and C-MOVE have the same fields.
-template <class Response> void takeCounts(const Response &response, network::RetrievalEnd &end) {
+template <class Response> void takeCounts(const Response &response, RetrievalEnd &end) {
     end.completed = response.NumberOfCompletedSubOperations;
     end.failed = response.NumberOfFailedSubOperations;
     end.warnings = response.NumberOfWarningSubOperations;
 }
 
 // Takes objects and responses until the last one.
-network::RetrievalEnd retrieve(Association &association, unsigned char context,
-                               unsigned short request, Control &control) {
-    network::RetrievalEnd end;
+RetrievalEnd retrieve(Association &association, unsigned char context, unsigned short request,
+                      Control &control) {
+    RetrievalEnd end;
     Cancelling cancelling;
     for (;;) {
         if (cancelling.isIgnored(association))
@@ -277,9 +276,8 @@ network::RetrievalEnd retrieve(Association &association, unsigned char context,
 
 // Sends a C-GET or C-MOVE, whose fields have the same names. `fields`: of the message.
 template <class Fields>
-network::RetrievalEnd request(Association &association, const char *model, T_DIMSE_Message &message,
-                              Fields &fields, const network::Retrieval &retrieval,
-                              Control &control) {
+RetrievalEnd request(Association &association, const char *model, T_DIMSE_Message &message,
+                     Fields &fields, const Retrieval &retrieval, Control &control) {
     const unsigned char context = association.contextFor(model);
     DcmDataset identifier = identifierOf(retrieval);
     fields.MessageID = association.get()->nextMsgID++;
@@ -315,10 +313,10 @@ void echo(Association &association, Control &control) {
              {UID_SecondaryCaptureImageStorage, "C-STORE"}})
         if (ASC_findAcceptedPresentationContextID(association.get(), uid) != 0)
             offers += std::string(offers.empty() ? "" : ", ") + name;
-    control.step(network::Step::service, offers);
+    control.step(Step::service, offers);
 }
 
-network::QueryEnd find(Association &association, const network::Query &query, Control &control) {
+QueryEnd find(Association &association, const Query &query, Control &control) {
     const char *const model = UID_FINDStudyRootQueryRetrieveInformationModel;
     const unsigned char context = association.contextFor(model);
     DcmDataset identifier;
@@ -333,7 +331,7 @@ network::QueryEnd find(Association &association, const network::Query &query, Co
     find.DataSetType = DIMSE_DATASET_PRESENT;
     send(association, context, request, &identifier, control);
 
-    network::QueryEnd end;
+    QueryEnd end;
     Cancelling cancelling;
     bool isCancelledByUser = false;
     for (std::uint32_t matches = 0;;) {
@@ -396,16 +394,14 @@ network::QueryEnd find(Association &association, const network::Query &query, Co
     }
 }
 
-network::RetrievalEnd get(Association &association, const network::Retrieval &retrieval,
-                          Control &control) {
+RetrievalEnd get(Association &association, const Retrieval &retrieval, Control &control) {
     T_DIMSE_Message message{};
     message.CommandField = DIMSE_C_GET_RQ;
     return request(association, UID_GETStudyRootQueryRetrieveInformationModel, message,
                    message.msg.CGetRQ, retrieval, control);
 }
 
-network::RetrievalEnd move(Association &association, const network::Retrieval &retrieval,
-                           Control &control) {
+RetrievalEnd move(Association &association, const Retrieval &retrieval, Control &control) {
     T_DIMSE_Message message{};
     message.CommandField = DIMSE_C_MOVE_RQ;
     OFStandard::strlcpy(message.msg.CMoveRQ.MoveDestination, retrieval.destinationAe.c_str(),
@@ -418,7 +414,7 @@ std::optional<task::Reason> store(Association &association, int file, std::uint6
                                   Control &control) {
     const files::Mapping mapping(file, bytes, files::Mapping::Access::read);
     const FileStart start = startOf(mapping.bytes());
-    const network::Encoding encoding{start.arrival.sopClassUid, start.arrival.transferSyntax};
+    const Encoding encoding{start.arrival.sopClassUid, start.arrival.transferSyntax};
     const auto context = association.contextFor(encoding);
     if (!context && association.isClassRefused(encoding.sopClassUid))
         throw Error(ErrorCode::unusable, because::serverLacksTheService);

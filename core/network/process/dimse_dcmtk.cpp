@@ -45,7 +45,7 @@ private:
 };
 
 // The meta header of a file (PS3.10, 7.1).
-void writeMetaHeader(ObjectStream &stream, const network::Arrival &arrival) {
+void writeMetaHeader(ObjectStream &stream, const Arrival &arrival) {
     DcmMetaInfo header;
     const Uint8 version[2] = {0, 1};
     header.putAndInsertUint8Array(DCM_FileMetaInformationVersion, version, 2);
@@ -120,11 +120,11 @@ void receiveObject(Association &association, unsigned char context,
         if (ignored.bad())
             association.fail(ignored.text());
     };
-    network::Arrival arrival{request.AffectedSOPClassUID, request.AffectedSOPInstanceUID,
-                             association.syntaxOf(context), association.callingAe()};
-    std::uint16_t status = network::status::invalidInstance;
-    if (!network::isUid(arrival.sopClassUid) || !network::isUid(arrival.sopInstanceUid) ||
-        !network::isUid(arrival.transferSyntax)) {
+    Arrival arrival{request.AffectedSOPClassUID, request.AffectedSOPInstanceUID,
+                    association.syntaxOf(context), association.callingAe()};
+    std::uint16_t status = status::invalidInstance;
+    if (!isUid(arrival.sopClassUid) || !isUid(arrival.sopInstanceUid) ||
+        !isUid(arrival.transferSyntax)) {
         ignore();
     } else if (Storage storage(control, arrival); !storage.isWanted()) {
         status = storage.status();

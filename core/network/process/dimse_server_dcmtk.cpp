@@ -45,7 +45,7 @@ void provide(Association &association, Control &control) {
                 association.get(), context, &message.msg.CEchoRQ, STATUS_Success, nullptr);
             if (sent.bad())
                 association.fail(sent.text());
-            control.step(network::Step::service, {}); // progress
+            control.step(Step::service, {}); // progress
         } else {
             association.abort();
             throw Lost{task::because::clientSendsTheUnexpected};

@@ -8,6 +8,7 @@
 
 #include "core/files/reasons.h"
 #include "core/task/error.h"
+#include "core/task/reasons.h"
 
 namespace pellucid::network::process {
 
@@ -64,7 +65,7 @@ std::optional<Element> elementAt(std::span<const std::byte> bytes, std::size_t a
 
 // Some de-identification changes the UIDs of the data set alone: they count. False if more bytes
 // are needed.
-bool takeDatasetUids(std::span<const std::byte> bytes, std::size_t at, network::Arrival &arrival) {
+bool takeDatasetUids(std::span<const std::byte> bytes, std::size_t at, Arrival &arrival) {
     constexpr std::uint16_t group = 0x0008, classNumber = 0x0016, instanceNumber = 0x0018;
     const std::string &syntax = arrival.transferSyntax;
     if (syntax == deflatedSyntax)
@@ -87,7 +88,7 @@ bool takeDatasetUids(std::span<const std::byte> bytes, std::size_t at, network::
         if (uid != nullptr)
             if (const std::string found =
                     textAt(bytes, element->begin, element->end - element->begin);
-                network::isUid(found))
+                isUid(found))
                 *uid = found;
         at = element->end;
     }
@@ -105,7 +106,7 @@ std::optional<FileStart> readFileStart(std::span<const std::byte> start, bool is
         return more();
     if (std::memcmp(start.data() + preamble - 4, "DICM", 4) != 0)
         fail();
-    network::Arrival arrival;
+    Arrival arrival;
     std::size_t at = preamble;
     for (;;) {
         const auto element = elementAt(start, at);
@@ -137,8 +138,8 @@ std::optional<FileStart> readFileStart(std::span<const std::byte> start, bool is
         arrival.transferSyntax = implicitSyntax;
     if (!takeDatasetUids(start, at, arrival) && !isWhole)
         return std::nullopt;
-    if (!network::isUid(arrival.sopClassUid) || !network::isUid(arrival.sopInstanceUid) ||
-        !network::isUid(arrival.transferSyntax))
+    if (!isUid(arrival.sopClassUid) || !isUid(arrival.sopInstanceUid) ||
+        !isUid(arrival.transferSyntax))
         fail();
     return FileStart{arrival, at};
 }

@@ -12,7 +12,7 @@ namespace pellucid::network::process {
 /// What the start of a DICOM file says (PS3.10, 7.1): of class and instance what the data set says,
 /// which may differ from the meta header after de-identification.
 struct FileStart {
-    network::Arrival arrival;
+    Arrival arrival;
     std::size_t dataSet = 0; ///< where it begins, in bytes
 };
 

@@ -20,7 +20,7 @@ class HttpClient {
 public:
     /// Connects and confines this process. *Throws* Lost, Error{usage} with the file that cannot be
     /// read.
-    HttpClient(const network::Peer &peer, Control &control);
+    HttpClient(const Peer &peer, Control &control);
     ~HttpClient();
     HttpClient(const HttpClient &) = delete;
     HttpClient &operator=(const HttpClient &) = delete;

@@ -64,10 +64,10 @@ public:
         const Connected connected = connectTo(peer, control);
         m_socket = connected.socket;
         control.step(Step::tcp, peer.host + ":" + std::to_string(peer.port));
-        m_origin = (peer.usesTls ? "https://" : "http://") + network::hostPart(peer.host) + ":" +
+        m_origin = (peer.usesTls ? "https://" : "http://") + hostPart(peer.host) + ":" +
                    std::to_string(peer.port);
         m_resolved = ::curl_slist_append(nullptr, (peer.host + ":" + std::to_string(peer.port) +
-                                                   ":" + network::hostPart(connected.address))
+                                                   ":" + hostPart(connected.address))
                                                       .c_str());
         confinement = confine();
     }
@@ -220,11 +220,11 @@ private:
 
     void setSecurity() {
         CURL *const h = m_handle;
-        if (m_peer.authentication == network::Authentication::basic) {
+        if (m_peer.authentication == Authentication::basic) {
             ::curl_easy_setopt(h, CURLOPT_HTTPAUTH, CURLAUTH_BASIC);
             ::curl_easy_setopt(h, CURLOPT_USERNAME, m_peer.user.c_str());
             ::curl_easy_setopt(h, CURLOPT_PASSWORD, m_peer.secret.c_str());
-        } else if (m_peer.authentication == network::Authentication::bearer) {
+        } else if (m_peer.authentication == Authentication::bearer) {
             ::curl_easy_setopt(h, CURLOPT_HTTPAUTH, CURLAUTH_BEARER);
             ::curl_easy_setopt(h, CURLOPT_XOAUTH2_BEARER, m_peer.secret.c_str());
         }
@@ -364,7 +364,7 @@ private:
     std::string m_origin, m_authorities, m_certificate, m_key;
 };
 
-HttpClient::HttpClient(const network::Peer &peer, Control &control)
+HttpClient::HttpClient(const Peer &peer, Control &control)
     : m_curl(std::make_unique<Curl>(peer, control, m_confinement)) {}
 
 HttpClient::~HttpClient() = default;

@@ -27,10 +27,10 @@ void requireInOrder(long status) {
 
 } // namespace
 
-LoginClient::LoginClient(const network::Peer &peer, Control &control)
+LoginClient::LoginClient(const Peer &peer, Control &control)
     : m_path(peer.path), m_http(peer, control) {}
 
-network::Endpoints LoginClient::discover() {
+Endpoints LoginClient::discover() {
     const auto answer = m_http.perform(
         {.path = m_path, .accept = "application/json", .longestText = longestAnswer});
     requireInOrder(answer.status);
@@ -39,8 +39,8 @@ network::Endpoints LoginClient::discover() {
     return readEndpoints(answer.text);
 }
 
-network::Tokens LoginClient::requestTokens(const network::TokenRequest &request) {
-    const std::string form = network::formEncoded(request);
+Tokens LoginClient::requestTokens(const TokenRequest &request) {
+    const std::string form = formEncoded(request);
     const auto answer = m_http.perform({.path = m_path,
                                         .accept = "application/json",
                                         .contentType = "application/x-www-form-urlencoded",

@@ -16,14 +16,14 @@ namespace pellucid::network::process {
 class LoginClient {
 public:
     /// *Throws* Lost, Error{usage} with the file that cannot be read.
-    LoginClient(const network::Peer &peer, Control &control);
+    LoginClient(const Peer &peer, Control &control);
 
     int confinement() const { return m_http.confinement(); }
 
     /// The description at the path of the peer (OpenID Connect Discovery 1.0, 4).
-    network::Endpoints discover();
+    Endpoints discover();
     /// Asks the token endpoint at the path of the peer (RFC 6749, 5).
-    network::Tokens requestTokens(const network::TokenRequest &request);
+    Tokens requestTokens(const TokenRequest &request);
 
 private:
     std::string m_path;

@@ -9,10 +9,10 @@
 namespace pellucid::network::process {
 
 /// The description of a login server (OpenID Connect Discovery 1.0, 3). *Throws* Error{unusable}.
-network::Endpoints readEndpoints(const std::string &json);
+Endpoints readEndpoints(const std::string &json);
 
 /// The answer to a request for tokens (RFC 6749, 5.1). *Throws* Error{unusable}.
-network::Tokens readTokens(const std::string &json);
+Tokens readTokens(const std::string &json);
 
 /// The error code of a refused request (RFC 6749, 5.2); empty if there is none.
 std::string readError(const std::string &json);

@@ -40,25 +40,24 @@ std::uint32_t lifetimeOf(const Json &json) {
 
 } // namespace
 
-network::Endpoints readEndpoints(const std::string &text) {
+Endpoints readEndpoints(const std::string &text) {
     const Json json = Json::parse(text, nullptr, false);
-    const network::Endpoints endpoints{textOf(json, "issuer"),
-                                       textOf(json, "authorization_endpoint"),
-                                       textOf(json, "token_endpoint")};
+    const Endpoints endpoints{textOf(json, "issuer"), textOf(json, "authorization_endpoint"),
+                              textOf(json, "token_endpoint")};
     for (const std::string *const url :
          {&endpoints.issuer, &endpoints.authorizationUrl, &endpoints.tokenUrl})
-        if (!network::isVisible(*url, network::longestUrl))
+        if (!isVisible(*url, longestUrl))
             fail(because::issuerHasNoDescription);
     return endpoints;
 }
 
-network::Tokens readTokens(const std::string &text) {
+Tokens readTokens(const std::string &text) {
     const Json json = Json::parse(text, nullptr, false);
-    network::Tokens tokens{textOf(json, "access_token"), textOf(json, "refresh_token"), 0};
+    Tokens tokens{textOf(json, "access_token"), textOf(json, "refresh_token"), 0};
     // RFC 6749, 7.1: a token of an unknown type is not used.
     const bool isBearer = ::strcasecmp(textOf(json, "token_type").c_str(), "bearer") == 0;
-    if (!isBearer || !network::isVisible(tokens.access, network::longestToken) ||
-        (!tokens.refresh.empty() && !network::isVisible(tokens.refresh, network::longestToken)))
+    if (!isBearer || !isVisible(tokens.access, longestToken) ||
+        (!tokens.refresh.empty() && !isVisible(tokens.refresh, longestToken)))
         fail(because::loginAnswerHasNoToken);
     tokens.lifetimeSeconds = lifetimeOf(json);
     return tokens;

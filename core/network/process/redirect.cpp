@@ -137,7 +137,7 @@ std::optional<LoginResult> loginResultOf(const std::string &head, const std::str
     if (!parameters || state.empty() || (*parameters)["state"] != state)
         return std::nullopt;
     LoginResult result{(*parameters)["code"], (*parameters)["error"]};
-    if (result.error.empty() && !network::isVisible(result.code, network::longestCode))
+    if (result.error.empty() && !isVisible(result.code, longestCode))
         return std::nullopt;
     return result;
 }

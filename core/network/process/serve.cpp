@@ -26,10 +26,10 @@ struct DimseClient {
     Purpose purpose;
 
     void echo(Control &control) { network::process::echo(association, control); }
-    network::QueryEnd find(const network::Query &query, Control &control) {
+    QueryEnd find(const Query &query, Control &control) {
         return network::process::find(association, query, control);
     }
-    network::RetrievalEnd retrieve(const network::Retrieval &retrieval, Control &control) {
+    RetrievalEnd retrieve(const Retrieval &retrieval, Control &control) {
         return purpose == Purpose::move ? move(association, retrieval, control)
                                         : get(association, retrieval, control);
     }
@@ -43,7 +43,7 @@ public:
     explicit Session(int socket) : m_control(socket) {}
 
     void run() {
-        network::Packet first = m_control.wait();
+        Packet first = m_control.wait();
         guarded([&] {
             if (first.message.kind == Kind::accept) {
                 accept(first);
@@ -51,15 +51,14 @@ public:
             }
             if (first.message.kind == Kind::redirect) {
                 guardedRequest([&] {
-                    awaitRedirect(first.descriptor.get(),
-                                  network::unpack<network::Redirection>(first.message.body),
+                    awaitRedirect(first.descriptor.get(), unpack<Redirection>(first.message.body),
                                   m_control);
                 });
                 return;
             }
             if (first.message.kind != Kind::connect)
                 throw Disconnected();
-            const auto connection = network::unpack<network::Connection>(first.message.body);
+            const auto connection = unpack<Connection>(first.message.body);
             if (connection.purpose == Purpose::login) {
                 LoginClient client(connection.peer, m_control);
                 m_control.send({Kind::ready, client.confinement(), 0, {}});
@@ -67,7 +66,7 @@ public:
                 }
                 return;
             }
-            if (connection.peer.protocol == network::Protocol::web) {
+            if (connection.peer.protocol == Protocol::web) {
                 WebClient client(connection, m_control);
                 m_control.send({Kind::ready, client.confinement(), 0, {}});
                 while (answerNext(client)) {
@@ -83,9 +82,9 @@ public:
     }
 
 private:
-    void accept(const network::Packet &packet) {
-        Association association(network::unpack<network::Acceptance>(packet.message.body),
-                                packet.descriptor.get(), m_control);
+    void accept(const Packet &packet) {
+        Association association(unpack<Acceptance>(packet.message.body), packet.descriptor.get(),
+                                m_control);
         m_control.send({Kind::ready, association.confinement(), 0, {}});
         provide(association, m_control);
         m_control.done();
@@ -93,7 +92,7 @@ private:
 
     // Returns false when the program is done with the connection.
     template <class Client> bool answerNext(Client &client) {
-        auto packet = network::receive(m_control.socket());
+        auto packet = receive(m_control.socket());
         if (!packet)
             return false;
         const Message &message = packet->message;
@@ -104,14 +103,13 @@ private:
                 m_control.done();
                 break;
             case Kind::find:
-                m_control.done(network::pack(
-                    client.find(network::unpack<network::Query>(message.body), m_control)));
+                m_control.done(pack(client.find(unpack<Query>(message.body), m_control)));
                 break;
             case Kind::uids:
                 takeUids(message);
                 break;
             case Kind::retrieve:
-                m_control.done(network::pack(client.retrieve(retrievalOf(message), m_control)));
+                m_control.done(pack(client.retrieve(retrievalOf(message), m_control)));
                 break;
             case Kind::store: {
                 const auto change =
@@ -129,18 +127,17 @@ private:
     }
 
     bool answerNext(LoginClient &client) {
-        const auto packet = network::receive(m_control.socket());
+        const auto packet = receive(m_control.socket());
         if (!packet)
             return false;
         const Message &message = packet->message;
         guardedRequest([&] {
             switch (message.kind) {
             case Kind::discover:
-                m_control.done(network::pack(client.discover()));
+                m_control.done(pack(client.discover()));
                 break;
             case Kind::tokens:
-                m_control.done(network::pack(
-                    client.requestTokens(network::unpack<network::TokenRequest>(message.body))));
+                m_control.done(pack(client.requestTokens(unpack<TokenRequest>(message.body))));
                 break;
             case Kind::cancel: // came after the request had ended
                 break;
@@ -152,12 +149,12 @@ private:
     }
 
     void takeUids(const Message &message) {
-        for (std::string &uid : network::unpack<std::vector<std::string>>(message.body))
+        for (std::string &uid : unpack<std::vector<std::string>>(message.body))
             m_uids.push_back(std::move(uid));
     }
     // With the instances that came before.
-    network::Retrieval retrievalOf(const Message &message) {
-        auto retrieval = network::unpack<network::Retrieval>(message.body);
+    Retrieval retrievalOf(const Message &message) {
+        auto retrieval = unpack<Retrieval>(message.body);
         retrieval.instanceUids = std::move(m_uids);
         m_uids.clear();
         return retrieval;

@@ -124,13 +124,13 @@ public:
             open(true);
         if (!m_storage)
             return;
-        if (m_storage->finish() == network::status::success)
+        if (m_storage->finish() == status::success)
             ++m_end.completed;
         else
             ++m_end.failed;
         m_storage.reset();
     }
-    network::RetrievalEnd &result() { return m_end; }
+    RetrievalEnd &result() { return m_end; }
 
 private:
     // When its UIDs are known. `isWhole`: no more bytes come.
@@ -159,10 +159,10 @@ private:
     std::vector<std::byte> m_start;
     std::optional<Storage> m_storage;
     bool m_isRefused = false;
-    network::RetrievalEnd m_end;
+    RetrievalEnd m_end;
 };
 
-WebClient::WebClient(const network::Connection &connection, Control &control)
+WebClient::WebClient(const Connection &connection, Control &control)
     : m_path(connection.peer.path), m_http(connection.peer, control) {}
 
 void WebClient::echo(Control &control) {
@@ -174,7 +174,7 @@ void WebClient::echo(Control &control) {
     control.step(Step::service, "QIDO-RS");
 }
 
-network::QueryEnd WebClient::find(const network::Query &query, Control &control) {
+QueryEnd WebClient::find(const Query &query, Control &control) {
     const auto key = [&](std::uint32_t tag) {
         const auto at = query.keys.find(tag);
         return at == query.keys.end() ? std::string() : at->second;
@@ -182,12 +182,12 @@ network::QueryEnd WebClient::find(const network::Query &query, Control &control)
     std::string path = m_path + "/studies";
     std::set<std::uint32_t> inPath;
     if (query.level != Level::study) {
-        path += "/" + key(network::tag::studyUid) + "/series";
-        inPath.insert(network::tag::studyUid);
+        path += "/" + key(tag::studyUid) + "/series";
+        inPath.insert(tag::studyUid);
     }
     if (query.level == Level::image) {
-        path += "/" + key(network::tag::seriesUid) + "/instances";
-        inPath.insert(network::tag::seriesUid);
+        path += "/" + key(tag::seriesUid) + "/instances";
+        inPath.insert(tag::seriesUid);
     }
     std::string terms;
     for (const auto &[tag, value] : query.keys) {
@@ -199,15 +199,15 @@ network::QueryEnd WebClient::find(const network::Query &query, Control &control)
             terms += "&includefield=" + tagText(tag);
             continue;
         }
-        terms += "&" + tagText(tag) + "=" + network::percentEncoded(value, plainInQueries);
+        terms += "&" + tagText(tag) + "=" + percentEncoded(value, plainInQueries);
     }
-    const std::uint32_t uidTag = network::uidOf(query.level);
-    network::QueryEnd end;
+    const std::uint32_t uidTag = uidOf(query.level);
+    QueryEnd end;
     std::set<std::string> known;
     bool saysMore = false; // the server, of what follows a page
     for (std::uint32_t offset = query.skip;;) {
         auto answer = m_http.perform(
-            {fmt::format("{}?limit={}&offset={}{}", path, network::matchesOfPage, offset, terms),
+            {fmt::format("{}?limit={}&offset={}{}", path, matchesOfPage, offset, terms),
              "application/dicom+json",
              {},
              {}},
@@ -229,8 +229,8 @@ network::QueryEnd WebClient::find(const network::Query &query, Control &control)
         if (!answer.warning.empty())
             end.warnings.push_back(shortened(answer.warning, longestComment));
         bool hasNew = false;
-        std::vector<network::Attributes> matches = readDicomJson(answer.text);
-        for (network::Attributes &match : matches) {
+        std::vector<Attributes> matches = readDicomJson(answer.text);
+        for (Attributes &match : matches) {
             ++offset;
             // Servers without offsets send the same page again and again.
             if (!known.insert(match[uidTag]).second)
@@ -256,7 +256,7 @@ network::QueryEnd WebClient::find(const network::Query &query, Control &control)
     }
 }
 
-network::RetrievalEnd WebClient::retrieve(const network::Retrieval &retrieval, Control &control) {
+RetrievalEnd WebClient::retrieve(const Retrieval &retrieval, Control &control) {
     Objects objects(control);
     const std::string series =
         m_path + "/studies/" + retrieval.studyUid +
@@ -280,7 +280,7 @@ network::RetrievalEnd WebClient::retrieve(const network::Retrieval &retrieval, C
         }
         const long status = fetched.answer.status;
         if (retrieval.level == Level::image && status != 401 && status != 403 &&
-            network::isUid(retrieval.instanceUids[n])) {
+            isUid(retrieval.instanceUids[n])) {
             ++objects.result().failed;
             objects.result().reason = httpReason(fetched.answer).encoded();
             objects.result().failedInstances.push_back(retrieval.instanceUids[n]);

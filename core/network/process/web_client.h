@@ -16,13 +16,13 @@ namespace pellucid::network::process {
 class WebClient {
 public:
     /// *Throws* Lost, Error{usage} with the file that cannot be read.
-    WebClient(const network::Connection &connection, Control &control);
+    WebClient(const Connection &connection, Control &control);
 
     int confinement() const { return m_http.confinement(); }
 
     void echo(Control &control);
-    network::QueryEnd find(const network::Query &query, Control &control);
-    network::RetrievalEnd retrieve(const network::Retrieval &retrieval, Control &control);
+    QueryEnd find(const Query &query, Control &control);
+    RetrievalEnd retrieve(const Retrieval &retrieval, Control &control);
     /// STOW-RS of an open file of this size. *Returns* how the server changed the object; nothing
     /// if it stored it unchanged.
     std::optional<task::Reason> store(int file, std::uint64_t bytes, Control &control);

@@ -280,6 +280,45 @@ TEST(SpotCheck, OfAPartBesideTheBodyMayBeAnyNumber) {
     EXPECT_GT(worst, 1.0);
 }
 
+// A picture of pixels that are too small to be checked, where every frequency is summed.
+TEST(SpotCheck, OfTooSmallPixelsIsThatOfAnyPlaceInThePart) {
+    const auto lattice = volume::Lattice::centred({24, 24, 24}, {1, 1, 1});
+    const auto field = fieldOf(lattice, kinds.back().value); // the shell
+    scene::Scene scene = sceneOf(lattice, 0.1);
+    const auto engine = prepare::prepareEngine({scene, classify::ShownFields{{field}, {}}}).engine;
+    scene::Camera camera = scene.camera;
+    camera.width = camera.height = 12;
+    camera.pixelMm = 0.12;
+    const reference::WideKernel exact(field.values, field.support);
+    for (const double pan : {0.0, 4.0, 8.0}) {
+        camera.panMm = {pan, 0.3 * pan};
+        const auto stated = prepare::measuredError(*engine, {{field}, {}}, camera, scene.image);
+        const double truth = test::relativeL2(engine->render(camera, scene.image).samples,
+                                              exact.image(camera, scene.image));
+        EXPECT_LE(stated.low, truth) << pan;
+        EXPECT_LE(truth, stated.high) << pan;
+    }
+}
+
+// Without a roll-off, the frequency (.6, .8) of this grid is on the edge of the band.
+TEST(SpotCheck, CountsNoFrequencyOnTheEdgeOfTheBand) {
+    constexpr int side = 20;
+    const auto lattice = volume::Lattice::centred({8, 8, 8}, {1, 1, 1});
+    const auto field = fieldOf(lattice, kinds.front().value);
+    picture::PeriodPicture period;
+    period.camera = sceneOf(lattice, 1.1e-3).camera;
+    period.camera.width = period.camera.height = side;
+    period.image = {side, side, period.camera.pixelMm, picture::Samples(side * side, 0.0F), 1};
+    period.image.samples[side * side / 2 + side / 2] = 1.0F;
+    period.width = period.height = period.pictureWidth = period.pictureHeight = side;
+    const auto stated = prepare::measuredError(
+        [&](const auto &) {
+            return classify::ShownFields{{field}, {}};
+        },
+        shading::shadingScale(lattice), period, {.rollOff = 0.0}, {});
+    EXPECT_TRUE(std::isfinite(stated.relative) && std::isfinite(stated.high));
+}
+
 TEST(SpotCheck, OfAnEmptyPictureIsZero) {
     const auto lattice = volume::Lattice::centred({12, 12, 12}, {1, 1, 1});
     const auto field = fieldOf(lattice, [](const glm::dvec3 &) { return 0.0F; });
@@ -306,9 +345,9 @@ TEST(CheckedPictures, AreTheFirstTheLastAndSixOthers) {
 TEST(ShownPart, EndsWhereACornerIsBesideThePicture) {
     const auto lattice = volume::Lattice::centred({10, 10, 10}, {1, 1, 1});
     scene::Camera camera = scene::defaultCamera(lattice);
-    EXPECT_TRUE(error::showsAllOf(lattice.bounds(), lattice, camera));
+    EXPECT_EQ(error::shownOf(lattice.bounds(), lattice, camera), error::Shown::whole);
     camera.panMm.x += 0.5 * camera.width * camera.pixelMm;
-    EXPECT_FALSE(error::showsAllOf(lattice.bounds(), lattice, camera));
+    EXPECT_EQ(error::shownOf(lattice.bounds(), lattice, camera), error::Shown::part);
     // The picture ends in the middle of the body.
     EXPECT_NEAR(error::shownShare(lattice.bounds(), lattice, camera), 0.5, 1e-12);
     camera.panMm.x *= 2.0;

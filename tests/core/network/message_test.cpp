@@ -27,7 +27,7 @@ Connection fullConnection() {
 
 } // namespace
 
-TEST(ExchangeMessage, ValuesSurviveTheJourney) {
+TEST(NetworkMessage, ValuesSurviveTheJourney) {
     const Connection connection = fullConnection(), back = unpack<Connection>(pack(connection));
     EXPECT_EQ(back.peer, connection.peer);
     EXPECT_EQ(back.purpose, connection.purpose);
@@ -54,7 +54,7 @@ TEST(ExchangeMessage, ValuesSurviveTheJourney) {
 }
 
 // A token becomes part of a header, a code part of a form.
-TEST(ExchangeMessage, TokensAndCodesAreVisibleAndNotTooLong) {
+TEST(NetworkMessage, TokensAndCodesAreVisibleAndNotTooLong) {
     for (const std::string &bad :
          {std::string(), std::string("a b"), std::string("a\r\nX: y"), std::string("a\0b", 3),
           std::string("\xc3\xa4"), std::string(longestToken + 1, 'a')}) {
@@ -68,7 +68,7 @@ TEST(ExchangeMessage, TokensAndCodesAreVisibleAndNotTooLong) {
 }
 
 // What arrives may become a file name, and is shown: neither a path nor a line break passes.
-TEST(ExchangeMessage, IdentifiersArePlain) {
+TEST(NetworkMessage, IdentifiersArePlain) {
     for (const char *const bad :
          {"", "../../etc/passwd", "1.2/3", "1..2", ".1", "1.", "1.2\n",
           "1.2.3.4.5.6.7.8.9.10.11.12.13.14.15.16.17.18.19.20.21.22.23.24.25."
@@ -82,7 +82,7 @@ TEST(ExchangeMessage, IdentifiersArePlain) {
 }
 
 // A compromised helper may send anything: it is refused or taken, but nothing else happens.
-TEST(ExchangeMessage, AnyBytesAreRefusedOrTaken) {
+TEST(NetworkMessage, AnyBytesAreRefusedOrTaken) {
     std::mt19937 random(test::searchSeed());
     const std::vector<std::string> valid{
         pack(fullConnection()),

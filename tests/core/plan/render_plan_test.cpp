@@ -149,6 +149,23 @@ TEST(RenderPlan, FramesChooseWidthsWhereThatSavesTime) {
     EXPECT_FALSE(isAdaptive(500));
 }
 
+TEST(RenderPlan, WithOneWidthHasTheErrorThatItHadBeforeOthersWereAllowed) {
+    const volume::Lattice lattice = volume::Lattice::centred({64, 64, 64}, {1, 1, 1});
+    const auto summary = field::summarise(test::noiseField(lattice));
+    auto scene = sceneFor(lattice);
+    for (const double detail : {0.0, 2.0}) {
+        scene.image.detail = detail;
+        const auto before = plan::planRender(scene, summary);
+        auto plan = before;
+        plan::adaptWidths(plan, scene, {&summary, 1});
+        ASSERT_GT(plan.adaptiveError, 0.0);
+        ASSERT_GT(plan.predictedError, before.predictedError);
+        plan = plan::withOneWidth(plan);
+        EXPECT_EQ(plan.adaptiveError, 0.0);
+        EXPECT_NEAR(plan.predictedError, before.predictedError, 1e-12);
+    }
+}
+
 TEST(RenderPlan, LeavesErrorForNarrowKernels) {
     const volume::Lattice lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
     const auto adaptiveErrorOf = [&](const classify::DensityField &field, double pixelMm) {
