@@ -194,8 +194,8 @@ void requireProtection(const std::string &command, bool allowsUnprotected) {
 
 void addLargeOption(CLI::App &command, bool &large) {
     command.add_flag("--large", large,
-                     "Also open images that are unusually large, or whose stated size is large for "
-                     "the size of their file");
+                     "Also open images that are unusually large, or that claim to be much larger "
+                     "than their file");
 }
 
 void addInputOptions(CLI::App &command, InputOptions &options) {

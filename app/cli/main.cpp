@@ -67,7 +67,7 @@ int run(int argc, char **argv) {
     if (const auto cache = files::userCacheFolder())
         fourier::keepWisdomIn(*cache / "fftw-wisdom");
 
-    CLI::App app("Fourier projections of DICOM studies", "pellucid-cli");
+    CLI::App app("X-ray-like pictures of DICOM studies, by Fourier projection", "pellucid-cli");
     app.set_version_flag("--version", "pellucid-cli " PELLUCID_VERSION);
     app.require_subcommand(1);
     cli::addInfoCommand(app, context);

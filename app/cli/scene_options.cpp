@@ -210,7 +210,7 @@ void addQualityOptions(CLI::App &command, SceneOptions &options) {
         ->check(positive())
         ->excludes(quality);
     command.add_option("--kernel", options.kernel,
-                       "Kernel that interpolates the spectrum; default: the cheapest that meets "
+                       "Kernel that interpolates the spectrum; default: the fastest that meets "
                        "the tolerance");
     command
         .add_option("--padding", options.padding,

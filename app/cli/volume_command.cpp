@@ -92,8 +92,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
 
 void addVolumeCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
-    CLI::App *c = app.add_subcommand("volume", "Write a volume, the field that is projected, or a "
-                                               "slice of its spectrum");
+    CLI::App *c = app.add_subcommand("volume", "Write a volume, its field (the values after window "
+                                               "and classes), or a slice of the spectrum");
     addInputOptions(*c, o->input);
     addSubtractionOptions(*c, o->input);
     c->add_option("-o,--output", o->out, "File to write: .nrrd; with --spectrum .png or .npy")

@@ -15,7 +15,7 @@ PELLUCID_REASON(isABrokenLink, "is a broken link")
 PELLUCID_REASON(existsAlready, "already exists")
 
 // Servers on the network
-PELLUCID_REASON(otherFiles, "other files (not images): %1")
+PELLUCID_REASON(otherFiles, "files that are not images: %1")
 
 // Memory
 PELLUCID_REASON(noMemoryForAVolume, "not enough memory for a volume of %1 x %2 x %3")

@@ -2,6 +2,7 @@
 #include "core/phantom/painter.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -106,7 +107,7 @@ Shape mirrored(const Shape &shape) {
 }
 
 Painter::Painter(const volume::Lattice &lattice, double backgroundHu, task::Progress progress)
-    : m_lattice(lattice), m_hu(lattice.size().count(), float(backgroundHu)),
+    : m_lattice(lattice), m_backgroundHu(backgroundHu),
       m_softnessMm(std::cbrt(lattice.cellVolumeMm3())), m_progress(std::move(progress)) {}
 
 void Painter::paint(const Shape &shape, double hu) {
@@ -114,7 +115,6 @@ void Painter::paint(const Shape &shape, double hu) {
 }
 
 void Painter::paint(const Shape &shape, const Texture &hu) {
-    m_progress.check();
     // The shape's box in voxels. The map is linear, so the box's corners bound it on any lattice.
     dvec3 low(std::numeric_limits<double>::infinity()),
         high(-std::numeric_limits<double>::infinity());
@@ -134,20 +134,20 @@ void Painter::paint(const Shape &shape, const Texture &hu) {
     const int i0 = first(low.x), i1 = end(high.x, size.i), j0 = first(low.y),
               j1 = end(high.y, size.j);
     const int k0 = first(low.z), k1 = end(high.z, size.k);
-    if (k0 >= k1)
-        return;
-    tbb::parallel_for(k0, k1, [&](int k) {
-        m_progress.check();
-        for (int j = j0; j < j1; ++j) {
-            float *row = m_hu.data() + size.offsetOf(0, j, k);
-            for (int i = i0; i < i1; ++i) {
-                const dvec3 p = m_lattice.patient(volume::VoxelIndex{i, j, k}).mm;
-                const double covered = std::clamp(0.5 - shape(p) / m_softnessMm, 0.0, 1.0);
-                if (covered > 0.0)
-                    row[i] += float(covered * (hu(p) - row[i]));
-            }
+    m_strokes.push_back({shape, hu, {{i0, j0, k0}, {i1, j1, k1}}});
+}
+
+void Painter::drawPlane(const Stroke &stroke, int k, float *plane) const {
+    const auto &[shape, hu, box] = stroke;
+    for (int j = box.lo.j; j < box.hi.j; ++j) {
+        float *const row = plane + std::size_t(j) * std::size_t(m_lattice.size().i);
+        for (int i = box.lo.i; i < box.hi.i; ++i) {
+            const dvec3 p = m_lattice.patient(volume::VoxelIndex{i, j, k}).mm;
+            const double covered = std::clamp(0.5 - shape(p) / m_softnessMm, 0.0, 1.0);
+            if (covered > 0.0)
+                row[i] += float(covered * (hu(p) - row[i]));
         }
-    });
+    }
 }
 
 namespace {
@@ -169,18 +169,24 @@ double normal(std::uint32_t seed, std::uint64_t index) {
 } // namespace
 
 volume::Volume Painter::finish(double noiseHu, std::uint32_t seed, volume::VolumeNotes notes) {
-    std::vector<std::int16_t> samples(m_hu.size());
     const volume::GridSize size = m_lattice.size();
-    const std::size_t plane = std::size_t(size.i) * size.j;
+    std::vector<std::int16_t> samples(size.count());
+    std::atomic<int> done = 0;
     tbb::parallel_for(0, size.k, [&](int k) {
-        m_progress.check();
-        for (std::size_t n = k * plane; n < (k + 1) * plane; ++n) {
-            const double hu = m_hu[n] + (noiseHu > 0.0 ? noiseHu * normal(seed, n) : 0.0);
+        std::vector<float> plane(std::size_t(size.i) * std::size_t(size.j), float(m_backgroundHu));
+        for (const Stroke &stroke : m_strokes)
+            if (k >= stroke.box.lo.k && k < stroke.box.hi.k) {
+                m_progress.check();
+                drawPlane(stroke, k, plane.data());
+            }
+        const std::size_t first = std::size_t(k) * plane.size();
+        for (std::size_t n = 0; n < plane.size(); ++n) {
+            const double hu = plane[n] + (noiseHu > 0.0 ? noiseHu * normal(seed, first + n) : 0.0);
             // Scanners clip at the bottom of their scale.
-            samples[n] = std::int16_t(std::lround(std::clamp(hu, -1024.0, 32767.0)));
+            samples[first + n] = std::int16_t(std::lround(std::clamp(hu, -1024.0, 32767.0)));
         }
+        m_progress.report(double(++done) / size.k);
     });
-    m_progress.report(1.0);
     return {m_lattice, std::move(samples), volume::ValueUnit::hounsfield, std::move(notes)};
 }
 

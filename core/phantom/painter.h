@@ -49,13 +49,21 @@ public:
 
     void paint(const Shape &shape, double hu);
     void paint(const Shape &shape, const Texture &hu);
-    /// Adds normal noise (the same for the same seed, whatever the number of threads) and rounds.
+    /// Draws all shapes, adds normal noise (the same for the same seed, whatever the number of
+    /// threads) and rounds.
     volume::Volume finish(double noiseHu, std::uint32_t seed, volume::VolumeNotes notes);
 
 private:
+    struct Stroke {
+        Shape shape;
+        Texture hu;
+        volume::VoxelBox box; ///< where it may be
+    };
+    void drawPlane(const Stroke &stroke, int k, float *plane) const;
+
     volume::Lattice m_lattice;
-    std::vector<float> m_hu;
-    double m_softnessMm;
+    double m_backgroundHu, m_softnessMm;
+    std::vector<Stroke> m_strokes;
     task::Progress m_progress;
 };
 

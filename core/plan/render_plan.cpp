@@ -76,10 +76,10 @@ task::Reason reasonFor(const RenderPlan &plan, const scene::Scene &scene, bool o
         if (given)
             fixed = fixed ? because::both(*fixed, what) : what;
     if (!fixed)
-        return meets        ? because::cheapest
+        return meets        ? because::fastest
                : overBudget ? because::mostAccurateThatFits
                             : because::mostAccurate;
-    return meets        ? because::cheapestWith(*fixed)
+    return meets        ? because::fastestWith(*fixed)
            : overBudget ? because::mostAccurateThatFitsWith(*fixed)
                         : because::mostAccurateWith(*fixed);
 }

@@ -14,10 +14,10 @@
 <context>
     <name>ProjectionTexts</name>
     <message numerus="yes">
-        <source>The picture differs from the exact one by %1 (relative L2 error; interval %2), measured at %n frequencies, each summed exactly over the study.</source>
+        <source>The picture differs from the exact one by %1 (with 98 % confidence by %2), measured at %n frequencies of this study.</source>
         <translation>
-            <numerusform>The picture differs from the exact one by %1 (relative L2 error; interval %2), measured at %n frequency, summed exactly over the study.</numerusform>
-            <numerusform>The picture differs from the exact one by %1 (relative L2 error; interval %2), measured at %n frequencies, each summed exactly over the study.</numerusform>
+            <numerusform>The picture differs from the exact one by %1 (with 98 % confidence by %2), measured at %n frequency of this study.</numerusform>
+            <numerusform>The picture differs from the exact one by %1 (with 98 % confidence by %2), measured at %n frequencies of this study.</numerusform>
         </translation>
     </message>
 </context>

@@ -931,9 +931,9 @@
         <translation>影像與精確影像的差別至多為此比例（相對 L2 誤差）。檢視停止移動後即測量誤差。</translation>
     </message>
     <message numerus="yes">
-        <source>The picture differs from the exact one by %1 (relative L2 error; interval %2), measured at %n frequencies, each summed exactly over the study.</source>
+        <source>The picture differs from the exact one by %1 (with 98 % confidence by %2), measured at %n frequencies of this study.</source>
         <translation>
-            <numerusform>影像與精確影像相差 %1（相對 L2 誤差；區間 %2），在 %n 個頻率上實測，每個頻率皆對整個檢查精確加總。</numerusform>
+            <numerusform>此影像與精確影像相差 %1（98 % 信賴區間：%2），在此檢查的 %n 個頻率上測得。</numerusform>
         </translation>
     </message>
 </context>
@@ -1016,10 +1016,6 @@
     <message>
         <source>the weight %1 of a transfer function is not between 0 and %2</source>
         <translation>轉換函數的權重 %1 不在 0 與 %2 之間</translation>
-    </message>
-    <message>
-        <source>the cheapest that meets the tolerance with the chosen %1</source>
-        <translation>在所選的%1下，符合容差的最省做法</translation>
     </message>
     <message>
         <source>the spectra need %1 MB, but the graphics card has only %2 MB free</source>
@@ -1152,10 +1148,6 @@
     <message>
         <source>is listed in the DICOMDIR but missing</source>
         <translation>列於 DICOMDIR 但已遺失</translation>
-    </message>
-    <message>
-        <source>the cheapest that meets the tolerance</source>
-        <translation>符合容差的最省做法</translation>
     </message>
     <message>
         <source>the DICOM data dictionary is missing</source>
@@ -3846,10 +3838,6 @@
         <translation>其中的檢查都在結果資料夾（--out）中，該資料夾不會被搜尋</translation>
     </message>
     <message>
-        <source>other files (not images): %1</source>
-        <translation>其他檔案（非影像）：%1</translation>
-    </message>
-    <message>
         <source>%1 of %2 slices have arrived</source>
         <translation>已收到 %2 張切片中的 %1 張</translation>
     </message>
@@ -3896,6 +3884,18 @@
     <message>
         <source>the whole volume at a pixel size of %2 mm needs an image of more than %1 pixels a side; set a size or a larger pixel size</source>
         <translation>以 %2 mm 的像素大小顯示整個體積，影像每邊需要超過 %1 個像素；請設定影像大小或較大的像素大小</translation>
+    </message>
+    <message>
+        <source>the fastest that meets the tolerance</source>
+        <translation>符合容差且最快</translation>
+    </message>
+    <message>
+        <source>the fastest that meets the tolerance with the chosen %1</source>
+        <translation>以所選的%1符合容差且最快</translation>
+    </message>
+    <message>
+        <source>files that are not images: %1</source>
+        <translation>不是影像的檔案：%1</translation>
     </message>
 </context>
 <context>
@@ -4238,6 +4238,10 @@
     <message>
         <source>uniform density from %1</source>
         <translation>自 %1 起密度為一</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 至 %2</translation>
     </message>
 </context>
 <context>
@@ -4815,14 +4819,6 @@
         <translation>重新計算投影(&amp;J)</translation>
     </message>
     <message>
-        <source>1 + 3</source>
-        <translation>1 + 3</translation>
-    </message>
-    <message>
-        <source>2 x 2</source>
-        <translation>2 x 2</translation>
-    </message>
-    <message>
         <source>&amp;Automatic</source>
         <translation>自動(&amp;A)</translation>
     </message>
@@ -4837,6 +4833,14 @@
     <message>
         <source>&amp;Full screen</source>
         <translation>全螢幕(&amp;F)</translation>
+    </message>
+    <message>
+        <source>One large pane, three small</source>
+        <translation>一大三小窗格</translation>
+    </message>
+    <message>
+        <source>Four equal panes</source>
+        <translation>四個等大窗格</translation>
     </message>
 </context>
 <context>
@@ -5732,10 +5736,6 @@ Open it side by side?</source>
 <context>
     <name>pellucid::ui::ImportDialog</name>
     <message>
-        <source>&amp;Reference the files in place</source>
-        <translation>參照檔案原處(&amp;R)</translation>
-    </message>
-    <message>
         <source>&amp;Copy the files into the library</source>
         <translation>將檔案複製到資料庫(&amp;C)</translation>
     </message>
@@ -5786,6 +5786,10 @@ Open it side by side?</source>
     <message>
         <source>Remove the selected files and folders from the list (Del)</source>
         <translation>將所選的檔案與資料夾移出清單 (Del)</translation>
+    </message>
+    <message>
+        <source>&amp;Leave the files where they are</source>
+        <translation>檔案留在原處(&amp;L)</translation>
     </message>
 </context>
 <context>
@@ -5913,10 +5917,6 @@ Open it side by side?</source>
 <context>
     <name>pellucid::ui::MainWindow</name>
     <message>
-        <source>Imported: %1 series, %2 files; %3 not used</source>
-        <translation>已匯入：%1 個序列、%2 個檔案；%3 個未使用</translation>
-    </message>
-    <message>
         <source>There is no earlier look to compare with</source>
         <translation>沒有可比較的先前外觀</translation>
     </message>
@@ -5927,6 +5927,10 @@ Open it side by side?</source>
     <message>
         <source>Not protected</source>
         <translation>未受保護</translation>
+    </message>
+    <message>
+        <source>Imported %1 series, %2 files; not used: %3</source>
+        <translation>已匯入 %1 個序列、%2 個檔案；未使用：%3</translation>
     </message>
 </context>
 <context>
@@ -5940,10 +5944,6 @@ Open it side by side?</source>
         <translation>測量</translation>
     </message>
     <message>
-        <source>Drag distances, angles and regions on a plane. They are kept with the study.</source>
-        <translation>在切面上拖曳，即可畫出距離、角度與區域。測量會隨檢查保存。</translation>
-    </message>
-    <message>
         <source>Export the measurements as a table (CSV)</source>
         <translation>將測量匯出為表格 (CSV)</translation>
     </message>
@@ -5954,6 +5954,10 @@ Open it side by side?</source>
     <message>
         <source>Delete measurement</source>
         <translation>刪除測量</translation>
+    </message>
+    <message>
+        <source>Drag distances, angles and regions in a plane. They are kept with the study.</source>
+        <translation>在切面中拖曳出距離、角度與區域。它們隨檢查保存。</translation>
     </message>
 </context>
 <context>
@@ -6510,8 +6514,8 @@ Open it side by side?</source>
         <translation>放大骨小樑與血管等細微構造的程度；0：不變。按兩下：自動</translation>
     </message>
     <message>
-        <source>Evens out thick and thin parts; 0: off. Double-click: automatic</source>
-        <translation>使厚薄部位趨於一致；0：關閉。按兩下：自動</translation>
+        <source>Brings thick and thin parts to a similar brightness; 0: off. Double-click: automatic</source>
+        <translation>使厚薄部位的亮度相近；0：關閉。按兩下：自動</translation>
     </message>
 </context>
 <context>
@@ -7194,10 +7198,6 @@ Retrieve these images again, and replace the copies on this computer?</source>
         <translation>深度提示</translation>
     </message>
     <message>
-        <source>How near structures stand out from far ones</source>
-        <translation>近處結構如何由遠處突顯</translation>
-    </message>
-    <message>
         <source>No depth cue</source>
         <translation>無深度提示</translation>
     </message>
@@ -7232,10 +7232,6 @@ Retrieve these images again, and replace the copies on this computer?</source>
     <message>
         <source>Ambient light</source>
         <translation>環境光</translation>
-    </message>
-    <message>
-        <source>How much of the density itself is visible; double-click sets it to 1</source>
-        <translation>可見的原始密度多寡；按兩下設為 1</translation>
     </message>
     <message>
         <source>Number of curve values</source>
@@ -7280,6 +7276,14 @@ Retrieve these images again, and replace the copies on this computer?</source>
     <message>
         <source>Points of the curve; more points render slower</source>
         <translation>曲線的點數；點越多，計算越慢</translation>
+    </message>
+    <message>
+        <source>How much near structures stand out from far ones</source>
+        <translation>近處構造比遠處突出的程度</translation>
+    </message>
+    <message>
+        <source>How bright the body is without the lights; double-click sets it to 1</source>
+        <translation>沒有光源時身體的亮度；按兩下設為 1</translation>
     </message>
 </context>
 <context>

@@ -218,7 +218,7 @@ TEST_F(Cli, InfoTellsGeometryAndReasons) {
     EXPECT_EQ(j["skipped"].size(), 1U);
     const auto text = cli("info " + quoted(series));
     EXPECT_NE(text.out.find("tilted by 20.0 degrees"), std::string::npos);
-    EXPECT_NE(text.out.find("other files (not images): 1"), std::string::npos);
+    EXPECT_NE(text.out.find("files that are not images: 1"), std::string::npos);
 }
 
 TEST_F(Cli, DcmtkFindsThePhantomValid) {

@@ -159,7 +159,7 @@ private slots:
         std::ofstream(mixed / "IM0").flush();
         import(mixed, false);
         QCOMPARE(find<QListWidget>("problemList")->count(), 2);
-        QVERIFY(problems().contains("mixed: other files (not images): 12"));
+        QVERIFY(problems().contains("mixed: files that are not images: 12"));
         QCOMPARE(find<QLabel>("problemHeading")->text(), QString("PROBLEMS (1)"));
         QVERIFY(problems().contains("IM0: is empty"));
         QVERIFY(QApplication::activeModalWidget() == nullptr);

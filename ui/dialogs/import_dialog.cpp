@@ -29,7 +29,7 @@ ImportDialog::ImportDialog(const QStringList &paths, QWidget *parent)
       m_hint(new PlainLabel(tr("Choose files, folders, a DICOMDIR or ZIP archives. "
                                "Folders are searched recursively."))),
       m_list(new QListWidget), m_remove(new QPushButton(tr("Remove"))),
-      m_refer(new QRadioButton(tr("&Reference the files in place"))),
+      m_refer(new QRadioButton(tr("&Leave the files where they are"))),
       m_copy(new QRadioButton(tr("&Copy the files into the library"))) {
     setObjectName("importDialog");
     setWindowTitle(tr("Import into the library"));

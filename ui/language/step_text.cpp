@@ -51,7 +51,7 @@ QString number(double value) {
 QString rangeText(double low, double high) {
     const bool hasLow = low > classify::lowestValue, hasHigh = high < classify::highestValue;
     if (hasLow && hasHigh)
-        return QString("%1 .. %2").arg(number(low), number(high));
+        return StepTexts::tr("%1 to %2").arg(number(low), number(high));
     return hasLow    ? StepTexts::tr("from %1").arg(number(low))
            : hasHigh ? StepTexts::tr("up to %1").arg(number(high))
                      : StepTexts::tr("all values");

@@ -34,7 +34,7 @@ MeasurementsPanel::MeasurementsPanel(Document &document, QWidget *parent)
     m_list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
     m_list->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
     m_hint->setText(
-        tr("Drag distances, angles and regions on a plane. They are kept with the study."));
+        tr("Drag distances, angles and regions in a plane. They are kept with the study."));
     m_hint->setProperty("role", "muted");
     m_hint->setWordWrap(true);
     m_export->setObjectName("exportMeasurementsButton");

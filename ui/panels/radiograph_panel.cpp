@@ -41,7 +41,7 @@ RadiographPanel::RadiographPanel(Document &document, QWidget *parent)
            m_detail, m_detailMark);
     connectShare(m_detail, tr("Detail"), &scene::Tone::detail);
     addRow(tr("Latitude"),
-           tr("Evens out thick and thin parts; 0: off. "
+           tr("Brings thick and thin parts to a similar brightness; 0: off. "
               "Double-click: automatic"),
            m_latitude, m_latitudeMark);
     connectShare(m_latitude, tr("Latitude"), &scene::Tone::latitude);

@@ -86,7 +86,7 @@ ShadingPanel::ShadingPanel(Document &document, QWidget *parent)
 void ShadingPanel::nameControls() {
     m_cue->setObjectName("cueBox");
     m_cue->setAccessibleName(tr("Depth cue"));
-    m_cue->setToolTip(tr("How near structures stand out from far ones"));
+    m_cue->setToolTip(tr("How much near structures stand out from far ones"));
     for (const auto &[text, kind] : {std::pair{tr("No depth cue"), CueKind::none},
                                      {tr("Linear cue"), CueKind::linear},
                                      {tr("Sine cue"), CueKind::sine},
@@ -97,7 +97,7 @@ void ShadingPanel::nameControls() {
     m_light->setNames(tr("Strength of the light"),
                       tr("Strength of the selected light; double-click sets it to 0.8"));
     m_ambient->setNames(tr("Ambient light"),
-                        tr("How much of the density itself is visible; double-click sets it to 1"));
+                        tr("How bright the body is without the lights; double-click sets it to 1"));
     m_curveValues->setObjectName("curveValuesBox");
     m_curveValues->setAccessibleName(tr("Number of curve values"));
     m_curveValues->setToolTip(tr("Points of the curve; more points render slower"));

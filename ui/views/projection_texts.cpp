@@ -75,8 +75,8 @@ QString errorExplanation(const error::StatedError &error) {
     const QString interval =
         ProjectionTexts::tr("%1 to %2").arg(percentText(error.low), percentText(error.high));
     return ProjectionTexts::tr(
-               "The picture differs from the exact one by %1 (relative L2 error; "
-               "interval %2), measured at %n frequencies, each summed exactly over the study.",
+               "The picture differs from the exact one by %1 (with 98 % confidence by %2), "
+               "measured at %n frequencies of this study.",
                nullptr, error.frequencies)
         .arg(percentText(error.relative), interval);
 }

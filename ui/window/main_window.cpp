@@ -210,7 +210,7 @@ void MainWindow::connectStudyDocks() {
     connect(studies, &StudyPanel::importRequested, m_files, &FileActions::importPaths);
     connect(&m_bench.library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
         m_bench.study.document.addProblems(result.skipped);
-        m_bench.notices.say(tr("Imported: %1 series, %2 files; %3 not used")
+        m_bench.notices.say(tr("Imported %1 series, %2 files; not used: %3")
                                 .arg(QString::number(result.series), QString::number(result.files),
                                      QString::number(result.skipped.size())));
     });

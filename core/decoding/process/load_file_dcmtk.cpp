@@ -135,7 +135,9 @@ LoadedFile loadFile(std::span<const std::byte> bytes, Extent extent) {
         loaded.format->transferEnd();
     }
     loaded.isComplete = read.good();
-    loaded.failure = read.good() ? "" : read.text();
+    loaded.failure = read.good()                     ? ""
+                     : read == EC_StreamNotifyClient ? "the file ends too early"
+                                                     : read.text();
     DcmDataset *const dataset = loaded.format->getDataset();
     if (dataset == nullptr || dataset->card() == 0)
         throw Error(ErrorCode::unusable,
