@@ -22,9 +22,13 @@ int directionOf(double u, double v) {
     return int((angle < 0.0 ? angle + 1.0 : angle) * directions) % directions;
 }
 
-// The mean of |A|^2 in each direction, in the half of the roll-off where it reduces little.
-std::array<double, directions> edgeEnergies(const PictureSlice &slice, double rollOff) {
-    std::array<double, directions> sums{}, counts{};
+// |A|^2 in a direction, in the half of the roll-off where it reduces little.
+struct EdgeEnergy {
+    double mean = 0.0, most = 0.0;
+};
+std::array<EdgeEnergy, directions> edgeEnergies(const PictureSlice &slice, double rollOff) {
+    std::array<EdgeEnergy, directions> edge;
+    std::array<double, directions> counts{};
     const int columns = slice.columns(), rows = slice.rows();
     // At least two frequencies wide.
     const double width = std::max(0.5 * rollOff, 4.0 / std::min(columns, rows));
@@ -37,18 +41,29 @@ std::array<double, directions> edgeEnergies(const PictureSlice &slice, double ro
             if (radius < first || radius > last || factor == 0.0)
                 continue;
             const auto n = std::size_t(directionOf(u, v));
-            sums[n] += slice.energy(column, row) / (factor * factor);
+            const double energy = slice.energy(column, row) / (factor * factor);
+            edge[n].mean += energy;
+            edge[n].most = std::max(edge[n].most, energy);
             counts[n] += 1.0;
         }
     // A small grid has no frequency in some directions.
-    double all = 0.0, count = 0.0;
-    for (std::size_t n = 0; n < sums.size(); ++n) {
-        all += sums[n];
+    EdgeEnergy all;
+    double count = 0.0;
+    for (std::size_t n = 0; n < edge.size(); ++n) {
+        all = {all.mean + edge[n].mean, std::max(all.most, edge[n].most)};
         count += counts[n];
     }
-    for (std::size_t n = 0; n < sums.size(); ++n)
-        sums[n] = counts[n] > 0.0 ? sums[n] / counts[n] : count > 0.0 ? all / count : 0.0;
-    return sums;
+    for (std::size_t n = 0; n < edge.size(); ++n)
+        if (counts[n] > 0.0)
+            edge[n].mean /= counts[n];
+        else if (count > 0.0)
+            edge[n] = {all.mean / count, all.most};
+    // A pattern as wide as the field has a few bright frequencies, which reach the next directions.
+    const auto alone = edge;
+    for (std::size_t n = 0; n < edge.size(); ++n)
+        for (const std::size_t next : {n + 1, n + directions - 1})
+            edge[n].most = std::max(edge[n].most, alone[next % directions].most);
+    return edge;
 }
 
 struct Source {
@@ -156,25 +171,29 @@ FoldedTails foldedTails(const picture::PeriodPicture &period, const PictureSlice
     const double width = double(period.width) / side, height = double(period.height) / side;
     // The energy of the tails of one copy of the sources in a block of the picture around (x, y).
     const auto tailsAt = [&](double x, double y) {
-        double sum = 0.0;
+        FoldedTails sum;
         for (const Source &source : sources) {
             const glm::dvec2 away(x - source.x, y - source.y);
             const double r = std::max(1.0, glm::length(away));
-            double tail = edge[std::size_t(directionOf(away.x, away.y))] * fade(image.rollOff * r) /
-                          (4.0 * std::numbers::pi * std::numbers::pi * r * r * r);
+            const EdgeEnergy &there = edge[std::size_t(directionOf(away.x, away.y))];
+            const double fading =
+                fade(image.rollOff * r) / (4.0 * std::numbers::pi * std::numbers::pi * r * r * r);
+            double ofBands = 0.0;
             for (const LatticeBand &band : bands) {
                 const double along = std::max(1.0, std::abs(glm::dot(away, band.along))),
                              across = std::abs(away.x * band.along.y - away.y * band.along.x),
                              half = 0.5 * (width * std::abs(band.along.y) +
                                            height * std::abs(band.along.x) + 1.0);
                 if (across < half)
-                    tail += band.energy * fade(image.rollOff * along / band.samplePixels) /
-                            (4.0 * std::numbers::pi * std::numbers::pi * along * along) /
-                            (2.0 * half);
+                    ofBands += band.energy * fade(image.rollOff * along / band.samplePixels) /
+                               (4.0 * std::numbers::pi * std::numbers::pi * along * along) /
+                               (2.0 * half);
             }
-            sum += source.share * tail;
+            const double pixels = source.share * width * height;
+            sum.expected += pixels * (there.mean * fading + ofBands);
+            sum.most += pixels * (there.most * fading + ofBands);
         }
-        return sum * width * height;
+        return sum;
     };
     std::array<FoldedTails, side> ofRows;
     tbb::parallel_for(0, side, [&](int row) {
@@ -185,11 +204,11 @@ FoldedTails foldedTails(const picture::PeriodPicture &period, const PictureSlice
                 for (int across = -1; across <= 1; ++across) {
                     if (down == 0 && across == 0)
                         continue;
-                    const double energy =
+                    const FoldedTails energy =
                         tailsAt(period.left + (column + 0.5) * width + across * period.image.width,
                                 period.top + (row + 0.5) * height + down * period.image.height);
-                    tails.expected += energy;
-                    amplitudes += std::sqrt(energy);
+                    tails.expected += energy.expected;
+                    amplitudes += std::sqrt(energy.most);
                 }
             tails.most += 2.0 * amplitudes * amplitudes;
         }

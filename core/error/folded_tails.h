@@ -20,7 +20,9 @@ namespace pellucid::error {
 /// squared, times mm^2.
 struct FoldedTails {
     double expected = 0.0; ///< the tails of different copies in any phase
-    double most = 0.0;     ///< the tails of all copies, and the two waves of each, in phase
+    /// The tails of all copies, and the two waves of each, in phase, with the largest A of each
+    /// direction.
+    double most = 0.0;
 };
 FoldedTails foldedTails(const picture::PeriodPicture &period, const PictureSlice &slice,
                         const scene::ImageDefinition &image, const volume::Lattice &lattice);

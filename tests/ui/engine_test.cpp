@@ -87,7 +87,7 @@ private slots:
         QHelpEvent pointed(QEvent::ToolTip, QPoint(projection()->width() - 20, 14),
                            projection()->mapToGlobal(QPoint(projection()->width() - 20, 14)));
         QApplication::sendEvent(projection(), &pointed);
-        QVERIFY2(QToolTip::text().contains("summed exactly"), qPrintable(QToolTip::text()));
+        QVERIFY2(QToolTip::text().contains("measured at"), qPrintable(QToolTip::text()));
         dragMouse(projection(), Qt::LeftButton, QPoint(100, 100), QPoint(60, 20));
         QVERIFY(!isMeasured()); // of the former view
         measure();
