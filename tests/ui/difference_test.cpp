@@ -56,7 +56,7 @@ private slots:
         open(path("native"));
         const QImage whole = projection()->picture();
         open(path("contrast"));
-        subtract("1 native", false);
+        subtract("1: native", false);
         const volume::Volume &volume = *document().volume();
         QVERIFY(volume.notes().isDifference);
         QCOMPARE(volume.value({45, 50, 40}), float(contrast));
@@ -64,7 +64,7 @@ private slots:
         QVERIFY(!find<QAction>("subtractAction")->isEnabled());
         // The block covers a small part of what the head does.
         QVERIFY(changed(whole, projection()->picture()) > 0.05);
-        QCOMPARE(listed("2 contrast minus 1 native"), 1);
+        QCOMPARE(listed("2: contrast minus 1: native"), 1);
         save("difference");
         QVERIFY(document().problems().empty());
 
@@ -83,10 +83,10 @@ private slots:
     void aPatientWhoMovedIsAlignedAndTheResidualIsSaid() {
         open(path("native"));
         open(path("moved"));
-        subtract("1 native", true);
+        subtract("1: native", true);
         const QString &name =
             document().sources()[std::size_t(document().currentSource())].volume.description;
-        QVERIFY2(name.startsWith("moved minus 1 native; aligned: turned by 0."), qPrintable(name));
+        QVERIFY2(name.startsWith("moved minus 1: native; aligned: turned by 0."), qPrintable(name));
         QCOMPARE(listed("3 " + name), 1);
         const volume::Volume &volume = *document().volume();
         QVERIFY(std::abs(volume.value({45, 50, 40}) - contrast) < 0.1F * contrast);
@@ -97,7 +97,7 @@ private slots:
                                      !beside->jobs().isRunning(),
                                  patienceMs);
         QVERIFY(!beside->document().volume()->notes().isDifference);
-        QVERIFY(find<QLabel>("besideName")->text().contains("3 moved"));
+        QVERIFY(find<QLabel>("besideName")->text().contains("3: moved"));
         save("difference_beside");
     }
 
@@ -116,7 +116,7 @@ private slots:
         settle();
         const QString &name =
             document().sources()[std::size_t(document().currentSource())].volume.description;
-        QVERIFY2(name.startsWith("moved minus 1 native; aligned"), qPrintable(name));
+        QVERIFY2(name.startsWith("moved minus 1: native; aligned"), qPrintable(name));
         auto *const shown = mainWindow().findChild<ui::StudyBeside *>("studyBeside");
         QTRY_VERIFY_WITH_TIMEOUT(shown->document().volume() && !shown->document().isPreview() &&
                                      !shown->jobs().isRunning(),
@@ -142,15 +142,15 @@ private slots:
         write("elsewhere", withContrast(before, shifted(before.lattice(), {5000.0, 0.0, 0.0})), 4);
         open(path("native"));
         open(path("elsewhere"));
-        choose("1 native", false);
+        choose("1: native", false);
         QTRY_VERIFY_WITH_TIMEOUT(!document().problems().empty(), patienceMs);
         QVERIFY(problems().contains("do not overlap"));
         // The former study comes back, and the list does not offer what cannot be made.
         waitForVolume();
         settle();
         QVERIFY(!document().volume()->notes().isDifference);
-        QCOMPARE(listed("4 elsewhere minus 1 native"), 0);
-        QCOMPARE(listed("4 elsewhere"), 1);
+        QCOMPARE(listed("4: elsewhere minus 1: native"), 0);
+        QCOMPARE(listed("4: elsewhere"), 1);
     }
 
     void nothingOfThePatientIsThereToSubtract() {

@@ -91,6 +91,9 @@ private slots:
         QCOMPARE(rows(), QStringList({"Secret Name"}));
         QVERIFY(list().study(list().index(0, 0)).libraryId != 0);
         QVERIFY(tree()->currentIndex().isValid()); // still the open one
+        choose(volumeRow("Secret Name"), "closeStudyAction");
+        QTRY_VERIFY(!document().volume());
+        QCOMPARE(rows(), QStringList({"Secret Name"}));
         restart();
         QCOMPARE(rows(), QStringList({"Secret Name"}));
     }

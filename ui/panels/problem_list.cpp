@@ -79,11 +79,14 @@ void ProblemList::showProblems() {
             order.push_back(&problem.reason);
         same.push_back(&problem);
     }
+    const dicom::Skipped *const last = problems.empty() ? nullptr : &problems.back();
+    QListWidgetItem *rowOfLast = nullptr;
     const auto add = [this](const QString &text, const QString &tip, const task::Reason &reason) {
         auto *item = new QListWidgetItem(text, m_list);
         item->setToolTip(plainToolTip(tip));
         if (isNoImage(reason))
             item->setForeground(Theme::current().color("muted"));
+        return item;
     };
     for (const task::Reason *reason : order) {
         const auto &same = byReason[reason->encoded()];
@@ -95,16 +98,22 @@ void ProblemList::showProblems() {
             QString tip = paths.mid(0, maxTipPaths).join("\n");
             if (same.size() > maxTipPaths)
                 tip += "\n" + tr("and %n more", "", int(same.size() - maxTipPaths));
-            add(tr("%n files: %1", "", int(same.size())).arg(why), tip, *reason);
+            auto *const row = add(tr("%n files: %1", "", int(same.size())).arg(why), tip, *reason);
+            if (same.back() == last)
+                rowOfLast = row;
             continue;
         }
         for (std::size_t n = 0; n < same.size(); ++n) {
             const QString name =
                 shownText(QString::fromStdString(same[n]->path.filename().string()));
-            add(name.isEmpty() ? why : name + ": " + why, paths[int(n)], *reason);
+            auto *const row = add(name.isEmpty() ? why : name + ": " + why, paths[int(n)], *reason);
+            if (same[n] == last)
+                rowOfLast = row;
         }
     }
     fitHeight();
+    if (rowOfLast != nullptr)
+        m_list->scrollToItem(rowOfLast);
     // Texts and programs beside images are mentioned, but no problem.
     const auto count =
         std::count_if(problems.begin(), problems.end(), [](const dicom::Skipped &problem) {

@@ -328,15 +328,13 @@ void StudyPanel::showMenu(const QPoint &at) {
         menu->popup(m_tree->viewport()->mapToGlobal(at));
         return;
     }
-    if (study.libraryId != 0) {
+    if (study.libraryId != 0)
         add(tr("Remove from the library..."), "removeStudyAction",
             [this, study] { remove(study); });
-    } else {
-        if (study.origin != Origin::phantom)
-            add(tr("Add to the library..."), "addStudyAction",
-                [this, study] { importOpen(study); });
+    else if (study.origin != Origin::phantom)
+        add(tr("Add to the library..."), "addStudyAction", [this, study] { importOpen(study); });
+    if (!sourcesOf(study).empty())
         add(tr("Close"), "closeStudyAction", [this, study] { close(study); });
-    }
     menu->popup(m_tree->viewport()->mapToGlobal(at));
 }
 
@@ -399,10 +397,18 @@ void StudyPanel::remove(const StudyFacts &study) {
         });
 }
 
-void StudyPanel::close(const StudyFacts &study) {
+std::vector<int> StudyPanel::sourcesOf(const StudyFacts &study) const {
+    std::vector<int> open;
     for (std::size_t n = 0; n < m_document.sources().size(); ++n)
-        if (m_document.sources()[n].study.key() == study.key())
-            emit closeRequested(int(n));
+        if (const StudySource &source = m_document.sources()[n];
+            !source.isClosed && source.study.key() == study.key())
+            open.push_back(int(n));
+    return open;
+}
+
+void StudyPanel::close(const StudyFacts &study) {
+    for (const int source : sourcesOf(study))
+        emit closeRequested(source);
 }
 
 void StudyPanel::dragEnterEvent(QDragEnterEvent *event) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include <QElapsedTimer>
 #include <QTimer>
 #include <QWidget>
@@ -58,6 +60,8 @@ private:
     void showDetails(const QModelIndex &index);
     void importOpen(const StudyFacts &study);
     void remove(const StudyFacts &study);
+    /// The open sources of a study.
+    std::vector<int> sourcesOf(const StudyFacts &study) const;
     void close(const StudyFacts &study);
     void connectControls();
     QMenu *orderMenu();

@@ -175,7 +175,7 @@ bool arePhases(const VolumeFacts &a, const VolumeFacts &b) {
 QString seriesText(const VolumeFacts &volume) {
     if (volume.size.count() == 0) // it begins to arrive, and nothing more is known
         return shownText(volume.description);
-    QString result = QString::number(volume.seriesNumber) + " " +
+    QString result = QString::number(volume.seriesNumber) + ": " +
                      shownText(volume.description.isEmpty() ? volume.modality : volume.description);
     if (volume.phases > 1)
         result += ", " + StudyFactsTexts::tr("%n phases", "", volume.phases);
