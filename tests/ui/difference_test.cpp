@@ -87,7 +87,7 @@ private slots:
         const QString &name =
             document().sources()[std::size_t(document().currentSource())].volume.description;
         QVERIFY2(name.startsWith("moved minus 1: native; aligned: turned by 0."), qPrintable(name));
-        QCOMPARE(listed("3 " + name), 1);
+        QCOMPARE(listed("3: " + name), 1);
         const volume::Volume &volume = *document().volume();
         QVERIFY(std::abs(volume.value({45, 50, 40}) - contrast) < 0.1F * contrast);
         // The native head stays what it is, beside the difference.
