@@ -53,10 +53,10 @@ public:
     void requireRoomFor(const scene::Camera &camera) const;
     /// Whether the error of a picture is measured, or only bounded.
     enum class Check { none, measure };
-    /// If the measured error (of a part, its upper limit) exceeds the tolerance, the picture is
-    /// planned again, unless the scene sets its plan. If it still exceeds it, the picture is
-    /// rendered with one kernel for every frequency. The error is always measured if the fields
-    /// were reduced to fit the memory. *Throws* Error{outOfMemory}, Cancelled.
+    /// If the measured error (of a part, its upper limit) exceeds the tolerance, plans the picture
+    /// again, unless the scene sets its plan; if that is not enough, renders it with one kernel for
+    /// every frequency. The error is always measured if the fields were reduced to fit the memory.
+    /// *Throws* Error{outOfMemory}, Cancelled.
     picture::ProjectionImage image(const scene::Camera &camera, Check check = Check::none);
     /// The scene's own exposure or, measured once, that of the study.
     const scene::Exposure &exposure();

@@ -58,7 +58,8 @@ std::array<EdgeEnergy, directions> edgeEnergies(const PictureSlice &slice, doubl
             edge[n].mean /= counts[n];
         else if (count > 0.0)
             edge[n] = {all.mean / count, all.most};
-    // A pattern as wide as the field has a few bright frequencies, which reach the next directions.
+    // A regular pattern of n pixels is bright over 2/n radians of the edge, which may be two
+    // directions, and the sources of a block are not all in its middle.
     const auto alone = edge;
     for (std::size_t n = 0; n < edge.size(); ++n)
         for (const std::size_t next : {n + 1, n + directions - 1})

@@ -17,8 +17,8 @@ struct StatedError {
     };
     double relative = 0.0;
     Kind kind = Kind::bound;
-    /// Of a measurement: the error is in between with 98 % confidence. Of a part: relative to the
-    /// most and to the least truth that the picture allows. Of a bound: from 0 on.
+    /// A measured error lies between them with 98 % confidence; for a part, they are relative to
+    /// the largest and the smallest truth that the picture allows. For a bound, `low` is 0.
     double low = 0.0, high = 0.0;
     int frequencies = 0; ///< that were summed for a measurement
 

@@ -95,7 +95,7 @@ std::optional<error::StatedError> boundOf(const PreparedEngine &prepared,
 /// volume, so that another plan, or one kernel for every frequency, may help.
 bool missesTolerance(const PreparedEngine &prepared, const error::StatedError &measured,
                      error::Shown shown, const scene::Scene &scene);
-/// What a camera shows of the prepared fields.
+/// How much of the prepared fields a camera shows.
 error::Shown shownOf(const PreparedEngine &prepared, const scene::Camera &camera);
 
 /// Whether frames choose the widths of their kernels, within the tolerance of the whole volume.

@@ -90,7 +90,7 @@ private slots:
         dialog("aboutDialog", "about");
     }
 
-    // What the manual's first chapter leads to. It is not compared: the panes are.
+    // The window after the manual's first chapter. It is not compared, because its panels are.
     void theFirstStudy() {
         if (!isAccepting() || density() != "1x")
             QSKIP("a picture of the manual, made by ./dev accept-pictures");

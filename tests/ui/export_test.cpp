@@ -69,7 +69,7 @@ private slots:
                  image.samples[200 * std::size_t(image.width) + 100]);
     }
 
-    // What a picture has besides has lines of its own.
+    // Texts that only an exported picture has get their own lines.
     void annotationsOfAPlaneAreAsInItsPane() {
         auto *const axial = find<ui::MprView>("axialView");
         projection()->setFocus(); // the frame of the focus is not exported

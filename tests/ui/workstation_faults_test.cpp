@@ -82,7 +82,7 @@ private slots:
         QVERIFY(changed(before, projection()->picture()) < 0.001);
     }
 
-    // Nothing is written into the picture of a study that is not concerned.
+    // A load that fails writes nothing into the picture of another study.
     void aFailedLoadLeavesThePictureClear() {
         restart();
         open(headPath());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -278,6 +279,42 @@ TEST(SpotCheck, OfAPartBesideTheBodyMayBeAnyNumber) {
         worst = std::max(worst, truth);
     }
     EXPECT_GT(worst, 1.0);
+}
+
+// A packet of waves near the edge of the band has its tails in one direction; beside it, they fold
+// back into the picture.
+TEST(SpotCheck, ItsUpperLimitCoversTheTailsOfARegularPattern) {
+    const auto lattice = volume::Lattice::centred({48, 48, 48}, {1, 1, 1});
+    struct View {
+        glm::dvec3 turns; // of the wave, per sample
+        glm::dquat orientation;
+        glm::dvec2 panMm;
+    };
+    scene::Scene scene = sceneOf(lattice, 0.1);
+    scene.camera.width = scene.camera.height = 24;
+    for (const auto &[turns, orientation, pan] :
+         {View{{0.32, -0.045, 0.283}, {0.0339, 0.3062, -0.8565, -0.4141}, {-25.9, 34.58}},
+          View{{0.0, 0.0, 0.475}, {0.8721, 0.2297, 0.4205, -0.0992}, {-21.07, -37.71}},
+          View{{0.098, -0.3, -0.309}, {0.2031, 0.2106, 0.6881, 0.664}, {36.59, -22.97}}}) {
+        const auto field = fieldOf(lattice, [&](const glm::dvec3 &x) {
+            const glm::dvec3 samples = 23.5 * x;
+            return float(0.5 + 0.5 * std::cos(2.0 * std::numbers::pi * glm::dot(turns, samples)) *
+                                   std::exp(-glm::dot(samples, samples) / 94.0));
+        });
+        scene.camera.orientation = glm::normalize(orientation);
+        scene.camera.panMm = pan;
+        const auto engine =
+            prepare::prepareEngine(
+                {.scene = scene, .fields = classify::ShownFields{{field}, {}}, .pictures = 1})
+                .engine;
+        const auto stated =
+            prepare::measuredError(*engine, {{field}, {}}, scene.camera, scene.image);
+        EXPECT_LE(test::relativeL2(engine->render(scene.camera, scene.image).samples,
+                                   reference::WideKernel(field.values, field.support)
+                                       .image(scene.camera, scene.image)),
+                  stated.high)
+            << pan.x;
+    }
 }
 
 // A picture of pixels that are too small to be checked, where every frequency is summed.
