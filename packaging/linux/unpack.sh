@@ -27,13 +27,19 @@ is_complete() {
         (cd "$to" && sha256sum -c "$contents" >/dev/null 2>&1)
 }
 is_taken() { [ -e "$to" ] && [ -n "$(ls -A "$to" 2>/dev/null || echo a file)" ]; }
-if is_complete; then
-    say "is already in $to"
-    exit
-fi
+leave_complete() {
+    if is_complete; then
+        say "is already in $to"
+        exit
+    fi
+}
+leave_complete
 # The caller would remain in the folder that is replaced.
 [ "$to" != "$(readlink -m "$started_in")" ] || refuse "choose another folder than the current one"
-! is_taken || refuse "$to already exists with other contents; remove it, or choose another folder"
+if is_taken; then
+    leave_complete # since the last look, another task may have been faster
+    refuse "$to already exists with other contents; remove it, or choose another folder"
+fi
 mkdir -p "$(dirname "$to")"
 new=$(mktemp -d "$to.XXXXXX") || refuse "nothing can be written beside $to"
 trap 'rm -rf "$new"' EXIT
