@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/json_text.h"
+#include "core/plan/sheared_grid.h"
 
 namespace pellucid::cli {
 
@@ -29,6 +30,22 @@ json modelJson(const plan::FrameModel &model) {
             {"transform_operations", std::llround(model.transformOperations)},
             {"bytes", {{"spectra", model.spectrumBytes}, {"frame", model.frameBytes}}},
             {"left_out", leftOut}};
+}
+
+// The keys of a plan whose pictures are made without spectra.
+json withoutSpectra(const char *combination, int images, const plan::RenderPlan &plan) {
+    return {{"model",
+             {{"spectra", json::array()},
+              {"slices", 0},
+              {"images", images},
+              {"combination", combination},
+              {"multiply_adds", nullptr},
+              {"transform_operations", nullptr},
+              {"bytes", {{"spectra", 0}, {"frame", plan.bytes}}},
+              {"left_out", json::array()}}},
+            {"predicted_error", plan.predictedError},
+            {"adaptive_error", 0.0},
+            {"kernel_widths", json::object()}};
 }
 
 } // namespace
@@ -59,23 +76,26 @@ json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
 }
 
 json exactPlanJson(int images, const plan::RenderPlan &plan, const std::string &reason) {
-    return {{"model",
-             {{"spectra", json::array()},
-              {"slices", 0},
-              {"images", images},
-              {"combination", "each image is evaluated by itself, in double precision"},
-              {"multiply_adds", nullptr},
-              {"transform_operations", nullptr},
-              {"bytes", {{"spectra", plan.bytes}, {"frame", nullptr}}},
-              {"left_out", json::array()}}},
-            {"kernel", "KB12"},
-            {"taps", 12 * 12 * 12},
-            {"padding", 2.0},
-            {"storage", "f64"},
-            {"predicted_error", plan.predictedError},
-            {"adaptive_error", 0.0},
-            {"kernel_widths", json::object()},
-            {"reason", reason}};
+    json keys =
+        withoutSpectra("each image is evaluated by itself, in double precision", images, plan);
+    keys.update({{"kernel", "sinh13"},
+                 {"taps", 13 * 13 * 13},
+                 {"padding", 2.0},
+                 {"storage", "f64"},
+                 {"reason", reason}});
+    return keys;
+}
+
+json sumPlanJson(int images, const plan::RenderPlan &plan) {
+    const fourier::Kernel &kernel = plan::readKernel();
+    json keys = withoutSpectra("the samples are summed along the view", images, plan);
+    keys.update({{"kernel", kernel.name()},
+                 {"taps", kernel.width() * kernel.width()},
+                 {"padding", plan::readPadding},
+                 {"storage", "f32"},
+                 {"box", sizeJson(plan.spectrum.box.size())},
+                 {"reason", plan.reason.english()}});
+    return keys;
 }
 
 } // namespace pellucid::cli

@@ -20,5 +20,7 @@ nlohmann::json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
 /// The same keys for the exact reference, see `prepare::PreparedEngine::exact`. `reason`: why it
 /// renders the images.
 nlohmann::json exactPlanJson(int images, const plan::RenderPlan &plan, const std::string &reason);
+/// The same keys for pictures from sums along the view, see `prepare::PreparedEngine::sums`.
+nlohmann::json sumPlanJson(int images, const plan::RenderPlan &plan);
 
 } // namespace pellucid::cli

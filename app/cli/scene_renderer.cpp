@@ -81,8 +81,11 @@ void SceneRenderer::prepare() {
                                              .fields = std::move(fields),
                                              .budget = m_budget,
                                              .mayBeExact = true,
+                                             .mayBeSums = !m_card.passes,
                                              .pictures = m_pictures},
                                             m_progress);
+        if (m_prepared->sums) // it holds them
+            m_fields = m_prepared->sums->fields();
         useCard();
     } catch (const Error &error) {
         if (error.code() != ErrorCode::outOfMemory || !m_given)
@@ -219,8 +222,8 @@ picture::ProjectionImage SceneRenderer::make(const scene::Camera &camera, Check 
         m_lastError = *known;
     // Nothing could check the exact reference.
     if (!isExact() && (check == Check::measure || !known))
-        measure(camera, by.onCard ? static_cast<render::ProjectionEngine &>(*by.onCard)
-                                  : *by.prepared.engine);
+        measure(camera, by.onCard ? static_cast<picture::PeriodProjector &>(*by.onCard)
+                                  : by.prepared.measurable());
     return std::move(*image);
 }
 
@@ -239,7 +242,7 @@ std::optional<picture::ProjectionImage> SceneRenderer::imageOfCard(const scene::
     }
 }
 
-void SceneRenderer::measure(const scene::Camera &camera, render::ProjectionEngine &maker) {
+void SceneRenderer::measure(const scene::Camera &camera, picture::PeriodProjector &maker) {
     // The question is whether the picture keeps the tolerance, not by how much.
     m_lastError =
         prepare::measuredError(maker, studyFields(), camera, m_scene.image, m_scene.shading,
@@ -255,6 +258,8 @@ nlohmann::json SceneRenderer::planJson() const {
     const plan::RenderPlan &plan = m_prepared->plan;
     if (isExact())
         return exactPlanJson(images(), plan, whyExact);
+    if (m_prepared->sums)
+        return sumPlanJson(images(), plan);
     const render::EngineParts parts = m_prepared->engine->parts();
     nlohmann::json json = cli::planJson(
         plan, m_scene,

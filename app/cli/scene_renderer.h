@@ -39,8 +39,8 @@ struct MemoryLimit {
 };
 
 /// Makes pictures of one scene from any direction, within its tolerance: by an engine on the
-/// processor or on the card or, where no plan keeps the tolerance, by the exact reference. Plans
-/// again if a part of the volume misses it.
+/// processor or on the card; a single one from sums along its view; where no plan keeps the
+/// tolerance, by the exact reference. Plans again if a part of the volume misses it.
 class SceneRenderer {
 public:
     /// `pictures`: how many will be made. *Throws* Error{outOfMemory}, naming the path;
@@ -121,7 +121,7 @@ private:
     picture::ProjectionImage imageOfOneWidth(const scene::Camera &camera, Check check);
     std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera,
                                                         gpu::GpuEngine &card);
-    void measure(const scene::Camera &camera, render::ProjectionEngine &maker);
+    void measure(const scene::Camera &camera, picture::PeriodProjector &maker);
     void takeErrors();
     std::string missedText(double error, error::Shown shown) const;
     const classify::ShownFields &studyFields();

@@ -14,8 +14,7 @@
 
 #include "core/field/least_projection_energy.h"
 #include "core/field/line_integral_bound.h"
-#include "core/field/row_reader.h"
-#include "core/volume/lane_sum.h"
+#include "core/field/row_sums.h"
 
 namespace pellucid::field {
 
@@ -134,14 +133,6 @@ private:
             for (std::vector<float> *const each : {&energy, &mass, &maxima})
                 std::fill(each->begin(), each->end(), 0.0F);
         }
-        void add(const float *row) {
-            const std::size_t count = energy.size();
-            for (std::size_t i = 0; i < count; ++i) {
-                energy[i] += row[i] * row[i];
-                mass[i] += row[i];
-                maxima[i] = std::max(maxima[i], row[i]);
-            }
-        }
         std::vector<float> energy, mass, maxima;
     };
 
@@ -178,14 +169,14 @@ private:
                 reader.start(firstJ, k);
                 for (int j = firstJ; j < endJ; ++j) {
                     const RowAndNeighbours rows = reader.next(j, k);
-                    sums.add(rows.here);
-                    raise(inPlane.data(), rows.here);
-                    raise(inRows.data() + std::size_t(j - firstJ) * m_size.i, rows.here);
+                    addRow(rows.here, m_size.i,
+                           {sums.energy.data(), sums.mass.data(), sums.maxima.data(),
+                            inPlane.data(), inRows.data() + std::size_t(j - firstJ) * m_size.i});
                     const double energy = addParts(rows.here, j, k - firstK, layer);
                     layer.alongJ[j] += energy;
                     m_result.axis[2][k] += energy;
-                    layer.differences += squaredDifferences(rows, j, k, energy);
-                    addLeastAndRadius(rows.here, j, k, layer);
+                    layer.differences += allSquaredDifferences(rows, j, k, energy);
+                    addRadius(rows.here, j, k, layer);
                 }
                 for (int block = 0; block < m_across; ++block)
                     m_maxima[2].at(k, down, block) = maxOf(inPlane.data(), block);
@@ -207,32 +198,23 @@ private:
         for (std::size_t n = 0; n < m_ranges[0].size(); ++n) {
             const float *const part = row + m_ranges[0][n].first;
             const int count = m_ranges[0][n].last - m_ranges[0][n].first + 1;
-            const auto square =
-                double(volume::laneSum(count, [&](int i) { return part[i] * part[i]; }));
-            energy += square;
-            layer.partEnergy[first + n] += square;
-            layer.partMass[first + n] +=
-                double(volume::laneSum(count, [&](int i) { return part[i]; }));
+            const PartSums sums = partSums(part, count);
+            energy += double(sums.energy);
+            layer.partEnergy[first + n] += double(sums.energy);
+            layer.partMass[first + n] += double(sums.mass);
+            layer.least = std::min(layer.least, double(sums.least));
         }
         return energy;
     }
 
     // The squares of the second differences at the samples of a row, at the two samples beyond its
     // ends, and in the rows beyond the box next to it. `energy`: of the row.
-    double squaredDifferences(const RowAndNeighbours &rows, int j, int k, double energy) const {
+    double allSquaredDifferences(const RowAndNeighbours &rows, int j, int k, double energy) const {
         const float *const here = rows.here;
         const int count = m_size.i;
         double sum =
             energy * (int(j == 0) + int(j == m_size.j - 1) + int(k == 0) + int(k == m_size.k - 1));
-        sum += double(volume::laneSum(count, [&](int i) {
-            const float twice = 2.0F * here[i], down = rows.above[i] + rows.below[i] - twice,
-                        deep = rows.before[i] + rows.after[i] - twice;
-            return down * down + deep * deep;
-        }));
-        sum += double(volume::laneSum(count - 2, [&](int i) {
-            const float across = here[i] + here[i + 2] - 2.0F * here[i + 1];
-            return across * across;
-        }));
+        sum += squaredDifferences(rows, count);
         if (count == 1)
             return sum + 6.0 * energy;
         for (const auto &[end, next] : {std::pair(0, 1), std::pair(count - 1, count - 2)}) {
@@ -242,22 +224,14 @@ private:
         return sum;
     }
 
-    void raise(float *maxima, const float *row) const {
-        for (int i = 0; i < m_size.i; ++i)
-            maxima[i] = std::max(maxima[i], row[i]);
-    }
     float maxOf(const float *maxima, int block) const {
         return *std::max_element(maxima + block * m_side,
                                  maxima + std::min(m_size.i, (block + 1) * m_side));
     }
 
-    // The least value of a row, and the distance of its outermost nonzero samples.
-    void addLeastAndRadius(const float *row, int j, int k, Layer &layer) const {
+    // The distance of the outermost nonzero samples of a row.
+    void addRadius(const float *row, int j, int k, Layer &layer) const {
         const float *const end = row + m_size.i;
-        float least = 0.0F;
-        for (int i = 0; i < m_size.i; ++i)
-            least = std::min(least, row[i]);
-        layer.least = std::min(layer.least, double(least));
         const auto isSet = [](float f) { return f != 0.0F; };
         const float *const first = std::find_if(row, end, isSet);
         if (first == end)

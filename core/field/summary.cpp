@@ -7,10 +7,15 @@ Summary summarise(const classify::DensityField &field) {
     return summarise({&field, 1}).front();
 }
 
-std::vector<Summary> summarise(std::span<const classify::DensityField> fields) {
+volume::VoxelBox boxOf(std::span<const classify::DensityField> fields) {
     volume::VoxelBox box = fields.front().support;
     for (const classify::DensityField &field : fields)
         box = volume::united(box, field.support);
+    return box;
+}
+
+std::vector<Summary> summarise(std::span<const classify::DensityField> fields) {
+    const volume::VoxelBox box = boxOf(fields);
     std::vector<Summary> summaries;
     for (const classify::DensityField &field : fields)
         summaries.push_back(

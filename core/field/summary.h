@@ -23,6 +23,9 @@ struct Summary {
     std::optional<double> depthRadiusMm;
 };
 
+/// The box that encloses the fields.
+volume::VoxelBox boxOf(std::span<const classify::DensityField> fields);
+
 /// The summary of a field in the box of its support.
 Summary summarise(const classify::DensityField &field);
 /// Summaries of fields on one lattice that share a plan, each in the box that encloses all of them.

@@ -11,6 +11,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "core/fourier/kernels/premultiplier.h"
 #include "core/fourier/reasons.h"
 #include "core/fourier/transforms/strip_copies.h"
 #include "core/fourier/transforms/strip_transform.h"
@@ -37,14 +38,6 @@ public:
 private:
     tbb::enumerable_thread_specific<std::shared_ptr<std::byte[]>> m_memory;
 };
-
-// 1/h along one axis for the samples of the box, with the wrap voxel in the middle.
-std::vector<float> premultiplier(const Kernel &kernel, int samples, int padded) {
-    std::vector<float> factors(samples);
-    for (int n = 0; n < samples; ++n)
-        factors[n] = float(1.0 / kernel.apodisation(double(n - samples / 2) / padded));
-    return factors;
-}
 
 int modulo(int index, int period) {
     return (index % period + period) % period;

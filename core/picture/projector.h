@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "core/picture/projection_image.h"
 #include "core/scene/camera.h"
 #include "core/scene/image_definition.h"
@@ -28,8 +30,8 @@ struct PeriodPicture {
 };
 
 /// Makes projections of its fields: an engine that slices their spectra
-/// (`render::ProjectionEngine`), or the exact reference (`reference::ExactEngine`), which has no
-/// spectra to share.
+/// (`render::ProjectionEngine`), that sums their samples along the view (`render::SumEngine`),
+/// or the exact reference (`reference::ExactEngine`).
 class Projector {
 public:
     virtual ~Projector() = default;
@@ -40,6 +42,33 @@ public:
     virtual ProjectionImage render(const scene::Camera &camera, const scene::ImageDefinition &image,
                                    const shading::Shading &shading = {},
                                    FrameTimes *times = nullptr) = 0;
+};
+
+/// A projector that can also render the whole period of a picture, which measuring the error needs.
+class PeriodProjector : public Projector {
+public:
+    /// The whole period of the picture of a camera: the same slice, and the same pixels where both
+    /// have them. *Throws*, not thread-safe: as `render`.
+    PeriodPicture renderPeriod(const scene::Camera &camera, const scene::ImageDefinition &image,
+                               const shading::Shading &shading = {}) {
+        const scene::Camera whole = periodOf(camera, image);
+        const int width = std::min(camera.width, whole.width),
+                  height = std::min(camera.height, whole.height);
+        return {render(whole, image, shading),
+                whole,
+                (whole.width - width) / 2,
+                (whole.height - height) / 2,
+                width,
+                height,
+                camera.width,
+                camera.height};
+    }
+
+protected:
+    /// The camera of the whole period. The next picture, if it is of that camera, has the same
+    /// grid.
+    virtual scene::Camera periodOf(const scene::Camera &camera,
+                                   const scene::ImageDefinition &image) = 0;
 };
 
 } // namespace pellucid::picture

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/fourier/spectrum.h"
+#include "core/plan/sheared_grid.h"
 #include "core/plan/slice_grid.h"
 
 namespace pellucid::plan {
@@ -18,8 +19,13 @@ double timeInCache(int width, fourier::Storage storage);
 double frameTime(const SliceGrid &grid, const scene::Camera &camera, const volume::Lattice &lattice,
                  const fourier::SpectrumLayout &layout);
 
+/// The least padding of a spectrum. Below 1.2 the seam of a full lattice becomes visible.
+inline constexpr double leastPadding = 1.25;
 /// The time to prepare a spectrum with padded axes of these sizes. *Units*: as above.
 double prepareTime(const volume::GridSize &padded);
+
+/// The time to sum the samples of a box along a view, and to transform the sums. *Units*: as above.
+double sumTime(const ShearedGrid &grid, const volume::VoxelBox &box);
 
 /// Whether frames that choose their widths save more time than it takes to prepare the data for it.
 /// `padded`: the padded sizes of the spectrum.

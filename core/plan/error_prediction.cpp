@@ -138,6 +138,19 @@ void addMomentError(AxisError &error, const fourier::Kernel &kernel,
     error.moment = std::max({error.moment, aliases, slabs.energy(real) + slabs.energy(imaginary)});
 }
 
+double largestTapError(const fourier::Kernel &kernel, double x) {
+    constexpr int places = 32;
+    double largest = 0.0;
+    for (int n = 0; n <= places; ++n)
+        for (int m = 0; m < places; ++m) {
+            const double at = x * n / places;
+            largest = std::max(
+                largest,
+                std::abs(offGrid(kernel, at, double(m) / places) / kernel.apodisation(at) - 1.0));
+        }
+    return largest;
+}
+
 double cueRms(const shading::DepthCue &cue) {
     const double square = cue.strength * cue.strength;
     switch (cue.kind) {

@@ -44,6 +44,10 @@ void addMomentError(AxisError &error, const fourier::Kernel &kernel,
                     const fourier::MomentKernel &moment, int padded,
                     const field::SlabProducts &slabs);
 
+/// The largest error of the taps of an axis at the samples up to x from the wrap voxel, for any
+/// frequency, relative to the amplitude of the sample. *Units*: x in periods.
+double largestTapError(const fourier::Kernel &kernel, double x);
+
 /// The root mean square of a cue over all depths, including those far beyond the volume, where
 /// aliases occur. A linear cue, whose own aliases count separately, is averaged over the depths of
 /// the volume.

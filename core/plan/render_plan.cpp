@@ -97,8 +97,8 @@ public:
                                                                           {leastAliasing, 5},
                                                                           {leastAliasing, 6},
                                                                           {leastAliasing, 7}})),
-          // Below 1.2 the seam of a full lattice becomes visible.
-          m_paddings(choices(scene.interpolation.padding, {1.25, 1.375, 1.5, 1.625, 1.75, 2.0})),
+          m_paddings(
+              choices(scene.interpolation.padding, {leastPadding, 1.375, 1.5, 1.625, 1.75, 2.0})),
           m_storages(choices(scene.interpolation.storage,
                              {fourier::Storage::binary16, fourier::Storage::float32})),
           m_axes{KernelCandidates(0, fields, cueOf(scene)),
@@ -355,13 +355,16 @@ RenderPlan withDetail(RenderPlan plan, const scene::ImageDefinition &image) {
 
 } // namespace
 
-RenderPlan planRender(const scene::Scene &scene, std::span<const field::Summary> fields,
-                      const Composition &composition, const Budget &budget) {
-    scene::validate(scene);
-    // The filter would need room around the projection many times its size.
+void requireDetailFits(const scene::Scene &scene, std::span<const field::Summary> fields) {
     for (const field::Summary &field : fields)
         if (scene.image.detail > 0.0 && scene.image.detailMm > field.lattice.radiusMm())
             throw task::Error(task::ErrorCode::usage, task::because::detailIsLargerThanTheVolume);
+}
+
+RenderPlan planRender(const scene::Scene &scene, std::span<const field::Summary> fields,
+                      const Composition &composition, const Budget &budget) {
+    scene::validate(scene);
+    requireDetailFits(scene, fields);
     scene::Scene plain = scene;
     plain.tolerance /= scene::detailGain(scene.image);
     return withDetail(Planner(plain, fields, composition, budget).plan(), scene.image);

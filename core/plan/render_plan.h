@@ -80,6 +80,10 @@ struct Composition {
 RenderPlan planRender(const scene::Scene &scene, std::span<const field::Summary> fields,
                       const Composition &composition, const Budget &budget = {});
 
+/// *Throws* Error{usage} if detail is larger than a field: the filter would need room around the
+/// projection many times its size.
+void requireDetailFits(const scene::Scene &scene, std::span<const field::Summary> fields);
+
 /// If the plan is adaptive, spends the rest of the tolerance on narrower kernels and on leaving
 /// frequencies out. Each frame measures where. *Shape*: the fields of the plan.
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene,

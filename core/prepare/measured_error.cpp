@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/prepare/measured_error.h"
 
-#include <array>
-#include <vector>
-
 namespace pellucid::prepare {
 
 scene::Camera checkedCamera(const scene::Camera &camera, const volume::Lattice &lattice) {
@@ -17,16 +14,12 @@ error::StatedError measuredError(const StudyFields &study, const shading::Shadin
                                  const task::Progress &progress,
                                  const std::function<void(const error::StatedError &)> &refined) {
     const classify::ShownFields fields = study(progress);
-    std::vector<std::array<double, 3>> weights;
-    for (std::size_t n = 0; n < fields.channels.size(); ++n) {
-        const classify::Color &color = fields.colors[n];
-        weights.push_back({color.red, color.green, color.blue});
-    }
-    const error::ShownRows rows(fields.channels, weights, shading, period.camera.axes(), scale);
+    const error::ShownRows rows(fields.channels, render::channelWeightsOf(fields), shading,
+                                period.camera.axes(), scale);
     return error::spotCheck(period, image, rows, effort, progress, refined);
 }
 
-error::StatedError measuredError(render::ProjectionEngine &engine,
+error::StatedError measuredError(picture::PeriodProjector &engine,
                                  const classify::ShownFields &study, const scene::Camera &camera,
                                  const scene::ImageDefinition &image,
                                  const shading::Shading &shading, const error::CheckEffort &effort,

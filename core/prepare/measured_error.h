@@ -28,7 +28,7 @@ measuredError(const StudyFields &study, const shading::ShadingScale &scale,
 
 /// The same for the picture that an engine makes of these fields, at their own scale. Renders the
 /// period with `checkedCamera(camera)`.
-error::StatedError measuredError(render::ProjectionEngine &engine,
+error::StatedError measuredError(picture::PeriodProjector &engine,
                                  const classify::ShownFields &study, const scene::Camera &camera,
                                  const scene::ImageDefinition &image,
                                  const shading::Shading &shading = {},

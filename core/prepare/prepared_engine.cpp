@@ -9,6 +9,7 @@
 #include "core/error/shown_part.h"
 #include "core/plan/folded_tails.h"
 #include "core/plan/reasons.h"
+#include "core/plan/sum_plan.h"
 #include "core/prepare/reasons.h"
 #include "core/reference/exact_engine.h"
 #include "core/scene/planning_scene.h"
@@ -68,6 +69,28 @@ std::shared_ptr<render::CpuEngine> engineOf(render::EngineParts parts) {
     engine->setWidths(std::move(parts.adaptive));
     engine->setChannelWeights(std::move(parts.channelWeights));
     return engine;
+}
+
+// An engine that holds the fields, if it is faster and good enough.
+std::optional<PreparedEngine> sumEngine(const scene::Scene &scene, classify::ShownFields &fields,
+                                        const plan::Composition &composition,
+                                        const plan::Budget &budget,
+                                        const task::Progress &progress) {
+    scene::validate(scene);
+    const std::span<const classify::DensityField> channels = fields.channels;
+    const volume::Lattice lattice = channels.front().values.lattice();
+    if (!plan::sumsPay(scene, lattice, field::boxOf(channels), composition))
+        return std::nullopt;
+    auto plan = plan::planSums(scene, field::summarise(channels), composition);
+    if (!plan || (plan->bytes > budget.bytes && budget.decides))
+        return std::nullopt;
+    requireWithin(plan->bytes, budget);
+    PreparedEngine prepared{.plan = std::move(*plan),
+                            .lattice = lattice,
+                            .of = channels.size() > 1 ? plan::SpectrumOf::color
+                                                      : plan::SpectrumOf::look};
+    prepared.sums = std::make_shared<render::SumEngine>(std::move(fields), prepared.plan, progress);
+    return prepared;
 }
 
 } // namespace
@@ -175,6 +198,9 @@ PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progre
     budget.bytes -= std::min(budget.bytes, bytesForLight(scene.shading, lattice.size(), channels));
     const bool mayBeExact = request.mayBeExact && scene.interpolation.isPlanned() &&
                             scene.plannedFor == scene::PlannedFor::picture;
+    if (request.mayBeSums)
+        if (auto sums = sumEngine(scene, fields, composition, budget, progress))
+            return std::move(*sums);
     classify::ShownFields exactFields = mayBeExact ? fields : classify::ShownFields{};
     FittingPlan fitting =
         planWithin(scene,

@@ -10,6 +10,7 @@
 #include "core/prepare/measured_error.h"
 #include "core/prepare/shaded_fields.h"
 #include "core/render/cpu_engine.h"
+#include "core/render/sum_engine.h"
 
 namespace pellucid::prepare {
 
@@ -25,6 +26,8 @@ struct EngineRequest {
     /// Whether the exact reference makes the pictures if no plan keeps the tolerance: not if memory
     /// is short, the scene sets the interpolation, or the plan is for the whole volume.
     bool mayBeExact = false;
+    /// Whether `render::SumEngine` may make the pictures, where `plan::sumsPay` says so.
+    bool mayBeSums = false;
     /// How many will be made. A plan for the whole volume is the workstation's, so that its
     /// pictures can be made again.
     int pictures = plan::Composition().pictures;
@@ -50,10 +53,12 @@ FittingPlan planWithin(const scene::Scene &scene, ShadedFields fields,
 /// *Throws* Error{outOfMemory} if pictures need more bytes than the budget has.
 void requireWithin(std::size_t needed, const plan::Budget &budget);
 
-/// An engine that is ready to render a look, or the exact reference in its place.
+/// An engine that is ready to render a look, or what makes its pictures without spectra.
 struct PreparedEngine {
-    std::shared_ptr<render::ProjectionEngine> engine; ///< null if the exact reference makes them
-    std::shared_ptr<picture::Projector> exact;        ///< null if an engine makes them
+    /// One of these makes the pictures; the others are null.
+    std::shared_ptr<render::ProjectionEngine> engine;
+    std::shared_ptr<render::SumEngine> sums;
+    std::shared_ptr<picture::Projector> exact;
     plan::RenderPlan plan;   ///< for the exact reference: its error and bytes
     volume::Lattice lattice; ///< of the prepared fields
     std::size_t bytes = 0;   ///< of the spectra
@@ -64,7 +69,11 @@ struct PreparedEngine {
     plan::SpectrumOf of = plan::SpectrumOf::look;
     StudyFields study; ///< what its pictures are measured against; empty: nothing
 
-    picture::Projector &projector() const { return engine ? *engine : *exact; }
+    picture::Projector &projector() const { return exact ? *exact : measurable(); }
+    /// *Requires*: the exact reference does not make the pictures.
+    picture::PeriodProjector &measurable() const {
+        return engine ? static_cast<picture::PeriodProjector &>(*engine) : *sums;
+    }
 };
 
 /// The data for choosing the kernel widths of a plan's frames; null if one width reads everything.

@@ -9,6 +9,15 @@
 
 namespace pellucid::render {
 
+std::vector<ChannelWeights> channelWeightsOf(const classify::ShownFields &fields) {
+    std::vector<ChannelWeights> weights;
+    for (std::size_t n = 0; n < fields.channels.size(); ++n) {
+        const classify::Color &color = fields.colors[n];
+        weights.push_back({color.red, color.green, color.blue});
+    }
+    return weights;
+}
+
 int colorsOf(std::span<const ChannelWeights> channelWeights) {
     return areGrey(channelWeights) ? 0 : int(classify::colorBasis(channelWeights).colors.size());
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/classify/shown_fields.h"
 #include "core/fourier/spectrum.h"
 #include "core/picture/projector.h"
 #include "core/plan/slice_grid.h"
@@ -24,6 +25,9 @@ inline bool areGrey(std::span<const ChannelWeights> channelWeights) {
         channelWeights.begin(), channelWeights.end(),
         [](const ChannelWeights &share) { return share[0] == share[1] && share[1] == share[2]; });
 }
+
+/// Those of the fields of a look.
+std::vector<ChannelWeights> channelWeightsOf(const classify::ShownFields &fields);
 
 /// The rank of the weights; 0 if all are grey.
 int colorsOf(std::span<const ChannelWeights> channelWeights);
@@ -47,31 +51,9 @@ struct EngineParts {
 
 /// Makes projections of prepared fields by slicing their spectra. Engines are interchangeable:
 /// under the same plan they give the same image within a stated rounding bound.
-class ProjectionEngine : public picture::Projector {
+class ProjectionEngine : public picture::PeriodProjector {
 public:
     virtual EngineParts parts() const = 0;
-    /// The whole period of the picture of a camera: the same slice, and the same pixels where both
-    /// have them. *Throws*, not thread-safe: as `render`.
-    picture::PeriodPicture renderPeriod(const scene::Camera &camera,
-                                        const scene::ImageDefinition &image,
-                                        const shading::Shading &shading = {}) {
-        const scene::Camera whole = periodOf(camera, image);
-        const int width = std::min(camera.width, whole.width),
-                  height = std::min(camera.height, whole.height);
-        return {render(whole, image, shading),
-                whole,
-                (whole.width - width) / 2,
-                (whole.height - height) / 2,
-                width,
-                height,
-                camera.width,
-                camera.height};
-    }
-
-protected:
-    /// The camera of the whole period. The next frame, if it is of that camera, has the same grid.
-    virtual scene::Camera periodOf(const scene::Camera &camera,
-                                   const scene::ImageDefinition &image) = 0;
 };
 
 } // namespace pellucid::render

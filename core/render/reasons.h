@@ -14,6 +14,7 @@ PELLUCID_REASON(anImageOfThisSize, "an image of this size")
 PELLUCID_REASON(nothingVisible, "nothing is visible, so there is no spectrum to show")
 PELLUCID_REASON(cpuEngine, "CPU engine, %1, %2 threads")
 PELLUCID_REASON(cpuEngineOfOneThread, "CPU engine, %1, %2 thread")
+PELLUCID_REASON(sumsAlongTheView, "sums along the view, %1")
 // clang-format on
 
 } // namespace pellucid::task::because

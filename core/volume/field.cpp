@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/task/error.h"
+#include "core/volume/ramp_row.h"
 #include "core/volume/reasons.h"
 
 namespace pellucid::volume {
@@ -53,9 +54,7 @@ void Field::computeRow(VoxelIndex first, int count, float *to) const {
             std::copy_n(from, count, to);
             return;
         }
-        const Ramp ramp = *m_ramp;
-        for (int n = 0; n < count; ++n)
-            to[n] = ramp(float(from[n]));
+        rampRow(*m_ramp, from, count, to);
     });
 }
 

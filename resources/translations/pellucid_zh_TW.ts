@@ -3897,6 +3897,14 @@
         <source>files that are not images: %1</source>
         <translation>不是影像的檔案：%1</translation>
     </message>
+    <message>
+        <source>for one picture, summing along the view is faster than computing a spectrum</source>
+        <translation>只有一張影像時，沿視線方向加總比計算頻譜快</translation>
+    </message>
+    <message>
+        <source>sums along the view, %1</source>
+        <translation>沿視線方向加總，%1</translation>
+    </message>
 </context>
 <context>
     <name>RegionTexts</name>

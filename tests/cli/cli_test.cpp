@@ -77,6 +77,27 @@ TEST_F(Cli, RendersToNumbersThatTheExactReferenceConfirms) {
     }
 }
 
+// A single picture needs no spectrum of the volume, and less memory; both ways show the same.
+TEST_F(Cli, SumsASinglePictureAlongItsView) {
+    const fs::path series = phantomFolder("--kind head --size 128x128x96");
+    const auto render = [&](const std::string &name, const std::string &options) {
+        const auto r = cli("render " + quoted(series) + " -o " + quoted(folder / name) +
+                           " --azimuth 30 --elevation 20 --json " + options);
+        EXPECT_EQ(r.exitCode, 0) << r.error;
+        return json::parse(r.out);
+    };
+    const json sums = render("sums.npy", ""), spectrum = render("spectrum.npy", "--padding 1.5");
+    EXPECT_EQ(sums["plan"]["model"]["combination"], "the samples are summed along the view");
+    EXPECT_EQ(spectrum["plan"]["model"]["combination"], "one grey image");
+    EXPECT_LT(sums["bytes"], spectrum["bytes"]);
+    for (const auto &[key, value] : sums["plan"].items())
+        EXPECT_TRUE(spectrum["plan"].contains(key)) << key;
+    int height = 0, width = 0;
+    EXPECT_LT(test::relativeL2(readNpy(folder / "sums.npy", height, width),
+                               readNpy(folder / "spectrum.npy", height, width)),
+              1.1e-3);
+}
+
 // A part of a picture that holds less than its share of the whole is planned again until it keeps
 // the tolerance itself. The parts are strips of a few thick, tilted slices, from the middle to
 // beyond the skin.

@@ -2,16 +2,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <string>
 
 #include <hwy/targets.h>
 
 #include "core/field/slab_products.h"
 #include "core/plan/error_prediction.h"
+#include "core/plan/sum_plan.h"
 #include "core/reference/shaded_field.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/cpu_engine.h"
 #include "core/render/frame_job.h"
+#include "core/render/sum_engine.h"
 #include "tests/support/fields.h"
 
 namespace pellucid {
@@ -87,6 +91,31 @@ render::CpuEngine shadedEngine(const std::shared_ptr<const fourier::Spectrum> &s
             threads};
 }
 
+// Calls `work` with each instruction set of this processor, the best first.
+void withEachSet(const std::function<void(const std::string &set)> &work) {
+    for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
+        hwy::SetSupportedTargetsForTest(rest & -rest);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        work(render::instructionSet());
+        hwy::SetSupportedTargetsForTest(0);
+    }
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+void expectAgreement(const std::function<picture::Samples()> &render, const std::string &what) {
+    picture::Samples best;
+    withEachSet([&](const std::string &set) {
+        const auto image = render();
+        if (best.empty())
+            best = image;
+        const float peak = *std::max_element(best.begin(), best.end());
+        float most = 0.0F;
+        for (std::size_t n = 0; n < best.size(); ++n)
+            most = std::max(most, std::abs(best[n] - image[n]));
+        EXPECT_LT(most, 2e-6F * peak) << what << " " << set;
+    });
+}
+
 // CpuEngine promises that instruction sets agree within 2e-6 of the largest value. They add in
 // different orders, and only some fuse multiplications and additions.
 TEST(InstructionSets, AgreeWithinRounding) {
@@ -102,27 +131,44 @@ TEST(InstructionSets, AgreeWithinRounding) {
                     std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(
                         field.values,
                         {{kernel, kernel, kernel}, field.support, {48, 48, 28}, storage}));
-                picture::Samples best;
-                float peak = 0.0F;
-                const std::int64_t all = hwy::SupportedTargets();
-                for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
-                    hwy::SetSupportedTargetsForTest(rest & -rest);
-                    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-                    const std::string set = render::instructionSet();
-                    const auto image =
-                        shadedEngine(spectrum, 0).render(camera, {}, shading).samples;
-                    if (best.empty()) {
-                        best = image;
-                        peak = *std::max_element(best.begin(), best.end());
-                    }
-                    float most = 0.0F;
-                    for (std::size_t n = 0; n < best.size(); ++n)
-                        most = std::max(most, std::abs(best[n] - image[n]));
-                    EXPECT_LT(most, 2e-6F * peak) << name << " " << set;
-                }
-                hwy::SetSupportedTargetsForTest(0);
-                hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+                expectAgreement(
+                    [&] { return shadedEngine(spectrum, 0).render(camera, {}, shading).samples; },
+                    name);
             }
+}
+
+TEST(InstructionSets, SumTheSameAlongAView) {
+    const auto lattice = test::tiltedLattice({32, 30, 17}, {1, 1, 2}, 10);
+    const classify::ShownFields fields{{test::noiseField(lattice)}, {}};
+    scene::Scene scene;
+    scene.camera = scene::defaultCamera(lattice);
+    const auto plan =
+        plan::planSums(scene, field::summarise(std::span(fields.channels)), {}).value();
+    for (const auto view : {scene::StandardView::front, scene::StandardView::left}) {
+        scene.camera.orientation = scene::viewOrientation(view, {25, 35, 45});
+        expectAgreement(
+            [&] { return render::SumEngine(fields, plan).render(scene.camera, {}).samples; },
+            "sums");
+    }
+}
+
+// Plans follow from these: they must not differ from machine to machine.
+TEST(InstructionSets, GiveAFieldTheSameStatistics) {
+    const auto lattice = volume::Lattice::centred({37, 30, 17}, {1, 1, 2});
+    const auto volume =
+        test::volumeOf(lattice, [](const glm::dvec3 &at) { return std::sin(at.x * at.y) + at.z; });
+    const auto field = classify::densityField(volume, {-3.0, 2.5});
+    std::optional<field::EnergyMarginals> best;
+    withEachSet([&](const std::string &set) {
+        const auto energy = field::energyMarginals(field.values, field.support);
+        if (!best)
+            best = energy;
+        EXPECT_EQ(energy.axis, best->axis) << set;
+        EXPECT_EQ(energy.massMm3, best->massMm3) << set;
+        EXPECT_EQ(energy.spread->byDistance, best->spread->byDistance) << set;
+        EXPECT_EQ(energy.spread->roughestView, best->spread->roughestView) << set;
+        EXPECT_EQ(energy.spread->peakedness, best->spread->peakedness) << set;
+    });
 }
 
 TEST(InstructionSets, FourThreadsGiveTheBitsOfOne) {
