@@ -18,7 +18,7 @@
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/transforms/wisdom.h"
-#include "core/system/hidden_memory.h"
+#include "core/platform/memory.h"
 #include "core/task/error.h"
 #include "core/task/progress.h"
 
@@ -110,7 +110,7 @@ int run(int argc, char **argv) {
 
 int main(int argc, char **argv) {
     using namespace pellucid;
-    system::hideMemory();
+    platform::hideMemory();
     try {
         return run(argc, argv);
     } catch (const CLI::ParseError &error) {

@@ -18,9 +18,8 @@
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/transforms/wisdom.h"
-#include "core/system/hidden_memory.h"
+#include "core/platform/memory.h"
 #include "core/system/log.h"
-#include "core/system/memory.h"
 #include "core/task/error.h"
 #include "ui/engine/graphics_card.h"
 #include "ui/language/failure.h"
@@ -67,7 +66,7 @@ void endOnSignals(QObject &application) {
 
 int main(int argc, char **argv) {
     using namespace pellucid;
-    system::leaveMemoryOutOfDumps(); // not hideMemory: desktops then refuse their dialogs
+    platform::leaveMemoryOutOfDumps(); // not hideMemory: desktops then refuse their dialogs
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App options("View DICOM studies as transparent projections", "pellucid");
     std::vector<std::string> paths;
@@ -123,10 +122,10 @@ int main(int argc, char **argv) {
 #endif
     // Libraries map much memory at start, and some software renderers crash if they cannot.
     constexpr std::size_t mappedToStart = std::size_t(1100) << 20;
-    if (system::mappableBytes() < mappedToStart) {
+    if (platform::mappableBytes() < mappedToStart) {
         std::fprintf(
             stderr, "pellucid: not enough memory to start: needs %zu MB, the limit leaves %zu MB\n",
-            mappedToStart >> 20, system::mappableBytes() >> 20);
+            mappedToStart >> 20, platform::mappableBytes() >> 20);
         return exitCode(task::ErrorCode::outOfMemory);
     }
     system::log("pellucid " PELLUCID_VERSION ", Qt " + std::string(qVersion()));

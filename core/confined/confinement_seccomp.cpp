@@ -16,7 +16,7 @@
 
 #include <seccomp.h>
 
-#include "core/system/hidden_memory.h"
+#include "core/platform/memory.h"
 
 namespace pellucid::confined {
 
@@ -131,7 +131,7 @@ bool limitResources(const Needs &needs) {
     holds = limit(RLIMIT_FSIZE, needs.fileBytes) && holds;
     // Limits private memory; files and an arena, which the parent fills, do not count.
     holds = limit(RLIMIT_DATA, needs.memoryBytes) && holds;
-    system::hideMemory();
+    platform::hideMemory();
 #else
     (void)needs;
 #endif

@@ -5,10 +5,6 @@
 
 namespace pellucid::task {
 
-/// Gives the calling thread the lowest priority, for good: it works while no other thread needs
-/// its processor. A system that refuses leaves it as it is.
-void lowerPriority();
-
 /// Runs the work and all that it does in parallel on the calling thread alone.
 void onThisThread(const std::function<void()> &work);
 

@@ -7,11 +7,9 @@
 #include <system_error>
 #include <thread>
 
-#ifdef __linux__
-#include <pthread.h>
-#include <sched.h>
-#endif
 #include <tbb/global_control.h>
+
+#include "core/platform/threads.h"
 
 namespace pellucid::task {
 
@@ -24,35 +22,9 @@ std::uint64_t claimWord(std::uint64_t phase, int parts) {
     return phase << (2 * partBits) | std::uint64_t(parts) << partBits;
 }
 
-void pause() {
-#if defined(__x86_64__) || defined(__i386__)
-    __builtin_ia32_pause();
-#endif
-}
-
 // How long a worker looks for more work before it sleeps: longer than the gap between the phases of
 // a frame, but negligible between frames.
 constexpr auto patience = std::chrono::microseconds(60);
-
-std::vector<int> allowedProcessors() {
-    std::vector<int> list;
-#ifdef __linux__
-    cpu_set_t set;
-    if (sched_getaffinity(0, sizeof set, &set) == 0)
-        for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu)
-            if (CPU_ISSET(cpu, &set))
-                list.push_back(cpu);
-#endif
-    return list;
-}
-
-int currentProcessor() {
-#ifdef __linux__
-    return sched_getcpu();
-#else
-    return -1;
-#endif
-}
 
 } // namespace
 
@@ -74,7 +46,7 @@ WorkerTeam::WorkerTeam(int threads) : m_threads(threads) {
         return;
     // One more worker than can work at once: the one that stays asleep depends on the processor
     // that the caller runs on.
-    const std::vector<int> processors = allowedProcessors();
+    const std::vector<int> processors = platform::allowedProcessors();
     m_workers.reserve(std::size_t(m_threads)); // push_back must not throw: the thread runs already
     for (int n = 0; n < m_threads; ++n) {
         auto worker = std::make_unique<Worker>();
@@ -120,14 +92,8 @@ bool WorkerTeam::takePart(int slot) {
 }
 
 void WorkerTeam::work(Worker &worker) {
-#ifdef __linux__
-    if (worker.processor >= 0) {
-        cpu_set_t set;
-        CPU_ZERO(&set);
-        CPU_SET(worker.processor, &set);
-        pthread_setaffinity_np(pthread_self(), sizeof set, &set);
-    }
-#endif
+    if (worker.processor >= 0)
+        platform::stayOn(worker.processor);
     auto lastWork = std::chrono::steady_clock::now();
     while (!m_stop.load(std::memory_order_relaxed)) {
         const std::uint32_t seen = worker.wake.load(std::memory_order_acquire);
@@ -139,7 +105,7 @@ void WorkerTeam::work(Worker &worker) {
         }
         if (std::chrono::steady_clock::now() - lastWork < patience) {
             for (int n = 0; n < 16; ++n)
-                pause();
+                platform::rest();
             continue;
         }
         worker.asleep.store(true);
@@ -160,7 +126,7 @@ void WorkerTeam::run(std::span<const Phase> phases) {
         m_claim.store(claimWord(++phaseNumber, phase.parts), std::memory_order_seq_cst);
         if (!woken && phase.parts > 1) {
             woken = true;
-            const int here = currentProcessor();
+            const int here = platform::currentProcessor();
             // The worker on the caller's processor stays asleep; if there is none, the last one.
             int skip = int(m_workers.size()) - 1;
             for (int n = 0; n < int(m_workers.size()); ++n)
@@ -178,7 +144,7 @@ void WorkerTeam::run(std::span<const Phase> phases) {
         while (takePart(0))
             ;
         while (m_done.load(std::memory_order_acquire) < phase.parts)
-            pause();
+            platform::rest();
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/platform/threads.h"
 #include "core/system/log.h"
 #include "core/task/background.h"
 #include "ui/language/failure.h"
@@ -36,7 +37,7 @@ void ErrorMeter::cancel() {
 
 // The measurement never delays a frame: it yields every processor.
 void ErrorMeter::run(const std::stop_token &stop) {
-    task::lowerPriority();
+    platform::lowerPriority();
     for (;;) {
         std::optional<Picture> picture;
         std::stop_token cancelled;

@@ -2,12 +2,12 @@
 #include "core/decoding/process/serve.h"
 
 #include "core/confined/confinement.h"
-#include "core/system/memory.h"
+#include "core/platform/memory.h"
 
 namespace pellucid::decoding::process {
 
 int confine() {
-    return confined::confine({.memoryBytes = system::freeMemoryBytes()});
+    return confined::confine({.memoryBytes = platform::freeMemoryBytes()});
 }
 
 } // namespace pellucid::decoding::process

@@ -9,7 +9,7 @@
 #include <seccomp.h>
 
 #include "core/confined/confinement.h"
-#include "core/system/memory.h"
+#include "core/platform/memory.h"
 
 namespace pellucid::network::process {
 
@@ -25,7 +25,7 @@ constexpr std::uint64_t mostBytes = std::uint64_t(1) << 30, accepterBytes = 256 
 // newfstatat, which tells what any path leads to.
 int confine() {
     return confined::confine(
-        {.memoryBytes = std::min<std::uint64_t>(system::freeMemoryBytes(), mostBytes),
+        {.memoryBytes = std::min<std::uint64_t>(platform::freeMemoryBytes(), mostBytes),
          .fileBytes = std::numeric_limits<std::uint64_t>::max(),
          .calls = {SCMP_SYS(poll), SCMP_SYS(ppoll), SCMP_SYS(select), SCMP_SYS(pselect6),
                    SCMP_SYS(recvfrom), SCMP_SYS(readv), SCMP_SYS(writev), SCMP_SYS(pwrite64),

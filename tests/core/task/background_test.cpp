@@ -4,9 +4,6 @@
 #include <atomic>
 #include <thread>
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -15,17 +12,6 @@
 namespace pellucid {
 
 namespace {
-
-TEST(Background, LowersThePriorityOfItsThreadAlone) {
-    const int before = getpriority(PRIO_PROCESS, id_t(gettid()));
-    int lowered = 0;
-    std::jthread([&] {
-        task::lowerPriority();
-        lowered = getpriority(PRIO_PROCESS, id_t(gettid()));
-    }).join();
-    EXPECT_EQ(lowered, 19);
-    EXPECT_EQ(getpriority(PRIO_PROCESS, id_t(gettid())), before);
-}
 
 // A thread of the pool has the priority of others.
 TEST(Background, ParallelWorkStaysOnTheThread) {
