@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/reasons.h"
-#include "core/files/descriptor.h"
+#include "core/platform/handle.h"
 #include "core/system/utf8.h"
 #include "core/task/error.h"
 #include "core/task/progress.h"
@@ -80,7 +80,7 @@ std::string counted(std::size_t count, const std::string &noun) {
 }
 
 std::string askHidden(const std::string &question, const std::stop_token &stop) {
-    const files::Descriptor terminal(::open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY));
+    const platform::Handle terminal(::open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY));
     termios shown{};
     if (!terminal || ::tcgetattr(terminal.get(), &shown) != 0)
         throw task::Error(task::ErrorCode::usage, task::because::passwordNeedsATerminal);

@@ -16,8 +16,8 @@
 #include <thread>
 
 #include "core/archive/reasons.h"
-#include "core/files/descriptor.h"
 #include "core/network/client/reasons.h"
+#include "core/platform/handle.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
 #include "core/task/reasons.h"
@@ -27,7 +27,7 @@ namespace pellucid::archive {
 namespace {
 
 namespace because = task::because;
-using files::Descriptor;
+using platform::Handle;
 using task::Error;
 using task::ErrorCode;
 
@@ -127,11 +127,11 @@ sockaddr_storage ownAddress(const std::string &text, int port, bool knowsIpv6) {
     return address;
 }
 
-Descriptor openPort(const std::string &address, int port, int &boundPort) {
+Handle openPort(const std::string &address, int port, int &boundPort) {
     const bool knowsIpv6 =
-        bool(Descriptor(::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0))); // may be switched off
+        bool(Handle(::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0))); // may be switched off
     sockaddr_storage at = ownAddress(address, port, knowsIpv6);
-    Descriptor socket(::socket(at.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    Handle socket(::socket(at.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const int on = 1, off = 0;
     ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     ::setsockopt(socket.get(), IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
@@ -195,8 +195,8 @@ private:
                 continue;
             sockaddr_storage from{};
             socklen_t size = sizeof from;
-            Descriptor client(::accept4(m_socket.get(), reinterpret_cast<sockaddr *>(&from), &size,
-                                        SOCK_CLOEXEC));
+            Handle client(::accept4(m_socket.get(), reinterpret_cast<sockaddr *>(&from), &size,
+                                    SOCK_CLOEXEC));
             if (!client) { // perhaps the program has too many files open
                 std::this_thread::sleep_for(std::chrono::milliseconds(pollMs));
                 continue;
@@ -227,7 +227,7 @@ private:
         }
     }
 
-    void begin(Descriptor client, const std::string &address) {
+    void begin(Handle client, const std::string &address) {
         const std::lock_guard lock(m_connectionsMutex);
         const auto waits = [&](const Connection &one) {
             return one.state == Connection::State::waiting && one.address == address;
@@ -318,7 +318,7 @@ private:
         return acceptance;
     }
 
-    void serve(Descriptor socket, Connection &connection, const std::stop_token &stop) {
+    void serve(Handle socket, Connection &connection, const std::stop_token &stop) {
         const std::string address = connection.address;
         ConnectionEnd end{address, address};
         const auto extend = [&](Clock::duration duration) {
@@ -368,7 +368,7 @@ private:
     ListenerObserver m_observer;
     std::mutex m_mutex; // of the observer
     int m_port = 0;
-    Descriptor m_socket;
+    Handle m_socket;
     std::mutex m_connectionsMutex;
     std::list<Connection> m_connections;
     std::jthread m_acceptor;

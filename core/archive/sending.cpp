@@ -2,12 +2,10 @@
 #include "core/archive/sending.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <map>
 #include <optional>
 #include <set>
-#include <sys/stat.h>
 #include <utility>
 
 #include "core/archive/login.h"
@@ -17,6 +15,7 @@
 #include "core/dicom/file_list.h"
 #include "core/dicom/reasons.h"
 #include "core/files/atomic_file.h"
+#include "core/files/open_regular.h"
 #include "core/files/reasons.h"
 #include "core/files/session_folder.h"
 #include "core/network/client/link.h"
@@ -151,12 +150,9 @@ public:
 private:
     void store(network::Link &link, const Outgoing &outgoing) {
         const fs::path &path = outgoing.path;
-        const files::Descriptor file = files::openRegular(path);
-        struct stat about {};
-        if (::fstat(file.get(), &about) != 0)
-            throw Error(ErrorCode::unusable, task::systemReason(errno), path);
+        const files::RegularFile file = files::openRegular(path);
         try {
-            storeFile(link, path, file.get(), std::uint64_t(about.st_size));
+            storeFile(link, path, file.handle.get(), file.facts.bytes);
         } catch (const Error &error) {
             if (!error.reason().is(because::serverDoesNotTakeTheEncoding))
                 throw;

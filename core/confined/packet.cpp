@@ -65,7 +65,7 @@ std::optional<ReceivedPacket> receivePacket(int socket, std::span<std::byte> hea
             for (std::size_t at = 0; CMSG_LEN(at + sizeof(int)) <= c->cmsg_len; at += sizeof(int)) {
                 int fd = -1;
                 std::memcpy(&fd, CMSG_DATA(c) + at, sizeof fd);
-                received.descriptor = files::Descriptor(fd); // closes the previous one
+                received.descriptor = platform::Handle(fd); // closes the previous one
             }
     if (got < ssize_t(head.size()) || (packet.msg_flags & (MSG_TRUNC | MSG_CTRUNC)) != 0)
         return std::nullopt;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "core/files/descriptor.h"
+#include "core/platform/handle.h"
 
 namespace pellucid::confined {
 
@@ -20,7 +20,7 @@ enum class Takes { descriptor, noDescriptors };
 
 struct ReceivedPacket {
     std::size_t bytes = 0; ///< of the head and the body
-    files::Descriptor descriptor;
+    platform::Handle descriptor;
 };
 
 /// Waits for a packet and fills the head, then the body. Empty if the other end is closed, or the

@@ -22,7 +22,7 @@ namespace pellucid::confined {
 
 namespace {
 
-using files::Descriptor;
+using platform::Handle;
 using Clock = std::chrono::steady_clock;
 
 constexpr int cancelPollMs = 20; // the longest wait after a cancel
@@ -33,9 +33,9 @@ constexpr std::chrono::milliseconds endPatience(500);
 }
 
 // Moves it above the numbers that the helper starts with, so that none of them is overwritten.
-Descriptor aboveReserved(int fd) {
-    Descriptor low(fd);
-    Descriptor high(fd < 0 ? -1 : ::fcntl(fd, F_DUPFD_CLOEXEC, 10));
+Handle aboveReserved(int fd) {
+    Handle low(fd);
+    Handle high(fd < 0 ? -1 : ::fcntl(fd, F_DUPFD_CLOEXEC, 10));
     if (!high)
         fail(errno);
     return high;
@@ -59,8 +59,8 @@ Process::Process(const Program &program) {
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
         fail(errno);
     m_socket = aboveReserved(ends[0]);
-    const Descriptor childSocket = aboveReserved(ends[1]);
-    Descriptor file;
+    const Handle childSocket = aboveReserved(ends[1]);
+    Handle file;
     if (program.file >= 0)
         file = aboveReserved(::fcntl(program.file, F_DUPFD_CLOEXEC, 10));
 
@@ -115,7 +115,7 @@ std::optional<int> Process::endSignal() {
 }
 
 void Process::endWithin(std::chrono::milliseconds patience) {
-    m_socket = Descriptor();
+    m_socket = Handle();
     if (m_pid > 0)
         statusWithin(patience);
     *this = Process();

@@ -8,7 +8,7 @@
 #include <sys/types.h>
 #include <vector>
 
-#include "core/files/descriptor.h"
+#include "core/platform/handle.h"
 #include "core/task/progress.h"
 
 namespace pellucid::confined {
@@ -46,7 +46,7 @@ private:
     std::optional<int> statusWithin(std::chrono::milliseconds patience);
 
     pid_t m_pid = -1;
-    files::Descriptor m_socket;
+    platform::Handle m_socket;
 };
 
 /// Waits until a packet, or the end, can be read. False after the deadline. *Throws* Cancelled.

@@ -14,8 +14,8 @@
 
 #include <fmt/format.h>
 
-#include "core/files/descriptor.h"
 #include "core/files/reasons.h"
+#include "core/platform/handle.h"
 #include "core/task/error.h"
 #include "core/task/reasons.h"
 
@@ -167,7 +167,7 @@ void AtomicFile::linkToPath() {
 
 // Copies the bytes to a file with a name.
 std::string AtomicFile::copyTo(std::string name) {
-    const Descriptor copy(mkstemp(name.data()));
+    const platform::Handle copy(mkstemp(name.data()));
     if (!copy)
         fail(errno);
     const off_t end = lseek(fileno(m_file), 0, SEEK_END);
@@ -217,14 +217,14 @@ void AtomicFile::fail(int error) const {
 }
 
 void rename(const std::filesystem::path &from, const std::filesystem::path &to) {
-    const Descriptor file(open(from.c_str(), O_RDONLY | O_CLOEXEC));
+    const platform::Handle file(open(from.c_str(), O_RDONLY | O_CLOEXEC));
     if (!file || fsync(file.get()) != 0 || std::rename(from.c_str(), to.c_str()) != 0)
         throw task::Error(task::ErrorCode::output,
                           task::because::cannotBeWritten(task::systemReason(errno)), to);
 }
 
 void flush(const std::filesystem::path &folder) {
-    const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    const platform::Handle opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (!opened || syncfs(opened.get()) != 0)
         throw task::Error(task::ErrorCode::output,
                           task::because::cannotBeWritten(task::systemReason(errno)), folder);

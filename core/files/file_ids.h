@@ -4,15 +4,13 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
-#include <sys/types.h>
+#include "core/platform/file.h"
 
 namespace pellucid::files {
 
-/// Files identified by device and inode, because a file has many paths through links of either
-/// kind.
+/// Files identified by what they are, because a file has many paths through links of either kind.
 class FileIds {
 public:
     /// Ignores files that do not exist.
@@ -22,7 +20,7 @@ public:
     std::optional<std::filesystem::path> find(const std::filesystem::path &path) const;
 
 private:
-    std::map<std::pair<dev_t, ino_t>, std::filesystem::path> m_files;
+    std::map<platform::FileId, std::filesystem::path> m_files;
 };
 
 } // namespace pellucid::files

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/files/descriptor.h"
+#include "core/platform/handle.h"
 
 namespace pellucid::files {
 
@@ -19,7 +19,7 @@ public:
 
 private:
     bool m_isHeld = true;
-    Descriptor m_file;
+    platform::Handle m_file;
 };
 
 } // namespace pellucid::files

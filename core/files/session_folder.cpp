@@ -42,29 +42,30 @@ const std::string &mark() {
 }
 
 // The path of an open file or folder, whatever becomes of its name.
-fs::path pathOf(const Descriptor &open) {
+fs::path pathOf(const platform::Handle &open) {
     return "/proc/self/fd/" + std::to_string(open.get());
 }
 
-Descriptor openFolder(int parent, const std::string &name, int flags) {
-    return Descriptor(::openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | flags));
+platform::Handle openFolder(int parent, const std::string &name, int flags) {
+    return platform::Handle(
+        ::openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | flags));
 }
 
 // Creates the lock of a new folder and takes it. Empty, with errno, if that fails; with ENOENT if a
 // cleanup was faster.
-Descriptor makeLock(int folder) {
-    Descriptor lock(
+platform::Handle makeLock(int folder) {
+    platform::Handle lock(
         ::openat(folder, lockName, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
     // On a network share without locks, nobody can lock the file, so nobody will clean up there.
     while (lock && ::flock(lock.get(), LOCK_EX) != 0 && errno == EINTR) {
     }
     struct stat about {};
     if (!lock || ::fstat(lock.get(), &about) != 0)
-        return Descriptor();
+        return platform::Handle();
     errno = ENOENT;
     const bool isMade = about.st_nlink > 0 &&
                         ::write(lock.get(), mark().data(), mark().size()) == ssize_t(mark().size());
-    return isMade ? std::move(lock) : Descriptor();
+    return isMade ? std::move(lock) : platform::Handle();
 }
 
 bool isOwn(const struct stat &about) {
@@ -73,13 +74,14 @@ bool isOwn(const struct stat &about) {
 
 // Removes the contents, then the lock, so that a program that is killed meanwhile leaves a folder
 // with a mark. Closes the lock first: on NFS, an open file keeps its folder.
-void remove(int parent, const std::string &name, const Descriptor &folder, Descriptor lock) {
+void remove(int parent, const std::string &name, const platform::Handle &folder,
+            platform::Handle lock) {
     std::error_code failed, kept;
     for (fs::directory_iterator entry(pathOf(folder), failed), end;
          !failed && !kept && entry != end; entry.increment(failed))
         if (entry->path().filename() != lockName)
             fs::remove_all(entry->path(), kept);
-    lock = Descriptor();
+    lock = platform::Handle();
     if (!failed && !kept && ::unlinkat(folder.get(), lockName, 0) == 0)
         ::unlinkat(parent, name.c_str(), AT_REMOVEDIR);
 }
@@ -87,11 +89,12 @@ void remove(int parent, const std::string &name, const Descriptor &folder, Descr
 // Removes a folder if a program of this user has made it on this machine and has ended.
 void removeIfAbandoned(int parent, const std::string &name,
                        const std::function<void(const fs::path &)> &before) {
-    const Descriptor folder = openFolder(parent, name, O_NOFOLLOW);
+    const platform::Handle folder = openFolder(parent, name, O_NOFOLLOW);
     struct stat about {};
     if (!folder || ::fstat(folder.get(), &about) != 0 || !isOwn(about))
         return;
-    Descriptor lock(::openat(folder.get(), lockName, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    platform::Handle lock(
+        ::openat(folder.get(), lockName, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (!lock) {
         ::unlinkat(parent, name.c_str(), AT_REMOVEDIR); // if it is empty
         return;
@@ -147,7 +150,7 @@ SessionFolder::SessionFolder(const fs::path &parent, Path path) : m_naming(path)
         if (isMade) {
             m_name = fs::path(made).filename();
             m_folder = openFolder(m_parent.get(), m_name, O_NOFOLLOW);
-            m_lock = m_folder ? makeLock(m_folder.get()) : Descriptor();
+            m_lock = m_folder ? makeLock(m_folder.get()) : platform::Handle();
             if (m_lock && ::mkdirat(m_folder.get(), contentsName, 0700) == 0)
                 m_contents = openFolder(m_folder.get(), contentsName, O_NOFOLLOW);
             error = errno;
@@ -156,7 +159,7 @@ SessionFolder::SessionFolder(const fs::path &parent, Path path) : m_naming(path)
             m_path = m_naming == Path::byName ? parent / m_name / contentsName : pathOf(m_contents);
             return;
         }
-        m_lock = Descriptor();
+        m_lock = platform::Handle();
         if (isMade)
             removeIfAbandoned(m_parent.get(), m_name, {});
         // Another program's cleanup was faster, or has removed the empty parent.
@@ -188,7 +191,7 @@ void removeAbandonedSessionFolders() {
 
 void removeAbandonedSessionFolders(const fs::path &parent,
                                    const std::function<void(const fs::path &)> &before) {
-    const Descriptor opened = openFolder(AT_FDCWD, parent.string(), 0);
+    const platform::Handle opened = openFolder(AT_FDCWD, parent.string(), 0);
     if (!opened)
         return;
     std::error_code failed;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "core/files/descriptor.h"
+#include "core/platform/handle.h"
 
 namespace pellucid::files {
 
@@ -39,7 +39,7 @@ private:
     enum class Path { byName, byDescriptor };
     SessionFolder(const std::filesystem::path &parent, Path path);
 
-    Descriptor m_parent, m_folder, m_lock, m_contents;
+    platform::Handle m_parent, m_folder, m_lock, m_contents;
     std::string m_name;
     std::filesystem::path m_path;
     Path m_naming;

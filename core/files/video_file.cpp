@@ -80,8 +80,8 @@ VideoFile::VideoFile(const fs::path &path, int width, int height, int framesPerS
     std::array<int, 2> ends{-1, -1};
     if (program.empty() || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
         throw task::Error(task::ErrorCode::output, because::ffmpegDoesNotStart, path);
-    m_input = Descriptor(ends[0]);
-    const Descriptor childInput(ends[1]);
+    m_input = platform::Handle(ends[0]);
+    const platform::Handle childInput(ends[1]);
     ::fcntl(m_input.get(), F_SETFL, O_NONBLOCK);
     m_encoder =
         start(program,
@@ -144,7 +144,7 @@ void VideoFile::add(std::span<const std::uint8_t> rgba, const task::Progress &pr
 }
 
 void VideoFile::finish(const task::Progress &progress) {
-    m_input = Descriptor();
+    m_input = platform::Handle();
     std::optional<bool> isGood;
     while (!(isGood = ended())) {
         progress.check();

@@ -7,8 +7,8 @@
 #include <span>
 #include <sys/types.h>
 
-#include "core/files/descriptor.h"
 #include "core/files/session_folder.h"
+#include "core/platform/handle.h"
 #include "core/task/progress.h"
 
 namespace pellucid::files {
@@ -41,7 +41,7 @@ private:
     std::filesystem::path m_path;
     SessionFolder m_folder;
     std::filesystem::path m_unfinished, m_messages;
-    Descriptor m_input;
+    platform::Handle m_input;
     pid_t m_encoder = -1;
 };
 

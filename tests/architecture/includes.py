@@ -40,12 +40,12 @@ SYSTEM = re.compile(r"(sys|linux|netinet|arpa|net)/|(unistd|fcntl|poll|pthread|s
                     r"syslog|ifaddrs|langinfo|windows|winsock2)\.h$")
 NOT_YET = """
 app/bench/machine.cpp app/cli/main.cpp app/cli/servers.cpp app/cli/terminal.cpp app/decode/main.cpp app/net/main.cpp app/pellucid/main.cpp
-core/archive/listener.cpp core/archive/pkce_openssl.cpp core/archive/sending.cpp core/archive/server.cpp core/archive/transfer_log_sqlite.cpp
+core/archive/listener.cpp core/archive/pkce_openssl.cpp core/archive/server.cpp core/archive/transfer_log_sqlite.cpp
 core/batch/study_results.cpp core/confined/confinement_seccomp.cpp core/confined/packet.cpp core/confined/process.cpp core/confined/process.h
-core/decoding/client/child.cpp core/decoding/client/decoder.cpp core/decoding/client/unpack_archive.cpp
+core/decoding/client/child.cpp
 core/decoding/process/memory_input_dcmtk.cpp core/decoding/process/serve.cpp core/decoding/process/watch.cpp
-core/files/atomic_file.cpp core/files/descriptor.cpp core/files/file_ids.cpp core/files/file_ids.h core/files/file_lock.cpp
-core/files/mapping.cpp core/files/read_text.cpp core/files/session_folder.cpp core/files/spawn.h core/files/user_folders.cpp
+core/files/atomic_file.cpp core/files/file_lock.cpp
+core/files/mapping.cpp core/files/session_folder.cpp core/files/spawn.h core/files/user_folders.cpp
 core/files/video_file.cpp core/files/video_file.h
 core/network/client/login.cpp core/network/client/peer.cpp core/network/client/peer.h
 core/network/process/association_dcmtk.cpp core/network/process/authorities.cpp core/network/process/confine_seccomp.cpp

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program asks for a password at a terminal.
+#include "core/platform/handle.h"
 #include "tests/cli/cli.h"
 
 #include <array>
@@ -12,8 +13,6 @@
 #include <termios.h>
 #include <thread>
 #include <unistd.h>
-
-#include "core/files/descriptor.h"
 
 namespace pellucid {
 
@@ -36,7 +35,7 @@ public:
                 ::execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), nullptr);
             ::_exit(127);
         }
-        m_terminal = files::Descriptor(terminal);
+        m_terminal = platform::Handle(terminal);
     }
     ~AtTerminal() {
         if (m_pid > 0) {
@@ -86,7 +85,7 @@ public:
 
 private:
     pid_t m_pid = -1;
-    files::Descriptor m_terminal;
+    platform::Handle m_terminal;
 };
 
 class Password : public Cli {

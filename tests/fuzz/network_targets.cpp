@@ -16,13 +16,13 @@
 
 #include "core/confined/packet.h"
 #include "core/confined/packing.h"
-#include "core/files/descriptor.h"
 #include "core/network/client/message.h"
 #include "core/network/client/reasons.h"
 #include "core/network/process/control.h"
 #include "core/network/process/dicom_json.h"
 #include "core/network/process/file_start.h"
 #include "core/network/process/multipart.h"
+#include "core/platform/handle.h"
 #include "core/task/error.h"
 
 namespace pellucid::fuzz {
@@ -53,10 +53,10 @@ bool isOneLine(const std::string &text) {
 }
 
 // Two ends of a channel as between the program and its helper.
-std::array<files::Descriptor, 2> channel() {
+std::array<platform::Handle, 2> channel() {
     std::array<int, 2> ends{-1, -1};
     check(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) == 0);
-    return {files::Descriptor(ends[0]), files::Descriptor(ends[1])};
+    return {platform::Handle(ends[0]), platform::Handle(ends[1])};
 }
 
 int anyFile() {

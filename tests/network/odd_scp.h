@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "core/archive/server.h"
-#include "core/files/descriptor.h"
+#include "core/platform/handle.h"
 #include "tests/network/acceptor.h"
 #include "tests/network/pacs.h"
 #include "tests/network/scripted_server.h"
@@ -318,7 +318,7 @@ private:
     struct Out {
         Out(int socket, const ScriptedProposal &proposal)
             : descriptor(socket), association(socket, proposal) {}
-        files::Descriptor descriptor;
+        platform::Handle descriptor;
         ScriptedAssociation association;
     };
     // Null if the program does not accept it.
@@ -414,7 +414,7 @@ private:
     static void reset(int socket) {
         const linger none{1, 0};
         ::setsockopt(socket, SOL_SOCKET, SO_LINGER, &none, sizeof none);
-        const files::Descriptor other(::open("/dev/null", O_RDWR | O_CLOEXEC));
+        const platform::Handle other(::open("/dev/null", O_RDWR | O_CLOEXEC));
         ::dup3(other.get(), socket, O_CLOEXEC);
     }
     DicomWriter counts(const Sent &sent, int remaining = 0) const {

@@ -6,11 +6,11 @@
 
 #include "core/confined/packet.h"
 #include "core/decoding/client/message.h"
-#include "core/files/descriptor.h"
+#include "core/platform/handle.h"
 
 namespace pellucid::decoding {
 
-using files::Descriptor;
+using platform::Handle;
 
 /// Sends a message, and a descriptor unless it is -1; never blocks. False if the other end is
 /// closed or does not read.
@@ -19,7 +19,7 @@ bool send(int socket, const Message &message, int descriptor = -1);
 /// Waits for a message. Empty if the other end is closed, or sent something else.
 struct Received {
     Message message;
-    Descriptor descriptor;
+    Handle descriptor;
 };
 using confined::Takes;
 std::optional<Received> receive(int socket, Takes takes);

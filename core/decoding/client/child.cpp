@@ -85,8 +85,10 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
     {
         // Above the standard streams, which may be closed: prints would go into it.
         constexpr int aboveStreams = 10;
-        const Descriptor lowest(::memfd_create("pellucid-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-        m_arena = Descriptor(lowest ? ::fcntl(lowest.get(), F_DUPFD_CLOEXEC, aboveStreams) : -1);
+        const platform::Handle lowest(
+            ::memfd_create("pellucid-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+        m_arena =
+            platform::Handle(lowest ? ::fcntl(lowest.get(), F_DUPFD_CLOEXEC, aboveStreams) : -1);
     }
     // The arena must never shrink: reading beyond its end would kill the program.
     if (!m_arena || ::ftruncate(m_arena.get(), off_t(firstArenaBytes)) != 0 ||

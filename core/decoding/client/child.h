@@ -54,7 +54,7 @@ private:
     Answer take(const Message &message);
 
     confined::Process m_process;
-    Descriptor m_arena;
+    platform::Handle m_arena;
     files::Mapping m_mapped;
     std::uint64_t m_arenaBytes = 0, m_grantedBytes = 0;
     std::string m_body;

@@ -3,17 +3,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstring>
-#include <sys/stat.h>
+#include <system_error>
 #include <thread>
-#include <unistd.h>
+#include <utility>
 
 #include <glm/gtx/component_wise.hpp>
 
 #include "core/confined/process.h"
 #include "core/decoding/client/child.h"
 #include "core/decoding/client/reasons.h"
+#include "core/files/open_regular.h"
 #include "core/files/reasons.h"
 #include "core/task/naming.h"
 #include "core/task/reasons.h"
@@ -24,44 +24,33 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace because = task::because;
+using files::RegularFile;
 using task::Error;
 using task::ErrorCode;
 using task::naming;
 
-struct OpenFile {
-    Descriptor descriptor;
-    std::uint64_t bytes = 0;
-    timespec
-        changed{}; ///< of content or location; unlike the modification date it cannot be set back
+void requireUnchanged(const RegularFile &file) {
+    if (!file.isUnchanged())
+        throw Error(ErrorCode::unusable, because::changedWhileRead);
+}
 
-    // Called after reading, because the file may have been written to meanwhile.
-    void requireUnchanged() const {
-        struct stat about {};
-        if (::fstat(descriptor.get(), &about) != 0 || std::uint64_t(about.st_size) != bytes ||
-            about.st_ctim.tv_sec != changed.tv_sec || about.st_ctim.tv_nsec != changed.tv_nsec)
-            throw Error(ErrorCode::unusable, because::changedWhileRead);
-    }
-};
-
-OpenFile open(const fs::path &path) {
-    OpenFile file{files::openRegular(path)};
-    struct stat about {};
-    if (::fstat(file.descriptor.get(), &about) != 0)
-        throw Error(ErrorCode::unusable, task::systemReason(errno), path);
-    if (about.st_size == 0)
+RegularFile open(const fs::path &path) {
+    RegularFile file = files::openRegular(path);
+    if (file.facts.bytes == 0)
         throw Error(ErrorCode::unusable, because::isEmpty, path);
-    file.bytes = std::uint64_t(about.st_size);
-    file.changed = about.st_ctim;
     return file;
 }
 
 // Most files in a folder may not be images; recognising these needs no decoder.
-void checkStart(const OpenFile &file, const fs::path &path) {
+void checkStart(const RegularFile &file, const fs::path &path) {
     std::array<std::byte, 132> start{};
-    const ssize_t got = ::pread(file.descriptor.get(), start.data(), start.size(), 0);
-    if (got < 0)
-        throw Error(ErrorCode::unusable, task::systemReason(errno), path);
-    if (!looksLikeDicom(std::span(start).first(std::size_t(got))))
+    std::size_t got = 0;
+    try {
+        got = platform::readAt(file.handle, 0, start);
+    } catch (const std::system_error &error) {
+        throw Error(ErrorCode::unusable, task::systemReason(error.code()), path);
+    }
+    if (!looksLikeDicom(std::span(start).first(got)))
         throw Error(ErrorCode::unusable, because::isNotDicom, path);
 }
 
@@ -191,31 +180,32 @@ auto Decoder::answerOf(std::unique_ptr<Child> &child, const task::Progress &prog
 }
 
 InstanceHeader Decoder::header(const fs::path &path, const task::Progress &progress) {
-    const OpenFile file = open(path);
+    const RegularFile file = open(path);
     checkStart(file, path);
     return naming(path, [&] {
         auto child =
-            ask({Message::Kind::header, 0, file.bytes, 0}, file.descriptor.get(), progress);
+            ask({Message::Kind::header, 0, file.facts.bytes, 0}, file.handle.get(), progress);
         InstanceHeader header = answerOf(child, progress, [](const Child::Answer &answer) {
             return unpack<InstanceHeader>(answer.body);
         });
         release(std::move(child));
-        file.requireUnchanged();
+        requireUnchanged(file);
         return header;
     });
 }
 
 DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress) {
-    const OpenFile file = open(path);
+    const RegularFile file = open(path);
     return naming(path, [&] {
-        auto child = ask({Message::Kind::image, 0, file.bytes, 0}, file.descriptor.get(), progress);
+        auto child =
+            ask({Message::Kind::image, 0, file.facts.bytes, 0}, file.handle.get(), progress);
         std::span<const std::uint16_t> samples;
         InstanceHeader header = answerOf(child, progress, [&](const Child::Answer &answer) {
             InstanceHeader h = unpack<InstanceHeader>(answer.body);
             const std::uint64_t count = sampleCount(h);
             if (whyUnusable(h) || answer.data.size() != 2 * count)
                 throw Error(ErrorCode::unusable, because::implausibleAnswer);
-            file.requireUnchanged();
+            requireUnchanged(file);
             samples = {reinterpret_cast<const std::uint16_t *>(answer.data.data()), count};
             return h;
         });
@@ -224,11 +214,11 @@ DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress)
 }
 
 DecodedSegmentation Decoder::segmentation(const fs::path &path, const task::Progress &progress) {
-    const OpenFile file = open(path);
+    const RegularFile file = open(path);
     checkStart(file, path);
     return naming(path, [&] {
         auto child =
-            ask({Message::Kind::segmentation, 0, file.bytes, 0}, file.descriptor.get(), progress);
+            ask({Message::Kind::segmentation, 0, file.facts.bytes, 0}, file.handle.get(), progress);
         std::span<const std::byte> pixels;
         SegmentationHeader header = answerOf(child, progress, [&](const Child::Answer &answer) {
             SegmentationHeader h = unpack<SegmentationHeader>(answer.body);
@@ -238,7 +228,7 @@ DecodedSegmentation Decoder::segmentation(const fs::path &path, const task::Prog
             if (h.instance.rows > 65535 || h.instance.columns > 65535 || count == 0 ||
                 answer.data.size() != bytes)
                 throw Error(ErrorCode::unusable, because::implausibleAnswer);
-            file.requireUnchanged();
+            requireUnchanged(file);
             pixels = answer.data;
             return h;
         });
@@ -248,16 +238,16 @@ DecodedSegmentation Decoder::segmentation(const fs::path &path, const task::Prog
 
 UncompressedFile Decoder::uncompressed(const fs::path &path, bool isExplicit,
                                        const task::Progress &progress) {
-    const OpenFile file = open(path);
+    const RegularFile file = open(path);
     checkStart(file, path);
     return naming(path, [&] {
-        auto child = ask({Message::Kind::uncompressed, isExplicit ? 1 : 0, file.bytes, 0},
-                         file.descriptor.get(), progress);
+        auto child = ask({Message::Kind::uncompressed, isExplicit ? 1 : 0, file.facts.bytes, 0},
+                         file.handle.get(), progress);
         const std::span<const std::byte> bytes =
             answerOf(child, progress, [&](const Child::Answer &answer) {
                 if (!looksLikeDicom(answer.data))
                     throw Error(ErrorCode::unusable, because::implausibleAnswer);
-                file.requireUnchanged();
+                requireUnchanged(file);
                 return answer.data;
             });
         return UncompressedFile{bytes, {std::move(child), *this}};
@@ -265,11 +255,11 @@ UncompressedFile Decoder::uncompressed(const fs::path &path, bool isExplicit,
 }
 
 DecodedStructureSet Decoder::structureSet(const fs::path &path, const task::Progress &progress) {
-    const OpenFile file = open(path);
+    const RegularFile file = open(path);
     checkStart(file, path);
     return naming(path, [&] {
         auto child =
-            ask({Message::Kind::structureSet, 0, file.bytes, 0}, file.descriptor.get(), progress);
+            ask({Message::Kind::structureSet, 0, file.facts.bytes, 0}, file.handle.get(), progress);
         DecodedStructureSet set = answerOf(child, progress, [&](const Child::Answer &answer) {
             DecodedStructureSet read{unpack<StructureSetHeader>(answer.body), {}};
             const std::uint64_t points = pointCount(read.header);
@@ -280,7 +270,7 @@ DecodedStructureSet Decoder::structureSet(const fs::path &path, const task::Prog
             for (const glm::dvec3 &point : read.points)
                 if (!(glm::compMax(glm::abs(point)) <= farthestMm))
                     throw Error(ErrorCode::unusable, because::implausibleAnswer);
-            file.requireUnchanged();
+            requireUnchanged(file);
             return read;
         });
         release(std::move(child));
@@ -289,25 +279,25 @@ DecodedStructureSet Decoder::structureSet(const fs::path &path, const task::Prog
 }
 
 AttributeList Decoder::attributes(const fs::path &path, const task::Progress &progress) {
-    const OpenFile file = open(path);
+    const RegularFile file = open(path);
     checkStart(file, path);
     return naming(path, [&] {
         auto child =
-            ask({Message::Kind::attributes, 0, file.bytes, 0}, file.descriptor.get(), progress);
+            ask({Message::Kind::attributes, 0, file.facts.bytes, 0}, file.handle.get(), progress);
         AttributeList list = answerOf(child, progress, [](const Child::Answer &answer) {
             return unpack<AttributeList>(answer.body);
         });
         release(std::move(child));
-        file.requireUnchanged();
+        requireUnchanged(file);
         return list;
     });
 }
 
 DirectoryFile Decoder::directory(const fs::path &path, const task::Progress &progress) {
-    const OpenFile file = open(path);
+    const RegularFile file = open(path);
     return naming(path, [&] {
         auto child =
-            ask({Message::Kind::directory, 0, file.bytes, 0}, file.descriptor.get(), progress);
+            ask({Message::Kind::directory, 0, file.facts.bytes, 0}, file.handle.get(), progress);
         DirectoryFile directory = answerOf(child, progress, [](const Child::Answer &answer) {
             return unpack<DirectoryFile>(answer.body);
         });
@@ -320,10 +310,10 @@ void Decoder::archive(const fs::path &path,
                       const std::function<void(const ArchiveFile &)> &announce,
                       const std::function<void(const ArchivePart &)> &take,
                       const task::Progress &progress) {
-    const OpenFile file = open(path);
+    const RegularFile file = open(path);
     naming(path, [&] {
         auto child =
-            ask({Message::Kind::archive, 0, file.bytes, 0}, file.descriptor.get(), progress);
+            ask({Message::Kind::archive, 0, file.facts.bytes, 0}, file.handle.get(), progress);
         // Every part but the last is full and files follow each other, so the answer cannot be
         // endless.
         bool isAnnouncing = true, isInFile = false;
@@ -358,10 +348,10 @@ void Decoder::archive(const fs::path &path,
 }
 
 VolumeLayout Decoder::layout(const fs::path &path, const task::Progress &progress) {
-    const OpenFile file = open(path);
+    const RegularFile file = open(path);
     return naming(path, [&] {
         auto child =
-            ask({Message::Kind::layout, 0, file.bytes, 0}, file.descriptor.get(), progress);
+            ask({Message::Kind::layout, 0, file.facts.bytes, 0}, file.handle.get(), progress);
         VolumeLayout layout = answerOf(child, progress, [](const Child::Answer &answer) {
             return unpack<VolumeLayout>(answer.body);
         });
@@ -373,14 +363,14 @@ VolumeLayout Decoder::layout(const fs::path &path, const task::Progress &progres
 bool Decoder::samples(const fs::path &path, const SampleRange &samples,
                       const std::function<void(std::span<const std::byte>)> &take,
                       const task::Progress &progress) {
-    const OpenFile file = open(path);
+    const RegularFile file = open(path);
     bool hasMore = false;
     naming(path, [&] {
         const int code = samples.bytesEach | (samples.isDeflated ? deflated : 0) |
                          (samples.isSwapped ? swapped : 0);
-        auto child =
-            ask({Message::Kind::samples, code, file.bytes, samples.bytes, samples.at, samples.skip},
-                file.descriptor.get(), progress);
+        auto child = ask({Message::Kind::samples, code, file.facts.bytes, samples.bytes, samples.at,
+                          samples.skip},
+                         file.handle.get(), progress);
         std::uint64_t left = samples.bytes;
         for (bool isDone = false; !isDone;) {
             answerOf(child, progress, [&](const Child::Answer &answer) {

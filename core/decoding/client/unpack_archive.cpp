@@ -9,7 +9,6 @@
 #include <iterator>
 #include <string>
 #include <system_error>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -17,6 +16,7 @@
 #include "core/decoding/client/decoder.h"
 #include "core/decoding/client/message.h"
 #include "core/decoding/client/reasons.h"
+#include "core/files/open_regular.h"
 #include "core/task/error.h"
 
 namespace pellucid::decoding {
@@ -77,10 +77,11 @@ fs::path freePath(const fs::path &folder, const std::string &name, std::size_t n
 
 bool isArchive(const fs::path &path) {
     try {
-        const Descriptor file = files::openRegular(path);
-        std::array<char, 4> start{};
-        return ::pread(file.get(), start.data(), start.size(), 0) == 4 &&
-               std::memcmp(start.data(), "PK\3\4", 4) == 0;
+        std::array<std::byte, 4> start{};
+        return platform::readAt(files::openRegular(path).handle, 0, start) == start.size() &&
+               std::memcmp(start.data(), "PK\3\4", start.size()) == 0;
+    } catch (const std::system_error &) {
+        return false;
     } catch (const Error &) {
         return false; // reading it will report why
     }

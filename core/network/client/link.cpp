@@ -313,23 +313,23 @@ void Link::fail(const Message &message) {
                                             : because::helperCrashed);
 }
 
-void serveClient(files::Descriptor socket, const Acceptance &acceptance, Receiver &receiver,
+void serveClient(platform::Handle socket, const Acceptance &acceptance, Receiver &receiver,
                  const task::Progress &progress, const StepObserver &observe) {
     Link link(acceptance.silenceSeconds + slackSeconds);
     link.start();
     link.send({Kind::accept, 0, 0, pack(acceptance)}, socket.get());
-    socket = files::Descriptor(); // so that the client notices when the helper ends
+    socket = platform::Handle(); // so that the client notices when the helper ends
     link.converse(progress, &receiver, {}, observe, Kind::done);
 }
 
-void awaitRedirect(files::Descriptor socket, const Redirection &redirection,
+void awaitRedirect(platform::Handle socket, const Redirection &redirection,
                    const std::function<void()> &ready,
                    const std::function<void(const std::string &code)> &redeem,
                    const task::Progress &progress) {
     Link link(redirection.seconds + slackSeconds);
     link.start();
     link.send({Kind::redirect, 0, 0, pack(redirection)}, socket.get());
-    socket = files::Descriptor(); // so that the browser notices when the helper ends
+    socket = platform::Handle(); // so that the browser notices when the helper ends
     note(link.converse(progress, nullptr, {}, {}, Kind::ready).code);
     ready();
     const std::string code = unpackCode(link.converse(progress, nullptr, {}, {}, Kind::code).body);

@@ -9,8 +9,8 @@
 #include <variant>
 
 #include "core/confined/process.h"
-#include "core/files/descriptor.h"
 #include "core/network/client/message.h"
+#include "core/platform/handle.h"
 #include "core/task/progress.h"
 
 namespace pellucid::network {
@@ -68,9 +68,9 @@ public:
     int confinement() const { return m_confinement; }
 
 private:
-    friend void serveClient(files::Descriptor, const Acceptance &, Receiver &,
+    friend void serveClient(platform::Handle, const Acceptance &, Receiver &,
                             const task::Progress &, const StepObserver &);
-    friend void awaitRedirect(files::Descriptor, const Redirection &, const std::function<void()> &,
+    friend void awaitRedirect(platform::Handle, const Redirection &, const std::function<void()> &,
                               const std::function<void(const std::string &)> &,
                               const task::Progress &);
     explicit Link(double patienceSeconds);
@@ -101,14 +101,14 @@ private:
 
 /// Serves a client that has connected, in a `pellucid-net` of its own, until the client ends the
 /// association. *Throws* as the requests of a link.
-void serveClient(files::Descriptor socket, const Acceptance &acceptance, Receiver &receiver,
+void serveClient(platform::Handle socket, const Acceptance &acceptance, Receiver &receiver,
                  const task::Progress &progress = {}, const StepObserver &observe = {});
 
 /// Awaits the redirect that ends a login on a listening socket, in a `pellucid-net` of its own that
 /// reaches nothing else. `ready` is called when it listens, `redeem` with the authorization code;
 /// the browser shows failure if `redeem` throws. *Throws* as the requests of a link;
 /// Error{unusable} if the login is denied or nobody logs in; what `redeem` throws.
-void awaitRedirect(files::Descriptor socket, const Redirection &redirection,
+void awaitRedirect(platform::Handle socket, const Redirection &redirection,
                    const std::function<void()> &ready,
                    const std::function<void(const std::string &code)> &redeem,
                    const task::Progress &progress = {});

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "core/files/descriptor.h"
+#include "core/platform/handle.h"
 
 namespace pellucid::network {
 
@@ -36,7 +36,7 @@ struct Redirection {
 
 /// A port of 127.0.0.1, which other computers cannot reach.
 struct LoopbackPort {
-    files::Descriptor socket; ///< listens
+    platform::Handle socket; ///< listens
     int port = 0;
 };
 

@@ -7,10 +7,10 @@
 #include <span>
 #include <string>
 
-#include "core/files/descriptor.h"
 #include "core/network/client/login.h"
 #include "core/network/client/peer.h"
 #include "core/network/client/query.h"
+#include "core/platform/handle.h"
 #include "core/task/reason.h"
 
 namespace pellucid::network {
@@ -68,7 +68,7 @@ inline constexpr std::size_t uidsAtOnce = 1000;
 
 struct Packet {
     Message message;
-    files::Descriptor descriptor;
+    platform::Handle descriptor;
 };
 
 /// Sends a message, and a descriptor unless it is -1; waits while the other end is busy. False if

@@ -2,10 +2,11 @@
 #include "core/network/process/control.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <poll.h>
-#include <unistd.h>
+#include <system_error>
+
+#include "core/platform/file.h"
 
 namespace pellucid::network::process {
 
@@ -86,13 +87,11 @@ Packet Storage::answer() {
 void Storage::write(std::span<const std::byte> bytes) {
     constexpr std::uint64_t reportedAtOnce = 4 << 20;
     m_bytes += bytes.size();
-    while (!bytes.empty() && !m_hasFailed) {
-        const ssize_t written = ::write(m_file.get(), bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR)
-            continue;
-        m_hasFailed = written <= 0;
+    try {
         if (!m_hasFailed)
-            bytes = bytes.subspan(std::size_t(written));
+            platform::writeAll(m_file, bytes);
+    } catch (const std::system_error &) {
+        m_hasFailed = true;
     }
     if (m_bytes - m_reported < reportedAtOnce) {
         m_control.heartbeat(m_bytes);
@@ -103,7 +102,7 @@ void Storage::write(std::span<const std::byte> bytes) {
 }
 
 std::uint16_t Storage::finish() {
-    m_file = files::Descriptor();
+    m_file = platform::Handle();
     if (m_hasFailed)
         m_bytes = 0; // nothing that the program could keep
     m_control.send({Message::Kind::received, 0, m_bytes, {}});

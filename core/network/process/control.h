@@ -68,7 +68,7 @@ private:
     Packet answer();
 
     Control &m_control;
-    files::Descriptor m_file;
+    platform::Handle m_file;
     std::uint16_t m_status = 0;
     std::uint64_t m_bytes = 0, m_reported = 0;
     bool m_hasFailed = false;

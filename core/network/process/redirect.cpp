@@ -22,7 +22,7 @@ namespace pellucid::network::process {
 namespace {
 
 namespace because = task::because;
-using files::Descriptor;
+using platform::Handle;
 using Clock = std::chrono::steady_clock;
 using Kind = Message::Kind;
 
@@ -69,7 +69,7 @@ std::string htmlOf(const std::string &text) {
     return html;
 }
 
-void show(const Descriptor &browser, const char *status, const std::string &text) {
+void show(const Handle &browser, const char *status, const std::string &text) {
     const std::string page = "<!DOCTYPE html><html><head><meta charset=\"utf-8\">"
                              "<title>Pellucid</title></head><body><p>" +
                              htmlOf(text) + "</p></body></html>\n";
@@ -87,7 +87,7 @@ void show(const Descriptor &browser, const char *status, const std::string &text
 }
 
 struct Browser {
-    Descriptor socket;
+    Handle socket;
     sockaddr_in from{};
     std::string head;
 };
@@ -96,8 +96,8 @@ struct Browser {
 std::optional<Browser> acceptedAt(int socket) {
     Browser browser;
     socklen_t size = sizeof browser.from;
-    browser.socket = Descriptor(::accept4(socket, reinterpret_cast<sockaddr *>(&browser.from),
-                                          &size, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    browser.socket = Handle(::accept4(socket, reinterpret_cast<sockaddr *>(&browser.from), &size,
+                                      SOCK_CLOEXEC | SOCK_NONBLOCK));
     return browser.socket ? std::optional(std::move(browser)) : std::nullopt;
 }
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "core/platform/handle.h"
+
+/// Files by handle. All functions *throw* std::system_error, but for those that return an optional.
+namespace pellucid::platform {
+
+/// The same for all paths that lead to a file, through links of either kind.
+struct FileId {
+    std::uint64_t device = 0, number = 0;
+    auto operator<=>(const FileId &) const = default;
+};
+/// None if there is no such file.
+std::optional<FileId> fileIdOf(const std::filesystem::path &path);
+
+struct FileFacts {
+    bool isRegular = false;
+    std::uint64_t bytes = 0;
+    /// When content or location last changed, in nanoseconds: unlike the date of modification, it
+    /// cannot be set back.
+    std::int64_t changed = 0;
+    bool operator==(const FileFacts &) const = default;
+};
+FileFacts factsOf(const Handle &file);
+
+/// Does not block on a pipe or a device, even if the path has just become one.
+Handle openForReading(const std::filesystem::path &path);
+/// Fills `to` from the position of the handle on; less at the end of the file, and then nothing.
+std::size_t readSome(const Handle &file, std::span<std::byte> to);
+/// The same from a place in the file; the handle keeps its position.
+std::size_t readAt(const Handle &file, std::uint64_t from, std::span<std::byte> to);
+void writeAll(const Handle &file, std::span<const std::byte> bytes);
+
+} // namespace pellucid::platform

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/platform/file.h"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace pellucid::platform {
+
+namespace {
+
+// Repeats a call that a signal has interrupted. *Throws* std::system_error.
+template <class Call> auto repeated(const Call &call) {
+    for (;;) {
+        const auto result = call();
+        if (result >= 0)
+            return result;
+        if (errno != EINTR)
+            throw std::system_error(errno, std::generic_category());
+    }
+}
+
+} // namespace
+
+Handle::~Handle() {
+    if (m_native >= 0)
+        ::close(m_native);
+}
+
+std::optional<FileId> fileIdOf(const std::filesystem::path &path) {
+    struct stat about {};
+    if (::stat(path.c_str(), &about) != 0)
+        return std::nullopt;
+    return FileId{about.st_dev, about.st_ino};
+}
+
+FileFacts factsOf(const Handle &file) {
+    struct stat about {};
+    repeated([&] { return ::fstat(file.get(), &about); });
+    return {bool(S_ISREG(about.st_mode)), std::uint64_t(about.st_size),
+            std::int64_t(about.st_ctim.tv_sec) * 1'000'000'000 + about.st_ctim.tv_nsec};
+}
+
+Handle openForReading(const std::filesystem::path &path) {
+    return Handle(repeated(
+        [&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); }));
+}
+
+std::size_t readSome(const Handle &file, std::span<std::byte> to) {
+    return std::size_t(repeated([&] { return ::read(file.get(), to.data(), to.size()); }));
+}
+
+std::size_t readAt(const Handle &file, std::uint64_t from, std::span<std::byte> to) {
+    return std::size_t(
+        repeated([&] { return ::pread(file.get(), to.data(), to.size(), off_t(from)); }));
+}
+
+void writeAll(const Handle &file, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const auto written =
+            repeated([&] { return ::write(file.get(), bytes.data(), bytes.size()); });
+        if (written == 0)
+            throw std::system_error(EIO, std::generic_category());
+        bytes = bytes.subspan(std::size_t(written));
+    }
+}
+
+} // namespace pellucid::platform

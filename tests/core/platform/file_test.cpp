@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+#include <sys/stat.h>
+
+#include "core/platform/file.h"
+#include "tests/support/files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid::platform {
+
+namespace {
+
+std::string textOf(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char *>(bytes.data()), bytes.size()};
+}
+
+TEST(File, IsReadFromAnyPlace) {
+    const test::TemporaryFolder folder;
+    test::writeText(folder / "file", "abcdefgh");
+    const Handle file = openForReading(folder / "file");
+    std::array<std::byte, 5> bytes{};
+    EXPECT_EQ(readAt(file, 6, bytes), 2U);
+    EXPECT_EQ(textOf(std::span(bytes).first(2)), "gh");
+    EXPECT_EQ(readSome(file, bytes), 5U); // the position has not moved
+    EXPECT_EQ(textOf(bytes), "abcde");
+    EXPECT_EQ(readSome(file, bytes), 3U);
+    EXPECT_EQ(readSome(file, bytes), 0U);
+    EXPECT_THROW(writeAll(file, bytes), std::system_error); // opened for reading
+}
+
+TEST(File, FactsTellWhenItChanges) {
+    const test::TemporaryFolder folder;
+    test::writeText(folder / "file", "abc");
+    const Handle file = openForReading(folder / "file");
+    const FileFacts facts = factsOf(file);
+    EXPECT_TRUE(facts.isRegular);
+    EXPECT_EQ(facts.bytes, 3U);
+    EXPECT_EQ(factsOf(file), facts);
+    test::writeText(folder / "file", "abcd");
+    EXPECT_NE(factsOf(file), facts);
+}
+
+TEST(File, APipeDoesNotBlock) {
+    const test::TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_FALSE(factsOf(openForReading(folder / "pipe")).isRegular);
+}
+
+TEST(File, IsTheSameByEveryPath) {
+    const test::TemporaryFolder folder;
+    test::writeText(folder / "file", "abc");
+    test::writeText(folder / "other", "abc");
+    std::filesystem::create_hard_link(folder / "file", folder / "hard");
+    std::filesystem::create_symlink("file", folder / "soft");
+    const auto id = fileIdOf(folder / "file");
+    ASSERT_TRUE(id);
+    EXPECT_EQ(fileIdOf(folder / "hard"), id);
+    EXPECT_EQ(fileIdOf(folder / "soft"), id);
+    EXPECT_NE(fileIdOf(folder / "other"), id);
+    EXPECT_FALSE(fileIdOf(folder / "missing"));
+    try {
+        openForReading(folder / "missing");
+        FAIL();
+    } catch (const std::system_error &error) {
+        EXPECT_EQ(error.code(), std::errc::no_such_file_or_directory);
+    }
+}
+
+} // namespace
+} // namespace pellucid::platform
