@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <memory>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include "app/cli/reasons.h"
 #include "app/cli/terminal.h"
 #include "core/archive/login.h"
+#include "core/platform/process.h"
 #include "core/task/error.h"
 #include "core/task/naming.h"
 
@@ -68,7 +68,7 @@ std::string rateText(std::uint64_t bytes, double seconds) {
 archive::RetrievalReport watched(
     const std::function<archive::RetrievalReport(const archive::RetrievalObserver &)> &retrieve) {
     archive::RetrievalObserver observer;
-    const bool isWatched = ::isatty(STDERR_FILENO) == 1;
+    const bool isWatched = platform::isTerminal(stderr);
     if (isWatched)
         observer.changed = [](const archive::RetrievalState &state) {
             fmt::print(stderr, "\r{} of {}  {:.1f} MB ", state.present + state.received,

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <unistd.h>
+#include <span>
+#include <system_error>
 #include <vector>
 
 #include <openssl/evp.h>
 #include <openssl/sha.h>
 
+#include "core/platform/process.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -31,8 +32,11 @@ std::string base64Url(const unsigned char *bytes, std::size_t count) {
 
 std::string randomText(std::size_t bytes) {
     std::vector<unsigned char> random(bytes);
-    if (::getentropy(random.data(), random.size()) != 0)
-        throw task::Error(task::ErrorCode::internal, task::systemReason(errno));
+    try {
+        platform::fillRandomly(std::as_writable_bytes(std::span(random)));
+    } catch (const std::system_error &error) {
+        throw task::Error(task::ErrorCode::internal, task::systemReason(error.code()));
+    }
     return base64Url(random.data(), random.size());
 }
 

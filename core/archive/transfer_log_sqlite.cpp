@@ -2,15 +2,13 @@
 #include "core/archive/transfer_log.h"
 
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
-#include <unistd.h>
 
-#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include "core/archive/reasons.h"
 #include "core/files/user_folders.h"
+#include "core/platform/process.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -90,27 +88,9 @@ std::vector<std::string> split(const std::string &text) {
     return uids;
 }
 
-// Distinguishes a process from later ones with the same number: number, start and boot. Empty if
-// there is none.
-std::string identityOf(long process) {
-    std::ifstream file(fmt::format("/proc/{}/stat", process)),
-        bootFile("/proc/sys/kernel/random/boot_id");
-    std::string status, boot;
-    std::getline(file, status);
-    std::getline(bootFile, boot);
-    // The name, in parentheses, may contain spaces; the start is the 20th value after it.
-    const auto name = status.rfind(')');
-    if (name == std::string::npos)
-        return {};
-    std::istringstream values(status.substr(name + 1));
-    std::string start;
-    for (int n = 0; n < 20; ++n)
-        values >> start;
-    return fmt::format("{} {} {}", process, start, boot);
-}
-
 bool isRunning(const std::string &process) {
-    return !process.empty() && identityOf(std::strtol(process.c_str(), nullptr, 10)) == process;
+    return !process.empty() &&
+           platform::processIdentity(std::strtol(process.c_str(), nullptr, 10)) == process;
 }
 
 constexpr const char *columns = "id, server, study, series, title, folder, state, total, received, "
@@ -225,7 +205,7 @@ bool TransferLog::claim(std::int64_t id) {
             run = {select.number(2) + 1, std::uint64_t(select.number(3)), select.real(4)};
         }
     }
-    const std::string own = identityOf(::getpid());
+    const std::string own = platform::processIdentity(platform::ownProcess());
     const bool isFree = state >= 0 && (TransferState(state) != TransferState::running ||
                                        process == own || !isRunning(process));
     if (isFree) {

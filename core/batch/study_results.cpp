@@ -2,14 +2,12 @@
 #include "core/batch/study_results.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <fcntl.h>
 #include <set>
 #include <system_error>
-#include <unistd.h>
 
 #include "core/batch/reasons.h"
 #include "core/files/atomic_file.h"
+#include "core/platform/folders.h"
 #include "core/task/error.h"
 
 namespace pellucid::batch {
@@ -21,12 +19,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::error_code &error, const fs::path &path) {
     throw task::Error(task::ErrorCode::output, task::systemReason(error), path);
-}
-
-// Puts a folder in the place of another one, which comes to where it was. False if the file system
-// cannot do that at once.
-bool exchange(const fs::path &a, const fs::path &b) {
-    return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
 }
 
 // File managers and network file systems leave such files in folders.
@@ -91,7 +83,7 @@ void StudyResults::publish(DoneRecord record) {
     fs::rename(m_folder, m_place, failed); // succeeds if there is none, or an empty one
     if (failed) {
         requireReplaceable(m_place);
-        if (exchange(m_folder, m_place))
+        if (platform::exchange(m_folder, m_place))
             failed.clear();
         else
             replace(failed);

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/platform/handle.h"
+#include "core/platform/file.h"
 
 namespace pellucid::files {
 
@@ -12,7 +12,7 @@ namespace pellucid::files {
 /// nobody is excluded.
 class FileLock {
 public:
-    enum class Mode { wait, tryLock };
+    using Mode = platform::Lock;
     explicit FileLock(const std::filesystem::path &file, Mode mode = Mode::wait);
     /// False if another program holds it.
     bool isHeld() const { return m_isHeld; }

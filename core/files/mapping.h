@@ -5,30 +5,29 @@
 #include <span>
 #include <utility>
 
+#include "core/platform/file.h"
+
 namespace pellucid::files {
 
 /// The start of a file, or of memory that processes share, as bytes in memory. *Throws*
 /// Error{outOfMemory}.
 class Mapping {
 public:
-    enum class Access { read, write };
+    using Access = platform::Access;
     Mapping() = default;
     Mapping(int fd, std::size_t bytes, Access access);
     ~Mapping();
-    Mapping(Mapping &&other) noexcept
-        : m_data(std::exchange(other.m_data, nullptr)), m_size(std::exchange(other.m_size, 0)) {}
+    Mapping(Mapping &&other) noexcept : m_mapped(std::exchange(other.m_mapped, {})) {}
     Mapping &operator=(Mapping &&other) noexcept {
-        std::swap(m_data, other.m_data);
-        std::swap(m_size, other.m_size);
+        std::swap(m_mapped, other.m_mapped);
         return *this;
     }
-    std::byte *data() const { return m_data; }
-    std::size_t size() const { return m_size; }
-    std::span<const std::byte> bytes() const { return {m_data, m_size}; }
+    std::byte *data() const { return m_mapped.data(); }
+    std::size_t size() const { return m_mapped.size(); }
+    std::span<const std::byte> bytes() const { return m_mapped; }
 
 private:
-    std::byte *m_data = nullptr;
-    std::size_t m_size = 0;
+    std::span<std::byte> m_mapped;
 };
 
 } // namespace pellucid::files

@@ -6,13 +6,12 @@
 
 namespace pellucid::files {
 
-/// The user's folder for data that may be lost: $XDG_CACHE_HOME/pellucid or ~/.cache/pellucid; on
-/// Windows below %LOCALAPPDATA%. Created if necessary. Empty if there is no such location.
+/// The user's folder for data that may be lost, see `platform::userCachePath`. Created if
+/// necessary. Empty if there is no such location.
 std::optional<std::filesystem::path> userCacheFolder();
 
-/// The user's folder for data that must be kept: $XDG_DATA_HOME/pellucid or
-/// ~/.local/share/pellucid; on Windows below %APPDATA%. Created if necessary. Empty if there is no
-/// such location.
+/// The user's folder for data that must be kept, see `platform::userDataPath`. Created if
+/// necessary. Empty if there is no such location.
 std::optional<std::filesystem::path> userDataFolder();
 
 /// Creates a folder, and those above it that are missing, for the user alone. *Throws*

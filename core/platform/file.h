@@ -39,4 +39,17 @@ std::size_t readSome(const Handle &file, std::span<std::byte> to);
 std::size_t readAt(const Handle &file, std::uint64_t from, std::span<std::byte> to);
 void writeAll(const Handle &file, std::span<const std::byte> bytes);
 
+/// For reading and writing; a new file is the user's alone. An empty handle if that is impossible.
+Handle openOrCreate(const std::filesystem::path &path);
+enum class Lock { wait, attempt };
+/// Locks a file against other programs that do the same, until its handle is closed. False if
+/// another one holds it; *throws* if nobody can lock it.
+bool lock(const Handle &file, Lock how);
+
+enum class Access { read, write };
+/// The start of a file, or of memory that processes share, as bytes in memory. *Requires*: not
+/// empty.
+std::span<std::byte> map(int file, std::size_t bytes, Access access);
+void unmap(std::span<std::byte> mapped);
+
 } // namespace pellucid::platform

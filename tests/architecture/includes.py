@@ -39,20 +39,15 @@ THIRD_PARTY = [
 SYSTEM = re.compile(r"(sys|linux|netinet|arpa|net)/|(unistd|fcntl|poll|pthread|sched|signal|spawn|netdb|pwd|grp|dlfcn|termios|dirent|"
                     r"syslog|ifaddrs|langinfo|windows|winsock2)\.h$")
 NOT_YET = """
-app/bench/machine.cpp app/cli/main.cpp app/cli/servers.cpp app/cli/terminal.cpp app/decode/main.cpp app/net/main.cpp app/pellucid/main.cpp
-core/archive/listener.cpp core/archive/pkce_openssl.cpp core/archive/server.cpp core/archive/transfer_log_sqlite.cpp
-core/batch/study_results.cpp core/confined/confinement_seccomp.cpp core/confined/packet.cpp core/confined/process.cpp core/confined/process.h
-core/decoding/client/child.cpp
-core/decoding/process/memory_input_dcmtk.cpp core/decoding/process/serve.cpp core/decoding/process/watch.cpp
-core/files/atomic_file.cpp core/files/file_lock.cpp
-core/files/mapping.cpp core/files/session_folder.cpp core/files/spawn.h core/files/user_folders.cpp
-core/files/video_file.cpp core/files/video_file.h
-core/network/client/login.cpp core/network/client/peer.cpp core/network/client/peer.h
-core/network/process/association_dcmtk.cpp core/network/process/authorities.cpp core/network/process/confine_seccomp.cpp
-core/network/process/connect.cpp core/network/process/connection_owner.cpp core/network/process/connection_owner.h
-core/network/process/control.cpp core/network/process/http_curl.cpp core/network/process/redirect.cpp
-core/network/process/transport_dcmtk.cpp core/network/process/web_client.cpp
-gpu/surfaceless_context_epoxy.cpp
+app/cli/main.cpp app/cli/terminal.cpp app/decode/main.cpp app/net/main.cpp app/pellucid/main.cpp core/archive/listener.cpp
+core/archive/server.cpp core/confined/confinement_seccomp.cpp core/confined/packet.cpp core/confined/process.cpp
+core/confined/process.h core/decoding/client/child.cpp core/decoding/process/serve.cpp core/decoding/process/watch.cpp
+core/files/atomic_file.cpp core/files/session_folder.cpp core/files/spawn.h core/files/video_file.cpp core/files/video_file.h
+core/network/client/login.cpp core/network/client/peer.cpp core/network/client/peer.h core/network/process/association_dcmtk.cpp
+core/network/process/authorities.cpp core/network/process/confine_seccomp.cpp core/network/process/connect.cpp
+core/network/process/connection_owner.cpp core/network/process/connection_owner.h core/network/process/control.cpp
+core/network/process/http_curl.cpp core/network/process/redirect.cpp core/network/process/transport_dcmtk.cpp
+core/network/process/web_client.cpp gpu/surfaceless_context_epoxy.cpp
 """.split()
 # Headers may include only these: GLM everywhere, and Qt in the rooms of the window.
 IN_HEADERS = {r"glm/": "", r"Q[A-Z]": "ui/"}

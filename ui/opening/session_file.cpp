@@ -219,7 +219,7 @@ void SessionFile::chooseFile() {
     for (int n = 0; n <= all; ++n) {
         if (n == all && m_lock)
             break;
-        files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Mode::tryLock);
+        files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Mode::attempt);
         if (!lock.isHeld())
             continue;
         const auto path = fileOf(*folder, n, ".json");
@@ -300,7 +300,7 @@ void SessionFile::forgetAll() {
     forget();
     const auto folder = files::userDataFolder();
     for (int n = 0, all = folder ? countPrograms(*folder) : 0; n < all; ++n) {
-        const files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Mode::tryLock);
+        const files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Mode::attempt);
         std::error_code ignored;
         if (lock.isHeld())
             std::filesystem::remove(fileOf(*folder, n, ".json"), ignored);

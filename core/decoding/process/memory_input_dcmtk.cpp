@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <sys/resource.h>
 
 #include <dcmtk/config/osconfig.h>
 
@@ -12,19 +11,12 @@
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "core/decoding/process/reasons.h"
+#include "core/platform/process.h"
 #include "core/task/error.h"
 
 namespace pellucid::decoding::process {
 
 namespace {
-
-// Half of the stack of the main thread; other threads have as much by default.
-std::size_t stackToUse() {
-    constexpr std::size_t typical = std::size_t(8) << 20;
-    rlimit limit{};
-    const bool isKnown = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-    return std::min<std::size_t>(typical, isKnown ? limit.rlim_cur : typical) / 2;
-}
 
 // An element takes about five reads, and 250 bytes in DCMTK. The limit is four million elements, or
 // 10 000 frames of 400 each, and a gigabyte.
@@ -92,7 +84,7 @@ private:
 
     std::span<const std::byte> m_file;
     std::size_t m_reads = 0;
-    std::size_t m_maxUsed = stackToUse();
+    std::size_t m_maxUsed = platform::stackToUse();
     std::uintptr_t m_base = stackPosition(); ///< where reading started
     MemoryProducer m_producer;
 };

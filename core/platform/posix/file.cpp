@@ -3,6 +3,8 @@
 
 #include <cerrno>
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -65,6 +67,35 @@ void writeAll(const Handle &file, std::span<const std::byte> bytes) {
             throw std::system_error(EIO, std::generic_category());
         bytes = bytes.subspan(std::size_t(written));
     }
+}
+
+Handle openOrCreate(const std::filesystem::path &path) {
+    return Handle(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+}
+
+bool lock(const Handle &file, Lock how) {
+    try {
+        repeated([&] {
+            return ::flock(file.get(), how == Lock::attempt ? LOCK_EX | LOCK_NB : LOCK_EX);
+        });
+        return true;
+    } catch (const std::system_error &error) {
+        if (error.code().value() == EWOULDBLOCK)
+            return false;
+        throw;
+    }
+}
+
+std::span<std::byte> map(int file, std::size_t bytes, Access access) {
+    const int may = access == Access::write ? PROT_READ | PROT_WRITE : PROT_READ;
+    void *const data = ::mmap(nullptr, bytes, may, MAP_SHARED, file, 0);
+    if (data == MAP_FAILED)
+        throw std::system_error(errno, std::generic_category());
+    return {static_cast<std::byte *>(data), bytes};
+}
+
+void unmap(std::span<std::byte> mapped) {
+    ::munmap(mapped.data(), mapped.size());
 }
 
 } // namespace pellucid::platform

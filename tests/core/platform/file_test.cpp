@@ -72,5 +72,29 @@ TEST(File, IsTheSameByEveryPath) {
     }
 }
 
+TEST(File, IsLockedByOneHandleAtATime) {
+    const test::TemporaryFolder folder;
+    const Handle second = openOrCreate(folder / "lock");
+    {
+        const Handle first = openOrCreate(folder / "lock");
+        EXPECT_TRUE(lock(first, Lock::attempt));
+        EXPECT_FALSE(lock(second, Lock::attempt));
+    }
+    EXPECT_TRUE(lock(second, Lock::wait));
+    EXPECT_FALSE(openOrCreate(folder / "no" / "folder"));
+}
+
+TEST(File, IsSharedByItsMappings) {
+    const test::TemporaryFolder folder;
+    test::writeText(folder / "file", "abcdefgh");
+    const Handle file = openOrCreate(folder / "file");
+    const auto written = map(file.get(), 8, Access::write), read = map(file.get(), 8, Access::read);
+    written[0] = std::byte('x');
+    EXPECT_EQ(textOf(read), "xbcdefgh");
+    unmap(written);
+    unmap(read);
+    EXPECT_THROW(map(-1, 8, Access::read), std::system_error);
+}
+
 } // namespace
 } // namespace pellucid::platform

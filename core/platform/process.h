@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace pellucid::platform {
+
+/// The number of this process.
+long ownProcess();
+/// Distinguishes a running process from later ones with the same number. Empty if there is none.
+std::string processIdentity(long process);
+/// The file of the running program; empty if unknown.
+std::filesystem::path programFile();
+
+/// Half of what the main thread's stack may grow to; other threads have as much by default.
+std::size_t stackToUse();
+/// Bytes that nobody can guess. *Throws* std::system_error.
+void fillRandomly(std::span<std::byte> bytes);
+/// Whether a person reads what is written there.
+bool isTerminal(std::FILE *stream);
+
+/// This machine; texts are empty, and the bytes 0, if unknown.
+struct Machine {
+    std::string system, processor;
+    std::size_t memoryBytes = 0;
+};
+Machine thisMachine();
+
+} // namespace pellucid::platform
