@@ -3,11 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <span>
-#include <string>
 #include <string_view>
+
+#include "core/platform/new_file.h"
 
 namespace pellucid::files {
 
@@ -19,14 +20,11 @@ void requireTrusted(const std::filesystem::path &link);
 /// file would replace a device or a pipe, or if another user made the link where anybody may.
 std::filesystem::path targetOf(const std::filesystem::path &path);
 
-/// A file that appears under its name only when it is complete. Until `commit`, its bytes are in a
-/// nameless file, which disappears if the program is killed; on file systems without such files, in
-/// a hidden file in the same folder. Not QSaveFile: core does not use Qt, and a killed program
-/// leaves QSaveFile's unfinished file behind.
+/// A file that appears under its name only when it is complete, see `platform::NewFile`. Not
+/// QSaveFile: core does not use Qt, and a killed program leaves QSaveFile's unfinished file behind.
 class AtomicFile {
 public:
-    /// Who may read it: whoever the user lets read new files, or the user alone.
-    enum class Readers { usual, user };
+    using Readers = platform::Readers;
     /// *Throws* Error{output} if the folder cannot be written.
     explicit AtomicFile(const std::filesystem::path &path, Readers readers = Readers::usual);
     ~AtomicFile();
@@ -49,14 +47,10 @@ public:
     void commit(Bytes bytes = Bytes::flushed);
 
 private:
-    [[noreturn]] void fail(int error) const;
-    void linkToPath();
-    std::string copyTo(std::string name);
+    [[noreturn]] void failWith(int error) const;
 
     std::filesystem::path m_path;
-    unsigned m_mode;
-    std::filesystem::path m_temporary; ///< empty while it has no name
-    std::FILE *m_file = nullptr;
+    std::unique_ptr<platform::NewFile> m_file;
 };
 
 /// Renames a complete file within a file system after its bytes are on the disk. *Throws*
