@@ -2,22 +2,18 @@
 #include "core/archive/listener.h"
 
 #include <algorithm>
-#include <arpa/inet.h>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <exception>
 #include <list>
 #include <mutex>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
+#include <system_error>
 #include <thread>
 
 #include "core/archive/reasons.h"
 #include "core/network/client/reasons.h"
-#include "core/platform/handle.h"
+#include "core/platform/socket.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
 #include "core/task/reasons.h"
@@ -108,47 +104,18 @@ private:
     Clock::time_point m_begun; // of the current object
 };
 
-// An address of this computer to receive on; none: all of them, IPv6 and IPv4.
-sockaddr_storage ownAddress(const std::string &text, int port, bool knowsIpv6) {
-    sockaddr_storage address{};
-    auto &at4 = reinterpret_cast<sockaddr_in &>(address);
-    auto &at6 = reinterpret_cast<sockaddr_in6 &>(address);
-    if (text.empty() ? knowsIpv6 : ::inet_pton(AF_INET6, text.c_str(), &at6.sin6_addr) == 1) {
-        at6.sin6_family = AF_INET6;
-        at6.sin6_port = htons(std::uint16_t(port));
-        return address;
-    }
-    // Linux binds a port to the address of broadcasts, which nobody can connect to.
-    if (!text.empty() && (::inet_pton(AF_INET, text.c_str(), &at4.sin_addr) != 1 ||
-                          at4.sin_addr.s_addr == INADDR_BROADCAST))
-        throw Error(ErrorCode::usage, because::isNoListeningAddress(text));
-    at4.sin_family = AF_INET;
-    at4.sin_port = htons(std::uint16_t(port));
-    return address;
-}
-
-Handle openPort(const std::string &address, int port, int &boundPort) {
-    const bool knowsIpv6 =
-        bool(Handle(::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0))); // may be switched off
-    sockaddr_storage at = ownAddress(address, port, knowsIpv6);
-    Handle socket(::socket(at.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    const int on = 1, off = 0;
-    ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    ::setsockopt(socket.get(), IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
-    if (!socket || ::bind(socket.get(), reinterpret_cast<const sockaddr *>(&at), sizeof at) != 0 ||
-        ::listen(socket.get(), int(maxAtOnce)) != 0) {
-        const int failure = errno;
-        if (failure == EADDRINUSE)
+platform::ListeningSocket openPort(const std::string &address, int port) {
+    try {
+        return platform::listenOn(address, port, int(maxAtOnce));
+    } catch (const std::system_error &error) {
+        if (error.code() == std::errc::address_in_use)
             throw Error(ErrorCode::unreachable, because::portIsInUse(port));
-        if (failure == EADDRNOTAVAIL)
+        if (error.code() == std::errc::address_not_available ||
+            error.code() == std::errc::invalid_argument)
             throw Error(ErrorCode::usage, because::isNoListeningAddress(address));
-        throw Error(ErrorCode::usage, because::portCannotBeUsed(port, task::systemReason(failure)));
+        throw Error(ErrorCode::usage,
+                    because::portCannotBeUsed(port, task::systemReason(error.code())));
     }
-    socklen_t size = sizeof at;
-    ::getsockname(socket.get(), reinterpret_cast<sockaddr *>(&at), &size);
-    boundPort = ntohs(at.ss_family == AF_INET6 ? reinterpret_cast<sockaddr_in6 &>(at).sin6_port
-                                               : reinterpret_cast<sockaddr_in &>(at).sin_port);
-    return socket;
 }
 
 } // namespace
@@ -168,8 +135,7 @@ class Listener::Threads {
 public:
     Threads(ListenerOptions options, Receivers receivers, ListenerObserver observer)
         : m_options(std::move(options)), m_receivers(std::move(receivers)),
-          m_observer(std::move(observer)),
-          m_socket(openPort(m_options.address, m_options.port, m_port)),
+          m_observer(std::move(observer)), m_listening(openPort(m_options.address, m_options.port)),
           m_acceptor([this](const std::stop_token &stop) { acceptAll(stop); }) {}
     ~Threads() {
         m_acceptor.request_stop();
@@ -180,28 +146,24 @@ public:
             connection.thread.join();
     }
 
-    int port() const { return m_port; }
+    int port() const { return m_listening.port; }
 
 private:
     void acceptAll(const std::stop_token &stop) {
         while (!stop.stop_requested()) {
             const bool isFull = tidy() >= 2 * maxAtOnce;
-            pollfd waiting{m_socket.get(), POLLIN, 0};
             if (isFull) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(pollMs));
                 continue;
             }
-            if (::poll(&waiting, 1, pollMs) <= 0)
+            if (!platform::awaitInput(m_listening.socket, pollMs))
                 continue;
-            sockaddr_storage from{};
-            socklen_t size = sizeof from;
-            Handle client(::accept4(m_socket.get(), reinterpret_cast<sockaddr *>(&from), &size,
-                                    SOCK_CLOEXEC));
+            auto client = platform::acceptFrom(m_listening.socket);
             if (!client) { // perhaps the program has too many files open
                 std::this_thread::sleep_for(std::chrono::milliseconds(pollMs));
                 continue;
             }
-            begin(std::move(client), network::textOf(from));
+            begin(std::move(client->socket), client->address);
         }
     }
 
@@ -285,7 +247,7 @@ private:
     std::vector<Sender> sendersAt(const std::string &address) const {
         std::vector<Sender> senders;
         for (const Sender &sender : m_options.senders)
-            if (const auto known = network::addressesOf(sender.host);
+            if (const auto known = platform::addressesOf(sender.host);
                 std::find(known.begin(), known.end(), address) != known.end())
                 senders.push_back(sender);
         return senders;
@@ -367,8 +329,7 @@ private:
     Receivers m_receivers;
     ListenerObserver m_observer;
     std::mutex m_mutex; // of the observer
-    int m_port = 0;
-    Handle m_socket;
+    platform::ListeningSocket m_listening;
     std::mutex m_connectionsMutex;
     std::list<Connection> m_connections;
     std::jthread m_acceptor;

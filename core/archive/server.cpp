@@ -2,12 +2,12 @@
 #include "core/archive/server.h"
 
 #include <algorithm>
-#include <arpa/inet.h>
 #include <charconv>
 #include <fstream>
 
 #include "core/archive/reasons.h"
 #include "core/network/client/login.h"
+#include "core/platform/socket.h"
 #include "core/task/error.h"
 
 namespace pellucid::archive {
@@ -42,10 +42,9 @@ void takeHostAndPort(network::Peer &peer, const std::string &text) {
 
 // A name, or an address; only one of IPv6 contains colons.
 bool isHost(const std::string &text) {
-    in6_addr address{};
     return !text.empty() && text.find_first_of(" /@?#[]\"\\") == std::string::npos &&
            (text.find(':') == std::string::npos ||
-            ::inet_pton(AF_INET6, text.c_str(), &address) == 1);
+            platform::addressKind(text) == platform::AddressKind::ipv6);
 }
 
 void requireValidLogin(const Server &server) {

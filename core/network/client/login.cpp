@@ -2,33 +2,26 @@
 #include "core/network/client/login.h"
 
 #include <algorithm>
-#include <arpa/inet.h>
-#include <cerrno>
-#include <netinet/in.h>
-#include <sys/socket.h>
+#include <system_error>
+#include <utility>
 
 #include "core/network/client/query.h"
 #include "core/network/client/reasons.h"
+#include "core/platform/socket.h"
 #include "core/task/error.h"
 
 namespace pellucid::network {
 
 LoopbackPort openLoopbackPort() {
-    LoopbackPort opened{
-        platform::Handle(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)), 0};
-    sockaddr_in at{};
-    at.sin_family = AF_INET;
-    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof at;
     constexpr int waiting = 8; // browsers open connections that they may not use
-    auto *const address = reinterpret_cast<sockaddr *>(&at);
-    if (!opened.socket || ::bind(opened.socket.get(), address, size) != 0 ||
-        ::listen(opened.socket.get(), waiting) != 0 ||
-        ::getsockname(opened.socket.get(), address, &size) != 0)
+    try {
+        auto [socket, port] =
+            platform::listenOn("127.0.0.1", 0, waiting, platform::Accepting::neverWaits);
+        return {std::move(socket), port};
+    } catch (const std::system_error &error) {
         throw task::Error(task::ErrorCode::unreachable,
-                          task::because::cannotConnect(task::systemReason(errno)));
-    opened.port = ntohs(at.sin_port);
-    return opened;
+                          task::because::cannotConnect(task::systemReason(error.code())));
+    }
 }
 
 bool isVisible(const std::string &text, std::size_t longest) {

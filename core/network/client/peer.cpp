@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/network/client/peer.h"
 
-#include <algorithm>
-#include <arpa/inet.h>
-#include <array>
-#include <cstring>
-#include <netdb.h>
-#include <netinet/in.h>
-
 #include "core/network/client/reasons.h"
+#include "core/platform/socket.h"
 #include "core/task/error.h"
 
 namespace pellucid::network {
 
 bool isPrivate(const Peer &peer) {
-    constexpr std::uint32_t loopback = 127; // 127.0.0.0/8 (RFC 1122, 3.2.1.3)
-    in_addr address{};
-    in6_addr address6{};
-    return peer.usesTls || peer.host == "localhost" ||
-           (::inet_pton(AF_INET, peer.host.c_str(), &address) == 1 &&
-            ntohl(address.s_addr) >> 24 == loopback) ||
-           (::inet_pton(AF_INET6, peer.host.c_str(), &address6) == 1 &&
-            IN6_IS_ADDR_LOOPBACK(&address6));
+    return peer.usesTls || peer.host == "localhost" || platform::isLoopback(peer.host);
 }
 
 bool hasInsecureLogin(const Peer &peer) {
@@ -55,38 +42,6 @@ const std::vector<std::string> &transferSyntaxes() {
 
 std::string hostPart(const std::string &host) {
     return host.find(':') == std::string::npos ? host : "[" + host + "]";
-}
-
-std::string textOf(const sockaddr_storage &address) {
-    std::array<char, INET6_ADDRSTRLEN> text{};
-    if (address.ss_family == AF_INET) {
-        const auto &at = reinterpret_cast<const sockaddr_in &>(address);
-        ::inet_ntop(AF_INET, &at.sin_addr, text.data(), text.size());
-        return text.data();
-    }
-    const in6_addr &at = reinterpret_cast<const sockaddr_in6 &>(address).sin6_addr;
-    constexpr std::size_t mappedAt = 12; // bytes
-    if (IN6_IS_ADDR_V4MAPPED(&at))
-        ::inet_ntop(AF_INET, at.s6_addr + mappedAt, text.data(), text.size());
-    else
-        ::inet_ntop(AF_INET6, &at, text.data(), text.size());
-    return text.data();
-}
-
-std::vector<std::string> addressesOf(const std::string &host) {
-    addrinfo wanted{};
-    wanted.ai_socktype = SOCK_STREAM;
-    addrinfo *found = nullptr;
-    std::vector<std::string> addresses;
-    if (::getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0)
-        return addresses;
-    for (const addrinfo *each = found; each != nullptr; each = each->ai_next) {
-        sockaddr_storage at{};
-        std::memcpy(&at, each->ai_addr, std::min<std::size_t>(each->ai_addrlen, sizeof at));
-        addresses.push_back(textOf(at));
-    }
-    ::freeaddrinfo(found);
-    return addresses;
 }
 
 const std::vector<std::string> &commonClasses() {

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <sys/socket.h>
-
 namespace pellucid::network {
 
 enum class Protocol { dicom, web };
@@ -44,13 +42,6 @@ void requireSecureLogin(const Peer &peer);
 
 /// A host as it stands in a URL before its port: an IPv6 address in brackets (RFC 3986, 3.2.2).
 std::string hostPart(const std::string &host);
-
-/// An address as text, IPv4 or IPv6; one of IPv4 that is mapped into IPv6 (RFC 4291, 2.5.5.2) as
-/// the former.
-std::string textOf(const sockaddr_storage &address);
-
-/// The addresses of a host, as the system resolves them; empty if it knows none.
-std::vector<std::string> addressesOf(const std::string &host);
 
 /// A kind of object, and one way to encode it (transfer syntax).
 struct Encoding {
