@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -18,6 +17,7 @@
 #include "app/exit_code.h"
 #include "core/decoding/client/read_volume_file.h"
 #include "core/files/atomic_file.h"
+#include "core/platform/process.h"
 #include "core/reference/wide_kernel.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
@@ -209,7 +209,7 @@ int fail(const std::exception &error, pellucid::task::ErrorCode code) {
 
 int main(int argc, char **argv) {
     using namespace pellucid;
-    std::signal(SIGXFSZ, SIG_IGN);
+    platform::letLongFilesFail();
     CLI::App app("Speed and error of projections", "pellucid-bench");
     Options options;
     addOptions(app, options);

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <exception>
-#include <pthread.h>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +16,8 @@
 #include "core/files/user_folders.h"
 #include "core/fourier/transforms/wisdom.h"
 #include "core/platform/memory.h"
+#include "core/platform/process.h"
+#include "core/platform/terminal.h"
 #include "core/task/error.h"
 #include "core/task/progress.h"
 
@@ -34,28 +33,16 @@ int report(const std::string &what, int code) {
 // Ctrl+C stops the running command cleanly instead of killing it half way.
 std::stop_source &stopOnInterrupt() {
     static std::stop_source source;
-    sigset_t signals;
-    sigemptyset(&signals);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGTERM);
-    sigaddset(&signals, SIGHUP);
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    std::thread([signals] {
-        int received = 0;
-        sigwait(&signals, &received);
-        source.request_stop();
-        // A second signal does not wait for a transform to finish.
-        sigwait(&signals, &received);
-        pellucid::cli::endAtOnce(cancelledExit);
-    }).detach();
+    // A second request does not wait for a transform to finish.
+    pellucid::platform::whenAskedToEnd([] { source.request_stop(); },
+                                       [] { pellucid::platform::endAtOnce(cancelledExit); });
     return source;
 }
 
 int run(int argc, char **argv) {
     using namespace pellucid;
-    // Report a file that exceeds its size limit instead of dying from the signal.
-    std::signal(SIGXFSZ, SIG_IGN);
-    std::signal(SIGPIPE, SIG_IGN);
+    platform::letLongFilesFail();
+    platform::letBrokenPipesFail();
     const cli::Context context{stopOnInterrupt().get_token()};
 
     confined::whenUnprotected([isReported = false]() mutable {

@@ -22,9 +22,6 @@ std::string counted(std::size_t count, const std::string &noun);
 /// terminal, Cancelled.
 std::string askHidden(const std::string &question, const std::stop_token &stop);
 
-/// Ends the program without waiting for anything, but with a terminal that shows what is typed.
-[[noreturn]] void endAtOnce(int code);
-
 /// Prints a warning on stderr, one line.
 void warn(const std::string &what);
 

@@ -19,6 +19,7 @@
 #include "core/files/user_folders.h"
 #include "core/fourier/transforms/wisdom.h"
 #include "core/platform/memory.h"
+#include "core/platform/process.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
 #include "ui/engine/graphics_card.h"
@@ -67,7 +68,7 @@ void endOnSignals(QObject &application) {
 int main(int argc, char **argv) {
     using namespace pellucid;
     platform::leaveMemoryOutOfDumps(); // not hideMemory: desktops then refuse their dialogs
-    std::signal(SIGXFSZ, SIG_IGN);
+    platform::letLongFilesFail();
     CLI::App options("View DICOM studies as transparent projections", "pellucid");
     std::vector<std::string> paths;
     options.set_version_flag("--version", "pellucid " PELLUCID_VERSION);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -15,6 +16,14 @@ long ownProcess();
 std::string processIdentity(long process);
 /// The file of the running program; empty if unknown.
 std::filesystem::path programFile();
+
+/// From now on, writing beyond the limit of a file's size fails instead of ending the program.
+void letLongFilesFail();
+/// The same for writing where nobody reads.
+void letBrokenPipesFail();
+/// From now on, `first` is called if the program is asked to end, and `second` if it is asked
+/// again, on a thread of their own. Before any other thread is started.
+void whenAskedToEnd(std::function<void()> first, std::function<void()> second);
 
 /// Half of what the main thread's stack may grow to; other threads have as much by default.
 std::size_t stackToUse();

@@ -39,7 +39,7 @@ THIRD_PARTY = [
 SYSTEM = re.compile(r"(sys|linux|netinet|arpa|net)/|(unistd|fcntl|poll|pthread|sched|signal|spawn|netdb|pwd|grp|dlfcn|termios|dirent|"
                     r"syslog|ifaddrs|langinfo|windows|winsock2)\.h$")
 NOT_YET = """
-app/cli/main.cpp app/cli/terminal.cpp app/decode/main.cpp app/net/main.cpp app/pellucid/main.cpp 
+app/decode/main.cpp app/net/main.cpp app/pellucid/main.cpp 
 core/confined/confinement_seccomp.cpp core/confined/packet.cpp core/confined/process.cpp
 core/confined/process.h core/decoding/client/child.cpp core/decoding/process/serve.cpp core/decoding/process/watch.cpp
 core/files/session_folder.cpp core/files/spawn.h core/files/video_file.cpp core/files/video_file.h

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <fstream>
+#include <pthread.h>
 #include <sstream>
 #include <sys/resource.h>
 #include <sys/utsname.h>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace pellucid::platform {
 
@@ -37,6 +41,29 @@ std::string processIdentity(long process) {
 std::filesystem::path programFile() {
     std::error_code unknown;
     return std::filesystem::read_symlink("/proc/self/exe", unknown);
+}
+
+void letLongFilesFail() {
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void letBrokenPipesFail() {
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
+void whenAskedToEnd(std::function<void()> first, std::function<void()> second) {
+    sigset_t signals;
+    ::sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        ::sigaddset(&signals, signal);
+    ::pthread_sigmask(SIG_BLOCK, &signals, nullptr); // of the threads to come, too
+    std::thread([signals, first = std::move(first), second = std::move(second)] {
+        int received = 0;
+        ::sigwait(&signals, &received);
+        first();
+        ::sigwait(&signals, &received);
+        second();
+    }).detach();
 }
 
 std::size_t stackToUse() {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <string>
+
+namespace pellucid::platform {
+
+/// What a person has typed at a question that hides it.
+struct HiddenAnswer {
+    bool isAsked = false;            ///< there is a terminal
+    std::optional<std::string> line; ///< none if the program was stopped before
+};
+HiddenAnswer askHidden(const std::string &question, const std::stop_token &stop);
+
+/// Ends the program without waiting for anything, but with a terminal that shows what is typed.
+[[noreturn]] void endAtOnce(int code);
+
+} // namespace pellucid::platform
