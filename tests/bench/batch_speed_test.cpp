@@ -67,10 +67,10 @@ protected:
 
 } // namespace
 
-// Two pictures of each study, which share a preparation in a batch. In turns; other processes slow
-// some rounds, so the best of three counts. Without the measured errors, of which a batch has twice
-// as many. On two threads of AVX-512: 2.2 to 2.3 times; 1.5 to 1.6 when every study had new
-// decoders.
+// Two pictures of each study in a batch, one in the loop, which needs no spectrum. In turns; other
+// processes slow some rounds, so the best of three counts. Without the measured errors, of which a
+// batch has twice as many. On two threads of AVX2: 1.7 to 1.8 times. New decoders for every study
+// made a batch take 1.4 times as long, which would leave 1.2.
 TEST_F(BatchSpeed, ABatchIsFasterThanALoopOfRender) {
     const fs::path in = studies(10, "64x64x40");
     const fs::path made = recipe();
@@ -94,7 +94,7 @@ TEST_F(BatchSpeed, ABatchIsFasterThanALoopOfRender) {
                     ratio);
     }
     std::sort(ratios.begin(), ratios.end());
-    EXPECT_GT(ratios[2], 1.8);
+    EXPECT_GT(ratios[2], 1.5);
 }
 
 // After it has warmed up, every study leaves as much memory as it took.
