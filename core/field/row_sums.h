@@ -13,14 +13,15 @@ struct RowTotals {
 };
 void addRow(const float *row, int count, const RowTotals &to);
 
-/// Of a part of a row, in eight lanes: the same bits with any instruction set.
+/// The sums of a part of a row. Eight lanes add up in a fixed order, so that every instruction set
+/// gives the same bits.
 struct PartSums {
     float energy = 0.0F, mass = 0.0F;
     float least = 0.0F; ///< at most 0
 };
 PartSums partSums(const float *part, int count);
 /// The sum of the squares of the second differences down and across the planes, and of those along
-/// the row but at its ends. The same bits with any instruction set.
+/// the row except at its ends. Every instruction set gives the same bits.
 double squaredDifferences(const RowAndNeighbours &rows, int count);
 
 } // namespace pellucid::field

@@ -12,8 +12,7 @@ struct RegularFile {
     platform::Handle handle;
     platform::FileFacts facts;
 
-    /// Whether it is still the same. To be asked after reading, because others may have written to
-    /// it meanwhile.
+    /// Whether nobody has changed it since. Callers ask after reading.
     bool isUnchanged() const;
 };
 

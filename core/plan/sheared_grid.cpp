@@ -14,7 +14,7 @@ namespace pellucid::plan {
 
 namespace {
 
-// What rounding leaves of a whole number of cells.
+// A whole number of cells is only this close to one, because of rounding.
 constexpr double cellRounding = 1e-9;
 
 ShearedAxis shearedAxis(const volume::Lattice &lattice, const volume::VoxelBox &box, int axis,

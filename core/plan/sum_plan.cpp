@@ -16,7 +16,7 @@ namespace {
 // Half of the last bit of a float.
 constexpr double rounding = 0x1p-24;
 
-// The error of the smallest part of the image, and of its detail.
+// By how much amplified detail, and fields that add up, may raise the error of a field's image.
 double gainOf(const scene::Scene &scene, const Composition &composition) {
     return scene::detailGain(scene.image) * composition.errorFactor();
 }

@@ -6,7 +6,7 @@
 
 namespace pellucid::platform {
 
-/// The address space that the process's own limit still allows; the maximum if unlimited.
+/// How much more address space the process may use; the maximum if nothing limits it.
 std::size_t mappableBytes();
 
 /// The memory that the process's control groups (of a session or a container; either version) still

@@ -10,7 +10,7 @@
 /// Writing files. All functions *throw* std::system_error.
 namespace pellucid::platform {
 
-/// Who may read a new file: whoever the user lets read new files, or the user alone.
+/// Who may read a new file: those whom the user's file mode mask allows, or the user alone.
 enum class Readers { usual, user };
 
 /// A file that appears under a name only when it is complete. Until `publish`, its bytes are in a

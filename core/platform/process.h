@@ -27,7 +27,7 @@ void whenAskedToEnd(std::function<void()> first, std::function<void()> second);
 
 /// Half of what the main thread's stack may grow to; other threads have as much by default.
 std::size_t stackToUse();
-/// Bytes that nobody can guess. *Throws* std::system_error.
+/// Bytes that nobody can guess, at most 256. *Throws* std::system_error.
 void fillRandomly(std::span<std::byte> bytes);
 /// Whether a person reads what is written there.
 bool isTerminal(std::FILE *stream);

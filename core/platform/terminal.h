@@ -7,7 +7,7 @@
 
 namespace pellucid::platform {
 
-/// What a person has typed at a question that hides it.
+/// The answer to a question whose answer is not shown while it is typed.
 struct HiddenAnswer {
     bool isAsked = false;            ///< there is a terminal
     std::optional<std::string> line; ///< none if the program was stopped before

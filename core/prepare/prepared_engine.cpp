@@ -71,18 +71,22 @@ std::shared_ptr<render::CpuEngine> engineOf(render::EngineParts parts) {
     return engine;
 }
 
-// An engine that holds the fields, if it is faster and good enough.
+// An engine that holds the fields, if it is faster and good enough. `needed`: its bytes, also if
+// they exceed the budget.
 std::optional<PreparedEngine> sumEngine(const scene::Scene &scene, classify::ShownFields &fields,
                                         const plan::Composition &composition,
-                                        const plan::Budget &budget,
-                                        const task::Progress &progress) {
+                                        const plan::Budget &budget, const task::Progress &progress,
+                                        std::optional<std::size_t> &needed) {
     scene::validate(scene);
     const std::span<const classify::DensityField> channels = fields.channels;
     const volume::Lattice lattice = channels.front().values.lattice();
     if (!plan::sumsPay(scene, lattice, field::boxOf(channels), composition))
         return std::nullopt;
     auto plan = plan::planSums(scene, field::summarise(channels), composition);
-    if (!plan || (plan->bytes > budget.bytes && budget.decides))
+    if (!plan)
+        return std::nullopt;
+    needed = plan->bytes;
+    if (plan->bytes > budget.bytes && budget.decides)
         return std::nullopt;
     requireWithin(plan->bytes, budget);
     PreparedEngine prepared{.plan = std::move(*plan),
@@ -198,16 +202,24 @@ PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progre
     budget.bytes -= std::min(budget.bytes, bytesForLight(scene.shading, lattice.size(), channels));
     const bool mayBeExact = request.mayBeExact && scene.interpolation.isPlanned() &&
                             scene.plannedFor == scene::PlannedFor::picture;
+    std::optional<std::size_t> sumBytes;
     if (request.mayBeSums)
-        if (auto sums = sumEngine(scene, fields, composition, budget, progress))
+        if (auto sums = sumEngine(scene, fields, composition, budget, progress, sumBytes))
             return std::move(*sums);
     classify::ShownFields exactFields = mayBeExact ? fields : classify::ShownFields{};
-    FittingPlan fitting =
-        planWithin(scene,
-                   shadedFields(std::move(fields), scene.shading,
-                                request.scale.value_or(shading::shadingScale(lattice)),
-                                progress.part(0.0, 0.1)),
-                   composition, budget, progress.part(0.1, 1.0));
+    ShadedFields shaded = shadedFields(std::move(fields), scene.shading,
+                                       request.scale.value_or(shading::shadingScale(lattice)),
+                                       progress.part(0.0, 0.1));
+    FittingPlan fitting = [&] {
+        try {
+            return planWithin(scene, std::move(shaded), composition, budget,
+                              progress.part(0.1, 1.0));
+        } catch (const task::Error &error) {
+            if (error.code() == task::ErrorCode::outOfMemory && sumBytes)
+                requireWithin(*sumBytes, budget); // names the least that is enough
+            throw;
+        }
+    }();
     PreparedEngine prepared{
         .plan = std::move(fitting.plan),
         .lattice = fitting.fields.fields.front().values.lattice(),

@@ -169,7 +169,7 @@ public:
     }
 
 private:
-    // Of rows that are kept, by their number modulo this.
+    // A spread row is kept in the slot of its number modulo this.
     static constexpr int slots = 8;
     static_assert(slots >= largestWidth);
 

@@ -3,10 +3,12 @@
 
 #include <tbb/global_control.h>
 
+#include "core/plan/reasons.h"
 #include "core/plan/sum_plan.h"
 #include "core/prepare/prepared_engine.h"
 #include "core/reference/shaded_field.h"
 #include "core/render/sum_engine.h"
+#include "core/task/error.h"
 #include "tests/support/fields.h"
 
 // Pictures from sums along the view, without a spectrum of the volume.
@@ -217,6 +219,32 @@ TEST(SumEngine, IsChosenForOnePictureOfALargeVolume) {
     scene = plain;
     scene.camera.pixelMm = 0.1; // the sums would need more cells than the spectrum
     EXPECT_TRUE(prepared(1).engine);
+}
+
+// The error names the sums' need, not that of a spectrum.
+TEST(SumEngine, NamesTheLeastMemoryThatIsEnough) {
+    const auto lattice = volume::Lattice::centred({128, 128, 128}, {1.0, 1.0, 1.0});
+    const classify::ShownFields fields{{test::noiseField(lattice, 3)}, {}};
+    scene::Scene scene;
+    scene.camera = scene::defaultCamera(lattice);
+    const auto prepared = [&](std::size_t bytes) {
+        return prepare::prepareEngine({.scene = scene,
+                                       .fields = fields,
+                                       .budget = {bytes},
+                                       .mayBeSums = true,
+                                       .pictures = 1});
+    };
+    const std::size_t enough = prepared(std::size_t(1) << 30).plan.bytes;
+    EXPECT_TRUE(prepared(enough).sums);
+    try {
+        prepared(enough / 16);
+        FAIL();
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.reason().english(),
+                  task::Reason(
+                      task::because::projectionNeedsMemory((enough >> 20) + 1, (enough / 16) >> 20))
+                      .english());
+    }
 }
 
 TEST(SumEngine, IsNotForSamplesThatMayCancel) {
