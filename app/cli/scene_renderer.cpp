@@ -194,6 +194,13 @@ const classify::ShownFields &SceneRenderer::studyFields() {
 // finally render it with one kernel. The workstation's plan stays.
 picture::ProjectionImage SceneRenderer::image(const scene::Camera &camera, Check check) {
     m_progress.check();
+    // Fitted to the body, a picture may have far smaller pixels than the scene's camera.
+    scene::Scene shown = m_planned;
+    shown.camera = camera;
+    if (prepare::needsASpectrum(*m_prepared, shown)) {
+        m_planned = shown;
+        prepare();
+    }
     picture::ProjectionImage image = make(camera, check);
     for (int tries = 0; tries < 3 && mayPlanCloser(); ++tries) {
         const double before = judgedError();

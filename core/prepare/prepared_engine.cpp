@@ -249,6 +249,15 @@ PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progre
     return prepared;
 }
 
+bool needsASpectrum(const PreparedEngine &prepared, const scene::Scene &scene) {
+    if (!prepared.sums)
+        return false;
+    plan::Composition composition =
+        compositionOf(prepared.sums->fields().channels.size(), scene.shading);
+    composition.pictures = 1;
+    return !plan::sumsPay(scene, prepared.lattice, prepared.plan.spectrum.box, composition);
+}
+
 std::optional<error::StatedError> boundOf(const PreparedEngine &prepared,
                                           const scene::ImageDefinition &image) {
     if (prepared.isCoarse || prepared.of == plan::SpectrumOf::layer)

@@ -95,6 +95,10 @@ std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan:
 /// Cancelled.
 PreparedEngine prepareEngine(EngineRequest request, const task::Progress &progress = {});
 
+/// Whether a picture of a scene, whose pixel may not be the planned one, had better be made by
+/// another engine than sums along the view.
+bool needsASpectrum(const PreparedEngine &prepared, const scene::Scene &scene);
+
 /// What is known of the error of whole pictures before it is measured: the plan's bound. Not set
 /// for the sum of layers, and for fields that are coarser than the study.
 std::optional<error::StatedError> boundOf(const PreparedEngine &prepared,

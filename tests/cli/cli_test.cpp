@@ -98,6 +98,19 @@ TEST_F(Cli, SumsASinglePictureAlongItsView) {
               1.1e-3);
 }
 
+// Pixels that are fitted to the body may be too small for sums.
+TEST_F(Cli, SumsNoPictureWhoseFittedPixelsAreSmall) {
+    const fs::path series = phantomFolder("--kind head --size 96x96x96");
+    const auto combination = [&](const std::string &size) {
+        const auto r = cli("render " + quoted(series) + " -o " + quoted(folder / "fitted.png") +
+                           " --azimuth 30 --elevation 20 --fit body --json --size " + size);
+        EXPECT_EQ(r.exitCode, 0) << r.error;
+        return json::parse(r.out)["plan"]["model"]["combination"];
+    };
+    EXPECT_EQ(combination("90"), "the samples are summed along the view");
+    EXPECT_EQ(combination("1000"), "one grey image");
+}
+
 // A part of a picture that holds less than its share of the whole is planned again until it keeps
 // the tolerance itself. The parts are strips of a few thick, tilted slices, from the middle to
 // beyond the skin.
