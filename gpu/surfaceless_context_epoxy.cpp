@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include "core/platform/display.h"
 #include "core/task/error.h"
 #include "gpu/reasons.h"
 
@@ -27,9 +27,7 @@ bool has(const char *extensions, std::string_view name) {
 }
 
 // libepoxy aborts the program if a library that it loads is missing. The library stays loaded.
-bool canLoad(const char *library) {
-    return dlopen(library, RTLD_LAZY) != nullptr;
-}
+using platform::canLoad;
 
 struct Candidate {
     EGLDisplay display;

@@ -6,7 +6,6 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <malloc.h>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -40,6 +39,7 @@
 #include "core/files/video_file.h"
 #include "core/fourier/transforms/wisdom.h"
 #include "core/network/client/link.h"
+#include "core/platform/memory.h"
 #include "core/system/content_digest.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
@@ -183,9 +183,8 @@ private:
             const BatchItem &item = m_items[n];
             try {
                 naming(item.key, [&] { renderOne(item); });
-                // Returns freed memory to the system. The heaps of the threads would grow
-                // otherwise.
-                ::malloc_trim(0);
+                // The heaps of the threads would grow otherwise.
+                platform::returnFreedMemory();
             } catch (const task::Cancelled &) {
                 return;
             } catch (const Error &error) {

@@ -3,23 +3,20 @@
 // itself.
 #include <cstdio>
 #include <exception>
-#include <fcntl.h>
-#include <unistd.h>
 
-#include "core/confined/process.h"
 #include "core/network/process/serve.h"
+#include "core/platform/helper.h"
 
 int main() {
     using namespace pellucid;
-    if (::fcntl(confined::socketDescriptor, F_GETFD) < 0) {
+    auto ends = platform::takeHelpersEnds(platform::Given::channel);
+    if (!ends) {
         std::fputs("pellucid-net talks to servers for Pellucid and is started by it.\n", stderr);
         return 2;
     }
-    // Close every other file that the parent left open.
-    ::close_range(confined::socketDescriptor + 1, ~0U, 0);
     try {
         network::process::prepareToServe();
-        return network::process::serve(confined::socketDescriptor);
+        return network::process::serve(ends->channel);
     } catch (const std::exception &error) {
         std::fprintf(stderr, "pellucid-net: %s\n", error.what());
         return 1;

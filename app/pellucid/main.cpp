@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <sys/socket.h>
-#include <unistd.h>
 
-#include <QIcon>
-#include <QSocketNotifier>
 #include <QSurfaceFormat>
 #include <QUrl>
 
@@ -18,6 +12,7 @@
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/transforms/wisdom.h"
+#include "core/platform/display.h"
 #include "core/platform/memory.h"
 #include "core/platform/process.h"
 #include "core/system/log.h"
@@ -25,6 +20,7 @@
 #include "ui/engine/graphics_card.h"
 #include "ui/language/failure.h"
 #include "ui/servers/open_request.h"
+#include "ui/theme/icons.h"
 #include "ui/window/application.h"
 #include "ui/window/link_port.h"
 #include "ui/window/main_window.h"
@@ -33,34 +29,20 @@
 
 namespace {
 
-// A signal ends the program as the user would: files are complete or absent, and the session can be
-// resumed. The handler only writes to a socket; the event loop does the rest.
-int signalSocket = -1;
-
-void endOnSignals(QObject &application) {
-    int ends[2] = {-1, -1};
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends) != 0)
-        return;
-    signalSocket = ends[1];
-    auto *const notifier = new QSocketNotifier(ends[0], QSocketNotifier::Read, &application);
-    QObject::connect(notifier, &QSocketNotifier::activated, &application, [notifier] {
-        notifier->setEnabled(false);
-        QApplication::quit();
-    });
-    struct sigaction action {};
-    action.sa_handler = [](int) {
-        const int before = errno; // of the interrupted code
-        const char byte = 1;
-        (void)!::write(signalSocket, &byte, 1);
-        errno = before;
-    };
-    // A second signal ends a program that does not respond.
-    action.sa_flags = SA_RESTART | SA_RESETHAND;
-    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
-        struct sigaction previous {};
-        if (::sigaction(signal, nullptr, &previous) == 0 && previous.sa_handler != SIG_IGN)
-            ::sigaction(signal, &action, nullptr);
-    }
+// A request ends the program as the user would: files are complete or absent, and the session can
+// be resumed. A second one ends a program that does not respond.
+void endWhenAsked() {
+    using namespace pellucid;
+    const auto endAtOnce = [] { std::_Exit(exitCode(task::ErrorCode::internal)); };
+    platform::whenAskedToEnd(
+        [endAtOnce] {
+            if (QCoreApplication *const application = QCoreApplication::instance())
+                QMetaObject::invokeMethod(application, &QCoreApplication::quit,
+                                          Qt::QueuedConnection);
+            else
+                endAtOnce();
+        },
+        endAtOnce);
 }
 
 } // namespace
@@ -69,6 +51,7 @@ int main(int argc, char **argv) {
     using namespace pellucid;
     platform::leaveMemoryOutOfDumps(); // not hideMemory: desktops then refuse their dialogs
     platform::letLongFilesFail();
+    endWhenAsked();
     CLI::App options("View DICOM studies as transparent projections", "pellucid");
     std::vector<std::string> paths;
     options.set_version_flag("--version", "pellucid " PELLUCID_VERSION);
@@ -112,15 +95,12 @@ int main(int argc, char **argv) {
         fourier::keepWisdomIn(*cache / "fftw-wisdom");
         keepLogIn(*cache / "log" / "pellucid.log");
     }
-#ifdef Q_OS_LINUX
     // Checked before Qt tries and names each of its plugins.
-    if (qEnvironmentVariableIsEmpty("DISPLAY") && qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") &&
-        qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) {
+    if (!platform::mayHaveDisplay()) {
         std::fprintf(stderr, "pellucid: there is no display (neither DISPLAY nor WAYLAND_DISPLAY "
                              "is set)\n");
         return exitCode(task::ErrorCode::noSuchDevice);
     }
-#endif
     // Libraries map much memory at start, and some software renderers crash if they cannot.
     constexpr std::size_t mappedToStart = std::size_t(1100) << 20;
     if (platform::mappableBytes() < mappedToStart) {
@@ -134,12 +114,11 @@ int main(int argc, char **argv) {
     // card.
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
     ui::Application application(argc, argv);
-    endOnSignals(application);
     QApplication::setApplicationName("pellucid");
     QApplication::setOrganizationName("pellucid");
     QApplication::setApplicationVersion(PELLUCID_VERSION);
     QGuiApplication::setDesktopFileName("org.pellucid.Pellucid");
-    QApplication::setWindowIcon(QIcon(":/pellucid/icons/pellucid.svg"));
+    QApplication::setWindowIcon(ui::themedIcon("pellucid"));
     std::optional<ui::EngineChoice> choice;
     if (!engine.empty())
         choice = engine == "gpu"   ? ui::EngineChoice::card

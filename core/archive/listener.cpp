@@ -78,7 +78,8 @@ public:
         : m_receiver(receiver), m_kept(kept), m_extend(std::move(extend)),
           m_silenceSeconds(silenceSeconds) {}
 
-    std::variant<int, std::uint16_t> open(const network::Arrival &arrival) override {
+    std::variant<platform::HandleView, std::uint16_t>
+    open(const network::Arrival &arrival) override {
         auto opened = m_receiver.open(arrival);
         m_begun = Clock::now();
         m_extend(seconds(m_silenceSeconds));

@@ -167,12 +167,11 @@ StoredObject ObjectFolder::keep(const files::AtomicFile &file, const network::Ar
     // The helper still has the file open and could change it after the checks. It cannot reach the
     // copy.
     const std::unique_ptr<files::AtomicFile> copy = open(arrival);
-    copy->write(file.descriptor(), bytes);
+    copy->write(file.view(), bytes);
     // The decoder reads the file that has no name yet.
-    const fs::path unnamed = "/proc/self/fd/" + std::to_string(copy->descriptor());
     decoding::AttributeList list;
     try {
-        list = decoding::Decoder::shared().attributes(unnamed);
+        list = decoding::Decoder::shared().attributes(copy->currentPath());
     } catch (const Error &error) {
         throw Error(error.code(), error.reason());
     }
@@ -194,7 +193,7 @@ StoredObject ObjectFolder::keep(const files::AtomicFile &file, const network::Ar
         throw Error(ErrorCode::unusable, because::isNotWhatWasAnnounced);
     object.path = pathOf(object.studyUid, object.seriesUid, object.sopInstanceUid);
     if (objectIn(object.path)) { // what is damaged is replaced
-        if (haveSameBytes(unnamed, object.path))
+        if (haveSameBytes(copy->currentPath(), object.path))
             return object;
         if (existing == Existing::stays)
             throw Error(ErrorCode::unusable, because::anotherObjectHasItsUid);

@@ -37,11 +37,12 @@ class Receiving::Connection : public network::Receiver {
 public:
     explicit Connection(Receiving &all) : m_all(all) {}
 
-    std::variant<int, std::uint16_t> open(const network::Arrival &arrival) override {
+    std::variant<platform::HandleView, std::uint16_t>
+    open(const network::Arrival &arrival) override {
         try {
             requireSpace(m_all.m_folder.folder());
             m_file = m_all.m_folder.open(arrival);
-            return m_file->descriptor();
+            return m_file->view();
         } catch (const task::Error &error) {
             refuse(arrival, error.reason());
             return status::outOfResources;

@@ -52,14 +52,15 @@ public:
     /// The server is asked for objects.
     void await() { m_since = Clock::now(); }
 
-    std::variant<int, std::uint16_t> open(const network::Arrival &arrival) override {
+    std::variant<platform::HandleView, std::uint16_t>
+    open(const network::Arrival &arrival) override {
         m_reported = 0;
         m_begun = Clock::now();
         m_places = m_work.placesOf(arrival.sopInstanceUid);
         if (m_places.empty())
             return network::status::notWanted;
         m_file = m_work.folder().open(arrival);
-        return m_file->descriptor();
+        return m_file->view();
     }
     std::uint16_t keep(const network::Arrival &arrival, std::uint64_t bytes) override {
         receive(bytes);

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <chrono>
 #include <exception>
-#include <fnmatch.h>
 #include <iterator>
 #include <map>
 #include <mutex>
@@ -142,16 +141,18 @@ bool isUnfolded(char32_t code) {
            code >= 0x20000;
 }
 
-// *Returns* a pattern for such letters of a term, in their order; empty: none.
-std::string patternOf(const std::string &term) {
-    std::string pattern;
-    for (std::size_t at = 0; at < term.size();) {
+// Whether a text has such letters of a term, in their order.
+bool hasUnfolded(const std::string &text, const std::string &term) {
+    std::size_t from = 0;
+    for (std::size_t at = 0; at < term.size() && from != std::string::npos;) {
         const system::CodePoint point = system::codePointAt(term, at);
-        if (isUnfolded(point.code))
-            pattern += "*" + term.substr(at, point.bytes);
+        if (isUnfolded(point.code)) {
+            from = text.find(term.substr(at, point.bytes), from);
+            from += from == std::string::npos ? 0 : point.bytes;
+        }
         at += std::max<std::size_t>(1, point.bytes);
     }
-    return pattern.empty() ? pattern : pattern + "*";
+    return from != std::string::npos;
 }
 
 bool hasOthersThanAscii(const std::string &text) {
@@ -166,10 +167,9 @@ bool isAnswer(const SearchTerms &terms, const network::Attributes &match) {
         {terms.patientId, tag::patientId},
         {terms.accession, tag::accessionNumber}};
     return std::all_of(std::begin(all), std::end(all), [&](const auto &term) {
-        const std::string pattern = patternOf(term.first);
         const auto found = match.find(term.second);
-        return pattern.empty() || found == match.end() || !hasOthersThanAscii(found->second) ||
-               ::fnmatch(pattern.c_str(), found->second.c_str(), FNM_NOESCAPE) == 0;
+        return found == match.end() || !hasOthersThanAscii(found->second) ||
+               hasUnfolded(found->second, term.first);
     });
 }
 

@@ -152,7 +152,7 @@ private:
         const fs::path &path = outgoing.path;
         const files::RegularFile file = files::openRegular(path);
         try {
-            storeFile(link, path, file.handle.get(), file.facts.bytes);
+            storeFile(link, path, file.handle, file.facts.bytes);
         } catch (const Error &error) {
             if (!error.reason().is(because::serverDoesNotTakeTheEncoding))
                 throw;
@@ -173,7 +173,7 @@ private:
             files::AtomicFile file(m_folder.path() / "uncompressed.dcm");
             file.write(plain.bytes);
             try {
-                storeFile(link, path, file.descriptor(), plain.bytes.size());
+                storeFile(link, path, file.view(), plain.bytes.size());
                 m_report.uncompressed += isPlain(outgoing.encoding) ? 0 : 1;
                 return;
             } catch (const Error &error) {
@@ -183,7 +183,8 @@ private:
         }
     }
     // `path`: of the file that the user sends.
-    void storeFile(network::Link &link, const fs::path &path, int file, std::uint64_t bytes) {
+    void storeFile(network::Link &link, const fs::path &path, platform::HandleView file,
+                   std::uint64_t bytes) {
         if (const auto change = link.store(file, bytes, m_progress))
             m_report.withChanges.push_back({path, *change});
         ++m_report.state.sent;

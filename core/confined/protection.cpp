@@ -5,12 +5,14 @@
 #include <set>
 #include <utility>
 
-#include "core/confined/confinement.h"
+#include "core/platform/confinement.h"
 #include "core/system/log.h"
 
 namespace pellucid::confined {
 
 namespace {
+
+using namespace platform;
 
 struct Noted {
     std::mutex mutex;

@@ -6,8 +6,9 @@
 
 namespace pellucid::confined {
 
-/// Takes the protections that a helper has reported, as bits of Confinement: logs them once for
-/// each kind of helper, and calls the handler of `whenUnprotected`. *Throws* what that throws.
+/// Takes the protections that a helper has reported, as bits of platform::Confinement: logs them
+/// once for each kind of helper, and calls the handler of `whenUnprotected`. *Throws* what that
+/// throws.
 void noteProtection(const std::string &helpers, int bits);
 
 /// Sets what happens when a helper reports that its system calls are not filtered: a file or a

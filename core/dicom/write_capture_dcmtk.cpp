@@ -7,7 +7,7 @@
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/dcmdata/dctk.h>
-#include <fmt/format.h>
+#include <fmt/chrono.h>
 
 #include "core/dcmtk/codecs.h"
 #include "core/dicom/reasons.h"
@@ -21,10 +21,8 @@ namespace pellucid::dicom {
 namespace {
 
 std::string now(const char *format) {
-    const std::time_t time = std::time(nullptr);
-    std::tm local{};
-    localtime_r(&time, &local);
     char text[32] = {};
+    const std::tm local = fmt::localtime(std::time(nullptr)); // std::localtime is for one thread
     std::strftime(text, sizeof text, format, &local);
     return text;
 }

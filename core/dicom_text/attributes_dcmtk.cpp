@@ -57,7 +57,7 @@ std::string readText(DcmItem *item, const DcmTagKey &tag, const CharacterSets *s
     if (first == OFString_npos)
         return {};
     const std::string written(value.c_str() + first);
-    return oneLine(sets != nullptr ? sets->utf8(written, tag == DCM_PatientName) : written);
+    return oneLine(sets != nullptr ? sets->utf8(written) : written);
 }
 
 std::vector<double> readNumbers(DcmItem *item, const DcmTagKey &tag, std::size_t maxCount) {

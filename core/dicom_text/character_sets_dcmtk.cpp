@@ -6,8 +6,6 @@
 
 #include <dcmtk/config/osconfig.h>
 
-#include <dcmtk/dcmdata/dcchrstr.h>
-#include <dcmtk/dcmdata/dcspchrs.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "core/dicom_text/iso2022.h"
@@ -33,34 +31,13 @@ CharacterSets::CharacterSets(DcmItem &dataset) {
     OFString sets;
     if (dataset.findAndGetOFStringArray(DCM_SpecificCharacterSet, sets).bad() || sets.empty())
         return;
-    const auto terms = termsOf({sets.data(), sets.size()});
-    m_terms = {terms.begin(), terms.end()};
-    if (usesIso2022(m_terms)) {
-        m_first = terms.front();
-        m_converter = Way::iso2022;
-    } else {
-        m_dcmtk = std::make_unique<DcmSpecificCharacterSet>();
-        if (m_dcmtk->selectCharacterSet(sets).good())
-            m_converter = Way::dcmtk;
-    }
+    auto terms = termsOf({sets.data(), sets.size()});
+    if (areKnown(terms))
+        m_terms = std::move(terms);
 }
 
-CharacterSets::~CharacterSets() = default;
-
-std::string CharacterSets::utf8(const std::string &text, bool isName) const {
-    switch (m_converter) {
-    case Way::iso2022:
-        return utf8OfIso2022(text, m_terms, m_first);
-    case Way::dcmtk: {
-        OFString to;
-        if (m_dcmtk->convertString(text.c_str(), text.size(), to, isName ? "\\^=" : "\\").good())
-            return {to.data(), to.size()};
-        break;
-    }
-    case Way::none:
-        break;
-    }
-    return text;
+std::string CharacterSets::utf8(const std::string &text) const {
+    return m_terms.empty() ? text : utf8OfSets(text, m_terms);
 }
 
 } // namespace pellucid::dicom_text

@@ -11,6 +11,7 @@
 
 #include "core/dicom_text/reasons.h"
 #include "core/files/user_folders.h"
+#include "core/platform/process.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom_text {
@@ -28,7 +29,7 @@ void findDictionaries() {
             if (const auto path = own / place / name; std::filesystem::exists(path, ignored))
                 paths += (paths.empty() ? "" : ":") + path.string();
         if (!paths.empty())
-            ::setenv("DCMDICTPATH", paths.c_str(), 0);
+            platform::setMissingVariable("DCMDICTPATH", paths);
     }
 }
 

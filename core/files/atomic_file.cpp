@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "core/files/reasons.h"
+#include "core/platform/file.h"
 #include "core/task/error.h"
 #include "core/task/reasons.h"
 
@@ -12,14 +13,7 @@ namespace pellucid::files {
 
 namespace {
 
-// The path by name of a file in a session folder, which is reached by its descriptor.
-std::filesystem::path named(const std::filesystem::path &path) {
-    std::error_code unknown;
-    const auto folder = path.string().starts_with("/proc/self/fd/")
-                            ? std::filesystem::canonical(path.parent_path(), unknown)
-                            : path.parent_path();
-    return unknown ? path : folder / path.filename();
-}
+using platform::pathByName;
 
 [[noreturn]] void fail(const std::error_code &error, const std::filesystem::path &path) {
     throw task::Error(task::ErrorCode::output,
@@ -66,7 +60,7 @@ std::filesystem::path targetOf(const std::filesystem::path &path) {
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path &path, Readers readers)
-    : m_path(targetOf(path)), m_file(orFail(named(m_path), [&] {
+    : m_path(targetOf(path)), m_file(orFail(pathByName(m_path), [&] {
           return std::make_unique<platform::NewFile>(m_path, readers);
       })) {}
 
@@ -77,25 +71,29 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
         failWith(errno);
 }
 
-void AtomicFile::write(int descriptor, std::uint64_t bytes) {
-    const std::uint64_t copied = orFail(
-        named(m_path), [&] { return platform::copyStart(descriptor, this->descriptor(), bytes); });
+void AtomicFile::write(platform::HandleView file, std::uint64_t bytes) {
+    const std::uint64_t copied =
+        orFail(pathByName(m_path), [&] { return platform::copyStart(file, view(), bytes); });
     if (copied != bytes) // it ends before
         throw task::Error(task::ErrorCode::unusable, task::because::isTruncated);
 }
 
-int AtomicFile::descriptor() const {
+platform::HandleView AtomicFile::view() const {
     if (std::fflush(m_file->stream()) != 0)
         failWith(errno);
-    return m_file->get();
+    return m_file->view();
+}
+
+std::filesystem::path AtomicFile::currentPath() const {
+    return m_file->currentPath();
 }
 
 void AtomicFile::commit(Bytes bytes) {
-    orFail(named(m_path), [&] { m_file->publish(m_path, bytes == Bytes::flushed); });
+    orFail(pathByName(m_path), [&] { m_file->publish(m_path, bytes == Bytes::flushed); });
 }
 
 void AtomicFile::failWith(int error) const {
-    fail({error, std::generic_category()}, named(m_path));
+    fail({error, std::generic_category()}, pathByName(m_path));
 }
 
 void rename(const std::filesystem::path &from, const std::filesystem::path &to) {

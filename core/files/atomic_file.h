@@ -35,9 +35,11 @@ public:
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
     /// The first bytes of an open file. *Throws* Error{output}; Error{unusable} if it has fewer.
-    void write(int descriptor, std::uint64_t bytes);
+    void write(platform::HandleView file, std::uint64_t bytes);
     /// The open file with what has been written, for another process. *Throws* Error{output}.
-    int descriptor() const;
+    platform::HandleView view() const;
+    /// A path that leads to it now, as long as this program keeps it open.
+    std::filesystem::path currentPath() const;
     /// Chooses a different path before the file appears, on the same file system. *Throws* as
     /// `targetOf`.
     void moveTo(const std::filesystem::path &path) { m_path = targetOf(path); }

@@ -8,10 +8,10 @@
 
 namespace pellucid::files {
 
-Mapping::Mapping(int fd, std::size_t bytes, Access access) {
+Mapping::Mapping(platform::HandleView file, std::size_t bytes, Access access) {
     try {
         if (bytes > 0)
-            m_mapped = platform::map(fd, bytes, access);
+            m_mapped = platform::map(file, bytes, access);
     } catch (const std::system_error &error) {
         throw task::Error(task::ErrorCode::outOfMemory,
                           task::because::cannotBeMapped(task::systemReason(error.code())));

@@ -15,7 +15,7 @@ class Mapping {
 public:
     using Access = platform::Access;
     Mapping() = default;
-    Mapping(int fd, std::size_t bytes, Access access);
+    Mapping(platform::HandleView file, std::size_t bytes, Access access);
     ~Mapping();
     Mapping(Mapping &&other) noexcept : m_mapped(std::exchange(other.m_mapped, {})) {}
     Mapping &operator=(Mapping &&other) noexcept {

@@ -3,9 +3,8 @@
 
 #include <filesystem>
 #include <functional>
-#include <string>
 
-#include "core/platform/handle.h"
+#include "core/platform/marked_folder.h"
 
 namespace pellucid::files {
 
@@ -29,20 +28,16 @@ public:
     SessionFolder(const SessionFolder &) = delete;
     SessionFolder &operator=(const SessionFolder &) = delete;
 
-    const std::filesystem::path &path() const { return m_path; }
-    /// The open folder, for other programs, to which `path` may mean nothing.
-    int descriptor() const { return m_contents.get(); }
+    const std::filesystem::path &path() const { return m_folder.path(); }
+    const platform::MarkedFolder &marked() const { return m_folder; }
     /// If set, the folder stays and is removed as an abandoned one by the next program.
-    void setAbandoned(bool isAbandoned) { m_isAbandoned = isAbandoned; }
+    void setAbandoned(bool isAbandoned);
 
 private:
-    enum class Path { byName, byDescriptor };
-    SessionFolder(const std::filesystem::path &parent, Path path);
+    SessionFolder(const std::filesystem::path &parent, platform::MarkedFolder::Path path);
 
-    platform::Handle m_parent, m_folder, m_lock, m_contents;
-    std::string m_name;
-    std::filesystem::path m_path;
-    Path m_naming;
+    platform::MarkedFolder::Path m_path;
+    platform::MarkedFolder m_folder;
     bool m_isAbandoned = false;
 };
 

@@ -5,10 +5,9 @@
 #include <filesystem>
 #include <optional>
 #include <span>
-#include <sys/types.h>
 
 #include "core/files/session_folder.h"
-#include "core/platform/handle.h"
+#include "core/platform/filter.h"
 #include "core/task/progress.h"
 
 namespace pellucid::files {
@@ -23,9 +22,6 @@ public:
 
     /// *Throws* Error{output} if ffmpeg does not start.
     VideoFile(const std::filesystem::path &path, int width, int height, int framesPerSecond);
-    ~VideoFile();
-    VideoFile(const VideoFile &) = delete;
-    VideoFile &operator=(const VideoFile &) = delete;
 
     /// Adds a frame. *Shape*: height x width x 4, RGBA, rows from the top; alpha is ignored.
     /// *Throws* Error{output} with the message of ffmpeg, Cancelled.
@@ -35,14 +31,11 @@ public:
 
 private:
     [[noreturn]] void fail();
-    /// Whether ffmpeg has ended well; nothing while it runs.
-    std::optional<bool> ended();
 
     std::filesystem::path m_path;
     SessionFolder m_folder;
     std::filesystem::path m_unfinished, m_messages;
-    platform::Handle m_input;
-    pid_t m_encoder = -1;
+    std::optional<platform::Filter> m_encoder;
 };
 
 } // namespace pellucid::files

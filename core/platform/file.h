@@ -13,6 +13,12 @@
 /// Files by handle. All functions *throw* std::system_error, but for those that return an optional.
 namespace pellucid::platform {
 
+/// The number of the error of a disk on which this user may write no more.
+int quotaExceeded();
+
+/// The path by name of a file in a folder that is reached by its handle; any other path as it is.
+std::filesystem::path pathByName(const std::filesystem::path &path);
+
 /// The same for all paths that lead to a file, through links of either kind.
 struct FileId {
     std::uint64_t device = 0, number = 0;
@@ -49,7 +55,10 @@ bool lock(const Handle &file, Lock how);
 enum class Access { read, write };
 /// The start of a file, or of memory that processes share, as bytes in memory. *Requires*: not
 /// empty.
-std::span<std::byte> map(int file, std::size_t bytes, Access access);
+std::span<std::byte> map(HandleView file, std::size_t bytes, Access access);
+/// Only parts of what is mapped will be read: without read-ahead, which discs and network shares
+/// are slow at.
+void expectFewReads(std::span<const std::byte> mapped);
 void unmap(std::span<std::byte> mapped);
 
 } // namespace pellucid::platform

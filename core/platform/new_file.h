@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include "core/platform/handle.h"
+
 /// Writing files. All functions *throw* std::system_error.
 namespace pellucid::platform {
 
@@ -26,7 +28,9 @@ public:
 
     std::FILE *stream() const { return m_file; }
     /// The open file.
-    int get() const;
+    HandleView view() const;
+    /// A path that leads to it now, as long as this program keeps it open.
+    std::filesystem::path currentPath() const;
     /// Gives it a name on the same file system, in place of the file that has it. `mustLast`: its
     /// bytes are on the disk first.
     void publish(const std::filesystem::path &path, bool mustLast);
@@ -41,7 +45,7 @@ private:
 };
 
 /// Copies the first bytes of an open file to the end of another one. Returns how many there were.
-std::uint64_t copyStart(int from, int to, std::uint64_t bytes);
+std::uint64_t copyStart(HandleView from, HandleView to, std::uint64_t bytes);
 
 /// Renames a file after its bytes are on the disk.
 void renameFlushed(const std::filesystem::path &from, const std::filesystem::path &to);

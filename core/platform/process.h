@@ -17,6 +17,9 @@ std::string processIdentity(long process);
 /// The file of the running program; empty if unknown.
 std::filesystem::path programFile();
 
+/// Sets an environment variable, of this program and those that it starts, unless it is set.
+void setMissingVariable(const char *name, const std::string &value);
+
 /// From now on, writing beyond the limit of a file's size fails instead of ending the program.
 void letLongFilesFail();
 /// The same for writing where nobody reads.

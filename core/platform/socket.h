@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/platform/handle.h"
@@ -32,13 +35,35 @@ ListeningSocket listenOn(const std::string &address, int port, int waiting,
                          Accepting accepting = Accepting::waits);
 
 /// Whether there is a connection, or something to read, within so many milliseconds.
-bool awaitInput(const Handle &socket, int milliseconds);
+bool awaitInput(HandleView socket, int milliseconds);
 
 struct Connected {
     Handle socket;
     std::string address; ///< of the other end
+    int port = 0;
 };
-/// None if the connection has gone, or the program has too many files open.
-std::optional<Connected> acceptFrom(const Handle &listening);
+/// None if the connection has gone, or the program has too many files open. `accepting`: how the
+/// new socket behaves.
+std::optional<Connected> acceptFrom(HandleView listening, Accepting accepting = Accepting::waits);
+
+/// Connects to an address. The socket waits for nothing, until `makeWaiting`. *Throws*
+/// std::system_error.
+Handle connectTo(const std::string &address, int port, double seconds);
+
+void makeWaiting(HandleView socket);
+
+/// Sends what fits into the buffers of a connection, and nothing more later.
+void sendLast(HandleView socket, std::string_view bytes);
+/// What has come: 0 bytes at the end. None if nothing has come yet.
+std::optional<std::size_t> receiveSome(HandleView socket, std::span<char> to);
+
+/// From now on, what is written is sent at once.
+void sendAtOnce(HandleView socket);
+/// What has come is acknowledged at once, for a while. Without these two, each object waits for the
+/// delayed acknowledgement of the last one: 40 ms.
+void acknowledgeAtOnce(HandleView socket);
+
+/// An address of 4 or 16 bytes as text; empty if it has another length.
+std::string addressText(std::span<const unsigned char> bytes);
 
 } // namespace pellucid::platform

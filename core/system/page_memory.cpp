@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/system/page_memory.h"
 
-#include <cstdlib>
+#include <new>
 
 #include "core/platform/memory.h"
 #include "core/system/reasons.h"
@@ -25,10 +25,12 @@ std::shared_ptr<std::byte[]> allocate(std::size_t bytes) {
     if (alignment == largePage)
         if (std::byte *const pages = platform::mapLargePages(size))
             return {pages, [size](std::byte *p) { platform::unmapLargePages(p, size); }};
-    void *const memory = std::aligned_alloc(alignment, size);
+    const auto aligned = std::align_val_t(alignment);
+    void *const memory = ::operator new(size, aligned, std::nothrow);
     return memory == nullptr ? nullptr
-                             : std::shared_ptr<std::byte[]>(static_cast<std::byte *>(memory),
-                                                            [](std::byte *p) { std::free(p); });
+                             : std::shared_ptr<std::byte[]>(
+                                   static_cast<std::byte *>(memory),
+                                   [aligned](std::byte *p) { ::operator delete(p, aligned); });
 }
 
 } // namespace

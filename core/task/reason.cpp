@@ -7,6 +7,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "core/platform/file.h"
 #include "core/task/reasons.h"
 
 namespace pellucid::task {
@@ -147,6 +148,8 @@ std::optional<Reason> Reason::decoded(std::string_view text) {
 }
 
 Reason systemReason(int error) {
+    if (error == platform::quotaExceeded())
+        return because::quotaExceeded;
     switch (error) {
     case ENOENT:
         return because::noSuchFile;
@@ -156,8 +159,6 @@ Reason systemReason(int error) {
         return because::notPermitted;
     case ENOSPC:
         return because::noSpaceLeft;
-    case EDQUOT:
-        return because::quotaExceeded;
     case EROFS:
         return because::readOnlyFileSystem;
     case EISDIR:
@@ -177,14 +178,17 @@ Reason systemReason(int error) {
         return because::fileTooLarge;
     case ELOOP:
         return because::tooManyLinks;
+    case ETXTBSY:
+        return because::isOpenElsewhere;
     default:
         return because::systemReports(std::strerror(error));
     }
 }
 
 Reason systemReason(const std::error_code &error) {
-    if (error.category() == std::generic_category() || error.category() == std::system_category())
-        return systemReason(error.value());
+    if (const auto common = error.default_error_condition();
+        common.category() == std::generic_category())
+        return systemReason(common.value());
     return because::systemReports(error.message());
 }
 

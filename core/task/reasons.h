@@ -28,6 +28,7 @@ PELLUCID_REASON(tooManyOpenFiles, "Too many open files")
 PELLUCID_REASON(ioError, "Input/output error")
 PELLUCID_REASON(fileTooLarge, "File too large")
 PELLUCID_REASON(tooManyLinks, "Too many levels of symbolic links")
+PELLUCID_REASON(isOpenElsewhere, "Another program has it open")
 PELLUCID_REASON(systemReports, "the system reports: %1")
 
 // Memory

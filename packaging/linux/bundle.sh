@@ -18,7 +18,7 @@ mv "$tree/lib/systemd/system" "$tree/share/doc/pellucid/systemd"
 rmdir "$tree/lib/systemd"
 mkdir -p "$tree/lib" "$tree/plugins"
 for plugin in platforms/libqxcb.so sqldrivers/libqsqlite.so xcbglintegrations/libqxcb-glx-integration.so \
-    xcbglintegrations/libqxcb-egl-integration.so imageformats/libqjpeg.so imageformats/libqsvg.so iconengines/libqsvgicon.so platforminputcontexts/libibusplatforminputcontextplugin.so \
+    xcbglintegrations/libqxcb-egl-integration.so imageformats/libqjpeg.so platforminputcontexts/libibusplatforminputcontextplugin.so \
     platforminputcontexts/libcomposeplatforminputcontextplugin.so; do
     install -D -m 644 "$plugins/$plugin" "$tree/plugins/$plugin"
 done

@@ -3905,6 +3905,10 @@
         <source>sums along the view, %1</source>
         <translation>沿視線方向加總，%1</translation>
     </message>
+    <message>
+        <source>Another program has it open</source>
+        <translation>另一個程式正在使用它</translation>
+    </message>
 </context>
 <context>
     <name>RegionTexts</name>

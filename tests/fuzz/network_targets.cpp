@@ -14,7 +14,6 @@
 #include <unistd.h>
 #include <vector>
 
-#include "core/confined/packet.h"
 #include "core/confined/packing.h"
 #include "core/network/client/message.h"
 #include "core/network/client/reasons.h"
@@ -22,7 +21,7 @@
 #include "core/network/process/dicom_json.h"
 #include "core/network/process/file_start.h"
 #include "core/network/process/multipart.h"
-#include "core/platform/handle.h"
+#include "core/platform/channel.h"
 #include "core/task/error.h"
 
 namespace pellucid::fuzz {
@@ -52,21 +51,16 @@ bool isOneLine(const std::string &text) {
     return std::none_of(text.begin(), text.end(), [](char c) { return (unsigned char)(c) < 0x20; });
 }
 
-// Two ends of a channel as between the program and its helper.
-std::array<platform::Handle, 2> channel() {
-    std::array<int, 2> ends{-1, -1};
-    check(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) == 0);
-    return {platform::Handle(ends[0]), platform::Handle(ends[1])};
-}
+using platform::Channel, platform::HandleView, platform::Takes, platform::WhenBusy;
 
-int anyFile() {
+HandleView anyFile() {
     static const int file = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-    return file;
+    return HandleView(file);
 }
 
 // The next descriptor that the system would give: the same as before if none was leaked.
 int nextDescriptor() {
-    const int next = ::fcntl(anyFile(), F_DUPFD_CLOEXEC, 0);
+    const int next = ::fcntl(anyFile().get(), F_DUPFD_CLOEXEC, 0);
     ::close(next);
     return next;
 }
@@ -159,19 +153,17 @@ void networkMessage(Bytes bytes) {
 
 // A packet of any length is taken whole or not at all, and no descriptor is left open.
 void packet(Bytes bytes) {
-    const auto ends = channel();
+    const auto [one, other] = platform::makeChannel();
     const int next = nextDescriptor();
     std::array<std::byte, 16> head{};
     std::array<std::byte, 256> body{};
     const bool hasDescriptor = !bytes.empty() && (std::to_integer<int>(bytes[0]) & 1) != 0;
     const bool hasSpace = !bytes.empty() && (std::to_integer<int>(bytes[0]) & 2) != 0;
-    if (!confined::sendPacket(ends[0].get(), bytes, {}, hasDescriptor ? anyFile() : -1,
-                              confined::WhenBusy::fail))
+    if (!one.send(bytes, {}, hasDescriptor ? anyFile() : HandleView(), WhenBusy::fail))
         return; // longer than the system takes
     {
-        const auto received = confined::receivePacket(ends[1].get(), head, body,
-                                                      hasSpace ? confined::Takes::descriptor
-                                                               : confined::Takes::noDescriptors);
+        const auto received =
+            other.receive(head, body, hasSpace ? Takes::handle : Takes::noHandles);
         const bool fits = bytes.size() >= head.size() &&
                           bytes.size() <= head.size() + body.size() && (hasSpace || !hasDescriptor);
         check(received.has_value() == fits);
@@ -180,13 +172,13 @@ void packet(Bytes bytes) {
             check(std::equal(head.begin(), head.end(), bytes.begin()));
             check(
                 std::equal(bytes.begin() + std::ptrdiff_t(head.size()), bytes.end(), body.begin()));
-            check(bool(received->descriptor) == hasDescriptor);
+            check(bool(received->handle) == hasDescriptor);
         }
     }
     check(nextDescriptor() == next);
     // The same bytes as a message.
-    if (confined::sendPacket(ends[0].get(), bytes, {}, -1, confined::WhenBusy::fail)) {
-        const auto received = network::receive(ends[1].get());
+    if (one.send(bytes, {}, {}, WhenBusy::fail)) {
+        const auto received = network::receive(other);
         check(received.has_value() == (bytes.size() >= head.size()));
         check(!received || received->message.body == textOf(bytes.subspan(head.size())));
     }
@@ -197,21 +189,20 @@ void packet(Bytes bytes) {
 void control(Bytes bytes) {
     const int next = nextDescriptor();
     {
-        auto ends = channel();
+        auto [one, other] = platform::makeChannel();
         // More would not fit between the ends while nobody reads.
         for (std::size_t at = 0; at + 2 <= bytes.size() && at < 16; at += 2) {
             network::Message message;
             message.kind = network::Message::Kind(std::to_integer<std::uint32_t>(bytes[at]) % 128);
             message.code = std::to_integer<std::int32_t>(bytes[at + 1]);
             const bool hasFile = (message.code & 1) != 0;
-            check(network::send(ends[0].get(), message, hasFile ? anyFile() : -1));
+            check(network::send(one, message, hasFile ? anyFile() : HandleView()));
         }
         // A message that is none.
         if (bytes.size() % 2 != 0)
-            check(confined::sendPacket(ends[0].get(), bytes.last(1), {}, -1,
-                                       confined::WhenBusy::fail));
-        ::shutdown(ends[0].get(), SHUT_WR);
-        network::process::Control own(ends[1].get());
+            check(one.send(bytes.last(1), {}, {}, WhenBusy::fail));
+        ::shutdown(one.end().get(), SHUT_WR);
+        network::process::Control own(other);
         try {
             (void)own.isCancelled();
             network::process::Storage storage(own, {"1.2", "1.2.3", "1.2.840.10008.1.2", "SENDER"});

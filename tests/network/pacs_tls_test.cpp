@@ -77,7 +77,7 @@ Offer offerIn(const std::string &bytes) {
 
 class NoObjects : public network::Receiver {
 public:
-    std::variant<int, std::uint16_t> open(const network::Arrival &) override {
+    std::variant<platform::HandleView, std::uint16_t> open(const network::Arrival &) override {
         return network::status::outOfResources;
     }
     std::uint16_t keep(const network::Arrival &, std::uint64_t) override {

@@ -15,11 +15,11 @@
 #include <unistd.h>
 #include <vector>
 
-#include "core/confined/process.h"
 #include "core/decoding/client/channel.h"
 #include "core/decoding/client/child.h"
 #include "core/decoding/process/serve.h"
-#include "core/decoding/process/watch.h"
+#include "core/platform/helper.h"
+#include "core/platform/watch.h"
 #include "core/task/reason.h"
 #include "core/task/reasons.h"
 
@@ -32,10 +32,16 @@ using files::Mapping;
 
 constexpr std::size_t mib = std::size_t(1) << 20;
 
+platform::HelpersEnds ends;
+
+void send(const Message &message) {
+    decoding::send(ends.channel, message);
+}
+
 void finishWith(const std::string &body, std::int32_t code = decoding::isUnusable) {
-    const Mapping arena(confined::fileDescriptor, mib, Mapping::Access::write);
+    const Mapping arena(ends.file, mib, Mapping::Access::write);
     std::memcpy(arena.data(), body.data(), body.size());
-    decoding::send(confined::socketDescriptor, {Message::Kind::done, code, body.size(), 0});
+    send({Message::Kind::done, code, body.size(), 0});
 }
 
 void finish(const task::Reason &reason, std::int32_t code = decoding::isUnusable) {
@@ -59,7 +65,7 @@ bool tryForbidden(std::string_view word) {
     else if (word == "unlink")
         finish(outcome(::unlink("/tmp/anything") >= 0));
     else if (word == "write-arena-size")
-        finish(outcome(::ftruncate(confined::fileDescriptor, 16) >= 0));
+        finish(outcome(::ftruncate(ends.file.get(), 16) >= 0));
     else if (word == "socket")
         finish(outcome(::socket(AF_INET, SOCK_STREAM, 0) >= 0));
     else if (word == "process")
@@ -73,8 +79,8 @@ bool tryForbidden(std::string_view word) {
         finish(outcome(::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1,
                               0) != MAP_FAILED));
     else if (word == "descriptor")
-        finish(outcome(decoding::send(confined::socketDescriptor, {Message::Kind::need, 0, mib, 0},
-                                      confined::socketDescriptor)));
+        finish(outcome(
+            decoding::send(ends.channel, {Message::Kind::need, 0, mib, 0}, ends.channel.end())));
     else if (word == "kill-parent")
         finish(outcome(::kill(::getppid(), SIGTERM) >= 0));
     else if (word == "memory") {
@@ -100,7 +106,7 @@ void act(std::string_view word) {
         for (const itimerval never{};;)
             ::setitimer(ITIMER_PROF, &never, nullptr);
     else if (word == "dawdle") { // until its own clock ends it
-        decoding::process::Watch watch;
+        platform::Watch watch;
         watch.allow(decoding::decodingSeconds({Message::Kind::header, 0, 0, 0}));
         for (;;)
             ::getppid();
@@ -109,29 +115,24 @@ void act(std::string_view word) {
     else if (tryForbidden(word))
         return;
     else if (word == "ask-for-all")
-        decoding::send(confined::socketDescriptor,
-                       {Message::Kind::need, 0, std::uint64_t(1) << 50, 0});
+        send({Message::Kind::need, 0, std::uint64_t(1) << 50, 0});
     else if (word == "ask-beyond-the-end")
-        decoding::send(confined::socketDescriptor,
-                       {Message::Kind::need, 0, (std::uint64_t(1) << 63) + 3 * mib, 0});
+        send({Message::Kind::need, 0, (std::uint64_t(1) << 63) + 3 * mib, 0});
     else if (word == "ask-to-the-end")
-        decoding::send(confined::socketDescriptor,
-                       {Message::Kind::need, 0, (std::uint64_t(1) << 63) - 1, 0});
+        send({Message::Kind::need, 0, (std::uint64_t(1) << 63) - 1, 0});
     else if (word == "flood") // without ever listening
         for (;;)
-            decoding::send(confined::socketDescriptor, {Message::Kind::need, 0, mib, 0});
+            send({Message::Kind::need, 0, mib, 0});
     else if (word == "large-body")
-        decoding::send(confined::socketDescriptor,
-                       {Message::Kind::done, 0, std::uint64_t(1) << 60, 8});
+        send({Message::Kind::done, 0, std::uint64_t(1) << 60, 8});
     else if (word == "large-data")
-        decoding::send(confined::socketDescriptor,
-                       {Message::Kind::done, 0, 8, ~std::uint64_t(0) - 8});
+        send({Message::Kind::done, 0, 8, ~std::uint64_t(0) - 8});
     else if (word == "other-kind")
-        decoding::send(confined::socketDescriptor, {Message::Kind(7777), 0, 0, 0});
+        send({Message::Kind(7777), 0, 0, 0});
     else if (word == "short-message")
-        (void)!::write(confined::socketDescriptor, "x", 1);
+        (void)!::write(ends.channel.end().get(), "x", 1);
     else if (word == "empty-header")
-        decoding::send(confined::socketDescriptor, {Message::Kind::done, 0, 0, 0});
+        send({Message::Kind::done, 0, 0, 0});
     else if (word == "no-reason")
         finishWith("");
     else if (word == "plain-reason")
@@ -153,20 +154,17 @@ void act(std::string_view word) {
         finish(byHand(), 77);
     else if (word == "samples-twice" || word == "half-the-samples") {
         const bool isTwice = word == "samples-twice";
-        decoding::send(confined::socketDescriptor,
-                       {Message::Kind::part, 0, 0, isTwice ? 4096U : 2048U});
-        decoding::receive(confined::socketDescriptor, decoding::Takes::descriptor); // go on
-        decoding::send(
-            confined::socketDescriptor,
-            {isTwice ? Message::Kind::part : Message::Kind::done, 0, 0, isTwice ? 4096U : 0U});
+        send({Message::Kind::part, 0, 0, isTwice ? 4096U : 2048U});
+        decoding::receive(ends.channel, decoding::Takes::handle); // go on
+        send({isTwice ? Message::Kind::part : Message::Kind::done, 0, 0, isTwice ? 4096U : 0U});
     } else if (word == "more-samples")
-        decoding::send(confined::socketDescriptor, {Message::Kind::part, 0, 0, 1 << 16});
+        send({Message::Kind::part, 0, 0, 1 << 16});
     else if (word == "half-a-sample")
-        decoding::send(confined::socketDescriptor, {Message::Kind::part, 0, 0, 3});
+        send({Message::Kind::part, 0, 0, 3});
     else if (word == "no-samples") // and so on for ever
-        decoding::send(confined::socketDescriptor, {Message::Kind::part, 0, 0, 0});
+        send({Message::Kind::part, 0, 0, 0});
     else if (word == "fewer-samples")
-        decoding::send(confined::socketDescriptor, {Message::Kind::done, 0, 0, 0});
+        send({Message::Kind::done, 0, 0, 0});
     else
         finish(byHand());
 }
@@ -174,16 +172,16 @@ void act(std::string_view word) {
 } // namespace
 
 int main() {
+    ends = *platform::takeHelpersEnds(platform::Given::channelAndFile);
     const int confinement = decoding::process::confine();
-    decoding::send(confined::socketDescriptor, {Message::Kind::ready, confinement, 0, 0});
-    while (const auto request =
-               decoding::receive(confined::socketDescriptor, decoding::Takes::descriptor)) {
-        if (!request->descriptor) { // an answer to what it asked
+    send({Message::Kind::ready, confinement, 0, 0});
+    while (const auto request = decoding::receive(ends.channel, decoding::Takes::handle)) {
+        if (!request->handle) { // an answer to what it asked
             finish(because::inWords(request->message.kind == Message::Kind::refused ? "refused"
                                                                                     : "granted"));
             continue;
         }
-        const Mapping file(request->descriptor.get(), request->message.size, Mapping::Access::read);
+        const Mapping file(request->handle, request->message.size, Mapping::Access::read);
         const std::string_view text(reinterpret_cast<const char *>(file.data()), file.size());
         act(text.substr(std::min<std::size_t>(132, text.size())));
     }

@@ -15,8 +15,8 @@
 #include <QStatusBar>
 
 #include "app/exit_code.h"
-#include "core/confined/confinement.h"
 #include "core/confined/protection.h"
+#include "core/platform/confinement.h"
 #include "core/task/error.h"
 #include "core/task/reasons.h"
 #include "tests/support/little_memory.h"
@@ -107,7 +107,7 @@ private slots:
         restart();
         auto *const label = find<QLabel>("unprotectedLabel");
         QVERIFY(!label->isVisible());
-        std::thread([] { confined::noteProtection("helpers", confined::limitsHold); }).join();
+        std::thread([] { confined::noteProtection("helpers", platform::limitsHold); }).join();
         QTRY_VERIFY(label->isVisible());
         QVERIFY(label->toolTip().contains("hostile file"));
         QVERIFY(find<QListWidget>("problemList")->item(0)->text().contains("cannot confine"));

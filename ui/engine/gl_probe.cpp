@@ -2,9 +2,10 @@
 #include "ui/engine/gl_probe.h"
 
 #include <QGuiApplication>
-#include <QLibrary>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
+
+#include "core/platform/display.h"
 
 namespace pellucid::ui {
 
@@ -14,11 +15,9 @@ const std::optional<gpu::Capabilities> &windowCapabilities() {
         const QStringList withoutSurfaces{"offscreen", "minimal", "linuxfb", "vnc"};
         if (withoutSurfaces.contains(QGuiApplication::platformName()))
             return std::nullopt;
-#ifdef Q_OS_LINUX
-        // libepoxy looks up the GLX context there, and ends the program if it is missing.
-        if (!QLibrary("GL", 1).load())
+        // libepoxy looks up the context there, and ends the program if it is missing.
+        if (!platform::windowsHaveOpenGl())
             return std::nullopt;
-#endif
         QOffscreenSurface surface;
         surface.create();
         QOpenGLContext context;

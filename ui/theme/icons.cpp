@@ -5,20 +5,33 @@
 
 #include <QFile>
 #include <QIconEngine>
+#include <QIconEnginePlugin>
 #include <QPainter>
-#include <QSvgRenderer>
+#include <QtPlugin>
 
+#include "ui/theme/drawing.h"
 #include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 
 namespace {
 
-// Rendered at the requested size, never scaled from a different one.
-class ThemedIcon : public QIconEngine {
-public:
-    explicit ThemedIcon(QByteArray drawing) : m_drawing(std::move(drawing)) {}
+QByteArray contentsOf(const QString &path) {
+    QFile file(path);
+    if (!file.open(QIODevice::ReadOnly))
+        throw std::logic_error("no icon " + path.toStdString());
+    return file.readAll();
+}
 
+// Rendered at the requested size, never scaled from a different one.
+class DrawnIcon : public QIconEngine {
+public:
+    DrawnIcon() = default;
+    explicit DrawnIcon(QByteArray drawing) : m_drawing(std::move(drawing)) {}
+
+    void addFile(const QString &path, const QSize &, QIcon::Mode, QIcon::State) override {
+        m_drawing = contentsOf(path);
+    }
     void paint(QPainter *painter, const QRect &rect, QIcon::Mode mode,
                QIcon::State state) override {
         const char *const role = mode == QIcon::Disabled ? "muted"
@@ -26,7 +39,7 @@ public:
                                                          : "text";
         QByteArray drawing = m_drawing;
         drawing.replace("currentColor", Theme::current().color(role).name().toUtf8());
-        QSvgRenderer(drawing).render(painter, rect);
+        Drawing(drawing).paint(*painter, rect);
     }
     QPixmap pixmap(const QSize &size, QIcon::Mode mode, QIcon::State state) override {
         if (size.isEmpty()) // a squeezed button asks for it; QPainter would warn
@@ -37,7 +50,7 @@ public:
         paint(&painter, QRect(QPoint(), size), mode, state);
         return pixmap;
     }
-    QIconEngine *clone() const override { return new ThemedIcon(*this); }
+    QIconEngine *clone() const override { return new DrawnIcon(*this); }
 
 private:
     QByteArray m_drawing;
@@ -45,11 +58,22 @@ private:
 
 } // namespace
 
+// For style sheets, which name icons by their files.
+class DrawnIcons : public QIconEnginePlugin {
+    Q_OBJECT
+    Q_PLUGIN_METADATA(IID QIconEngineFactoryInterface_iid FILE "drawn_icons.json")
+public:
+    QIconEngine *create(const QString &path) override {
+        return path.isEmpty() ? new DrawnIcon : new DrawnIcon(contentsOf(path));
+    }
+};
+
 QIcon themedIcon(const QString &name) {
-    QFile file(":/pellucid/icons/" + name + ".svg");
-    if (!file.open(QIODevice::ReadOnly))
-        throw std::logic_error("no icon " + name.toStdString());
-    return QIcon(new ThemedIcon(file.readAll()));
+    return QIcon(new DrawnIcon(contentsOf(":/pellucid/icons/" + name + ".svg")));
 }
 
 } // namespace pellucid::ui
+
+using pellucid::ui::DrawnIcons;
+Q_IMPORT_PLUGIN(DrawnIcons)
+#include "icons.moc"

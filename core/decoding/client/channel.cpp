@@ -3,19 +3,19 @@
 
 namespace pellucid::decoding {
 
-bool send(int socket, const Message &message, int descriptor) {
-    return confined::sendPacket(socket, std::as_bytes(std::span(&message, 1)), {}, descriptor,
-                                confined::WhenBusy::fail);
+bool send(const Channel &channel, const Message &message, HandleView handle) {
+    return channel.send(std::as_bytes(std::span(&message, 1)), {}, handle,
+                        platform::WhenBusy::fail);
 }
 
-std::optional<Received> receive(int socket, Takes takes) {
+std::optional<Received> receive(const Channel &channel, Takes takes) {
     Received received;
     // Packets keep their boundaries: one of a different size is not a message.
-    auto packet = confined::receivePacket(
-        socket, std::as_writable_bytes(std::span(&received.message, 1)), {}, takes);
+    auto packet =
+        channel.receive(std::as_writable_bytes(std::span(&received.message, 1)), {}, takes);
     if (!packet)
         return std::nullopt;
-    received.descriptor = std::move(packet->descriptor);
+    received.handle = std::move(packet->handle);
     return received;
 }
 

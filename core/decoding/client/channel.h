@@ -4,24 +4,22 @@
 #include <cstddef>
 #include <optional>
 
-#include "core/confined/packet.h"
 #include "core/decoding/client/message.h"
-#include "core/platform/handle.h"
+#include "core/platform/channel.h"
 
 namespace pellucid::decoding {
 
-using platform::Handle;
+using platform::Channel, platform::Handle, platform::HandleView, platform::Takes;
 
-/// Sends a message, and a descriptor unless it is -1; never blocks. False if the other end is
-/// closed or does not read.
-bool send(int socket, const Message &message, int descriptor = -1);
+/// Sends a message, and a handle if there is one; never blocks. False if the other end is closed or
+/// does not read.
+bool send(const Channel &channel, const Message &message, HandleView handle = {});
 
 /// Waits for a message. Empty if the other end is closed, or sent something else.
 struct Received {
     Message message;
-    Handle descriptor;
+    Handle handle;
 };
-using confined::Takes;
-std::optional<Received> receive(int socket, Takes takes);
+std::optional<Received> receive(const Channel &channel, Takes takes);
 
 } // namespace pellucid::decoding

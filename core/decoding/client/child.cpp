@@ -3,14 +3,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
-#include <csignal>
-#include <fcntl.h>
-#include <sys/mman.h>
 #include <system_error>
-#include <unistd.h>
 
+#include "core/confined/helper.h"
 #include "core/confined/protection.h"
 #include "core/decoding/client/reasons.h"
 #include "core/system/log.h"
@@ -32,13 +28,8 @@ constexpr std::uint64_t largestBodyBytes = 64 << 20;
 constexpr int maxMemoryRequests = 8; // requests for memory within one call
 constexpr double startSeconds = 30;  // on a loaded machine
 
-[[noreturn]] void failStarting(const std::filesystem::path &program, int error) {
-    if (error == ENOMEM)
-        throw Error(ErrorCode::outOfMemory, because::noMemoryForADecoder);
-    throw Error(ErrorCode::internal,
-                because::decoderCannotStart(error == 0 ? because::doesNotAnswer
-                                                       : task::systemReason(error)),
-                program);
+[[noreturn]] void failStarting(const std::filesystem::path &program, const task::Reason &reason) {
+    throw Error(ErrorCode::internal, because::decoderCannotStart(reason), program);
 }
 
 std::atomic<std::uint64_t> grantedBytes = 0; // of all arenas
@@ -82,38 +73,28 @@ Child::~Child() {
 }
 
 void Child::start(const std::filesystem::path &program, const task::Progress &progress) {
-    {
-        // Above the standard streams, which may be closed: prints would go into it.
-        constexpr int aboveStreams = 10;
-        const platform::Handle lowest(
-            ::memfd_create("pellucid-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-        m_arena =
-            platform::Handle(lowest ? ::fcntl(lowest.get(), F_DUPFD_CLOEXEC, aboveStreams) : -1);
-    }
-    // The arena must never shrink: reading beyond its end would kill the program.
-    if (!m_arena || ::ftruncate(m_arena.get(), off_t(firstArenaBytes)) != 0 ||
-        ::fcntl(m_arena.get(), F_ADD_SEALS, F_SEAL_SHRINK) != 0)
-        failStarting(program, errno);
-    m_arenaBytes = firstArenaBytes;
     try {
-        m_process = confined::Process({.path = program, .file = m_arena.get(), .environment = {}});
+        m_arena = platform::SharedMemory(firstArenaBytes);
+        m_process = platform::Helper(program, m_arena.view());
     } catch (const std::system_error &error) {
-        failStarting(program, error.code().value());
+        if (error.code() == std::errc::not_enough_memory)
+            throw Error(ErrorCode::outOfMemory, because::noMemoryForADecoder);
+        failStarting(program, task::systemReason(error.code()));
     }
     std::optional<Received> ready;
     allow(startSeconds);
     if (waitForMessage(progress))
-        ready = receive(m_process.socket(), Takes::noDescriptors);
+        ready = receive(m_process.channel(), Takes::noHandles);
     if (!ready || ready->message.kind != Message::Kind::ready)
-        failStarting(program, 0);
+        failStarting(program, because::doesNotAnswer);
     m_confinement = ready->message.code;
     confined::noteProtection("decoders", m_confinement);
     m_isUsable = true;
 }
 
-void Child::ask(const Message &request, int file) {
+void Child::ask(const Message &request, HandleView file) {
     allow(waitingSeconds(request));
-    const bool isSent = send(m_process.socket(), request, file);
+    const bool isSent = send(m_process.channel(), request, file);
     m_isUsable = false; // until it has answered
     if (!isSent)
         throw Error(ErrorCode::unusable, because::decoderIsGone);
@@ -121,7 +102,7 @@ void Child::ask(const Message &request, int file) {
 
 void Child::requestNext() {
     allow(waitingSeconds({Message::Kind::next, 0, 0, 0}));
-    if (!send(m_process.socket(), {Message::Kind::next, 0, 0, 0}))
+    if (!send(m_process.channel(), {Message::Kind::next, 0, 0, 0}))
         failByExitStatus();
 }
 
@@ -132,14 +113,14 @@ void Child::allow(double seconds) {
 
 bool Child::waitForMessage(const task::Progress &progress) const {
     return confined::waitForPacket(
-        m_process.socket(), std::chrono::duration<double>(m_end - Clock::now()).count(), progress);
+        m_process.channel(), std::chrono::duration<double>(m_end - Clock::now()).count(), progress);
 }
 
 Child::Answer Child::answer(const task::Progress &progress) {
     for (int memoryRequests = 0;;) {
         if (!waitForMessage(progress))
             throw Error(ErrorCode::unusable, because::takesTooLong);
-        const auto received = receive(m_process.socket(), Takes::noDescriptors);
+        const auto received = receive(m_process.channel(), Takes::noHandles);
         if (!received)
             failByExitStatus();
         const Message &message = received->message;
@@ -147,10 +128,11 @@ Child::Answer Child::answer(const task::Progress &progress) {
         case Message::Kind::need: {
             if (++memoryRequests > maxMemoryRequests) // a decoder that only asks for memory
                 throw Error(ErrorCode::unusable, because::implausibleAnswer);
-            const bool isGranted = grow(message.size);
-            if (!send(m_process.socket(),
-                      {isGranted ? Message::Kind::granted : Message::Kind::refused, 0, m_arenaBytes,
-                       0}))
+            const auto granted = grow(message.size);
+            if (!send(m_process.channel(),
+                      {granted ? Message::Kind::granted : Message::Kind::refused, 0,
+                       m_arena.bytes(), 0},
+                      granted.value_or(HandleView())))
                 failByExitStatus();
             break;
         }
@@ -164,33 +146,37 @@ Child::Answer Child::answer(const task::Progress &progress) {
 }
 
 // Memory is granted on this side, because the decoder is not trusted.
-bool Child::grow(std::uint64_t bytes) {
-    if (bytes <= m_arenaBytes)
-        return true;
-    const std::uint64_t more = bytes - m_arenaBytes, available = system::availableMemoryBytes();
+std::optional<HandleView> Child::grow(std::uint64_t bytes) {
+    if (bytes <= m_arena.bytes())
+        return HandleView();
+    const std::uint64_t more = bytes - m_arena.bytes(), available = system::availableMemoryBytes();
     // Other decoders may not have filled what they were granted. No sum may wrap: a decoder may ask
     // for any number.
     std::uint64_t granted = grantedBytes;
     do {
         if (granted > available || more > available - granted)
-            return false;
+            return std::nullopt;
     } while (!grantedBytes.compare_exchange_weak(granted, granted + more));
-    if (::ftruncate(m_arena.get(), off_t(bytes)) != 0) {
+    try {
+        const bool isAnother = m_arena.grow(bytes);
+        m_grantedBytes += more;
+        if (!isAnother)
+            return HandleView();
+        m_mapped = files::Mapping();
+        return m_arena.view();
+    } catch (const std::system_error &) {
         grantedBytes -= more;
-        return false;
+        return std::nullopt;
     }
-    m_grantedBytes += more;
-    m_arenaBytes = bytes;
-    return true;
 }
 
 Child::Answer Child::take(const Message &message) {
-    if (message.size > std::min(m_arenaBytes, largestBodyBytes) ||
-        dataOffset(message.size) > m_arenaBytes ||
-        message.dataBytes > m_arenaBytes - dataOffset(message.size))
+    if (message.size > std::min(m_arena.bytes(), largestBodyBytes) ||
+        dataOffset(message.size) > m_arena.bytes() ||
+        message.dataBytes > m_arena.bytes() - dataOffset(message.size))
         throw Error(ErrorCode::unusable, because::implausibleAnswer);
-    if (m_mapped.size() < m_arenaBytes)
-        m_mapped = files::Mapping(m_arena.get(), m_arenaBytes, files::Mapping::Access::read);
+    if (m_mapped.size() < m_arena.bytes())
+        m_mapped = files::Mapping(m_arena.view(), m_arena.bytes(), files::Mapping::Access::read);
     m_body.assign(reinterpret_cast<const char *>(m_mapped.data()), message.size);
     const auto body = std::as_bytes(std::span(m_body));
     if (message.kind == Message::Kind::done) {
@@ -205,27 +191,29 @@ Child::Answer Child::take(const Message &message) {
 
 void Child::failByExitStatus() {
     // If it still runs, it has sent an invalid message.
-    const std::optional<int> ended = m_process.endSignal();
+    const std::optional<platform::Ending> ended = m_process.ending();
     if (!ended)
         throw Error(ErrorCode::unusable, because::implausibleAnswer);
-    const int signal = *ended;
-    system::log("a decoder was ended by signal " + std::to_string(signal));
-    switch (signal) {
-    case SIGPROF:
+    system::log("a decoder was ended by " + std::to_string(ended->number));
+    using How = platform::Ending::How;
+    switch (ended->how) {
+    case How::tookTooLong:
         throw Error(ErrorCode::unusable, because::takesTooLong);
-    case SIGBUS:
+    case How::lostAFile:
         throw Error(ErrorCode::unusable, because::changedWhileRead);
-    case SIGKILL:
+    case How::wasKilled:
         throw Error(ErrorCode::outOfMemory, because::decoderWasKilled);
-    case SIGSYS:
+    case How::brokeConfinement:
         throw Error(ErrorCode::unusable, because::decoderBrokeItsConfinement);
-    default:
-        throw Error(ErrorCode::unusable, because::decoderCrashed);
+    case How::byItself:
+    case How::crashed:
+        break;
     }
+    throw Error(ErrorCode::unusable, because::decoderCrashed);
 }
 
 bool Child::isLarge() const {
-    return m_arenaBytes > keptArenaBytes;
+    return m_arena.bytes() > keptArenaBytes;
 }
 
 } // namespace pellucid::decoding

@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 
-#include "core/confined/process.h"
 #include "core/decoding/client/channel.h"
 #include "core/files/mapping.h"
+#include "core/platform/helper.h"
+#include "core/platform/shared_memory.h"
 #include "core/task/progress.h"
 
 namespace pellucid::decoding {
@@ -29,7 +31,7 @@ public:
     };
     /// Starts a request. *Throws* Error{unusable} if the process has ended meanwhile. The request's
     /// `size` is that of the file.
-    void ask(const Message &request, int file);
+    void ask(const Message &request, HandleView file);
     /// Asks for the next part of an archive or of samples.
     void requestNext();
     /// Waits for the answer, which is a `part` or `done`. *Throws* Error{unusable, outOfMemory}
@@ -50,13 +52,14 @@ private:
     void allow(double seconds);
     bool waitForMessage(const task::Progress &progress) const;
     [[noreturn]] void failByExitStatus();
-    bool grow(std::uint64_t bytes);
+    /// Whether it is granted, with the arena's handle if that is another one now.
+    std::optional<HandleView> grow(std::uint64_t bytes);
     Answer take(const Message &message);
 
-    confined::Process m_process;
-    platform::Handle m_arena;
+    platform::Helper m_process;
+    platform::SharedMemory m_arena;
     files::Mapping m_mapped;
-    std::uint64_t m_arenaBytes = 0, m_grantedBytes = 0;
+    std::uint64_t m_grantedBytes = 0;
     std::string m_body;
     std::chrono::steady_clock::time_point m_end; ///< deadline
     bool m_isUsable = false;

@@ -10,7 +10,7 @@
 
 #include <glm/gtx/component_wise.hpp>
 
-#include "core/confined/process.h"
+#include "core/confined/helper.h"
 #include "core/decoding/client/child.h"
 #include "core/decoding/client/reasons.h"
 #include "core/files/open_regular.h"
@@ -151,7 +151,7 @@ void Decoder::release(std::unique_ptr<Child> child) {
 
 // Sends a request to a decoder. One that ended while it was idle (perhaps killed for its memory) is
 // replaced.
-std::unique_ptr<Child> Decoder::ask(const Message &request, int file,
+std::unique_ptr<Child> Decoder::ask(const Message &request, HandleView file,
                                     const task::Progress &progress) {
     auto child = acquire(progress);
     try {
@@ -183,8 +183,7 @@ InstanceHeader Decoder::header(const fs::path &path, const task::Progress &progr
     const RegularFile file = open(path);
     checkStart(file, path);
     return naming(path, [&] {
-        auto child =
-            ask({Message::Kind::header, 0, file.facts.bytes, 0}, file.handle.get(), progress);
+        auto child = ask({Message::Kind::header, 0, file.facts.bytes, 0}, file.handle, progress);
         InstanceHeader header = answerOf(child, progress, [](const Child::Answer &answer) {
             return unpack<InstanceHeader>(answer.body);
         });
@@ -197,8 +196,7 @@ InstanceHeader Decoder::header(const fs::path &path, const task::Progress &progr
 DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress) {
     const RegularFile file = open(path);
     return naming(path, [&] {
-        auto child =
-            ask({Message::Kind::image, 0, file.facts.bytes, 0}, file.handle.get(), progress);
+        auto child = ask({Message::Kind::image, 0, file.facts.bytes, 0}, file.handle, progress);
         std::span<const std::uint16_t> samples;
         InstanceHeader header = answerOf(child, progress, [&](const Child::Answer &answer) {
             InstanceHeader h = unpack<InstanceHeader>(answer.body);
@@ -218,7 +216,7 @@ DecodedSegmentation Decoder::segmentation(const fs::path &path, const task::Prog
     checkStart(file, path);
     return naming(path, [&] {
         auto child =
-            ask({Message::Kind::segmentation, 0, file.facts.bytes, 0}, file.handle.get(), progress);
+            ask({Message::Kind::segmentation, 0, file.facts.bytes, 0}, file.handle, progress);
         std::span<const std::byte> pixels;
         SegmentationHeader header = answerOf(child, progress, [&](const Child::Answer &answer) {
             SegmentationHeader h = unpack<SegmentationHeader>(answer.body);
@@ -242,7 +240,7 @@ UncompressedFile Decoder::uncompressed(const fs::path &path, bool isExplicit,
     checkStart(file, path);
     return naming(path, [&] {
         auto child = ask({Message::Kind::uncompressed, isExplicit ? 1 : 0, file.facts.bytes, 0},
-                         file.handle.get(), progress);
+                         file.handle, progress);
         const std::span<const std::byte> bytes =
             answerOf(child, progress, [&](const Child::Answer &answer) {
                 if (!looksLikeDicom(answer.data))
@@ -259,7 +257,7 @@ DecodedStructureSet Decoder::structureSet(const fs::path &path, const task::Prog
     checkStart(file, path);
     return naming(path, [&] {
         auto child =
-            ask({Message::Kind::structureSet, 0, file.facts.bytes, 0}, file.handle.get(), progress);
+            ask({Message::Kind::structureSet, 0, file.facts.bytes, 0}, file.handle, progress);
         DecodedStructureSet set = answerOf(child, progress, [&](const Child::Answer &answer) {
             DecodedStructureSet read{unpack<StructureSetHeader>(answer.body), {}};
             const std::uint64_t points = pointCount(read.header);
@@ -283,7 +281,7 @@ AttributeList Decoder::attributes(const fs::path &path, const task::Progress &pr
     checkStart(file, path);
     return naming(path, [&] {
         auto child =
-            ask({Message::Kind::attributes, 0, file.facts.bytes, 0}, file.handle.get(), progress);
+            ask({Message::Kind::attributes, 0, file.facts.bytes, 0}, file.handle, progress);
         AttributeList list = answerOf(child, progress, [](const Child::Answer &answer) {
             return unpack<AttributeList>(answer.body);
         });
@@ -296,8 +294,7 @@ AttributeList Decoder::attributes(const fs::path &path, const task::Progress &pr
 DirectoryFile Decoder::directory(const fs::path &path, const task::Progress &progress) {
     const RegularFile file = open(path);
     return naming(path, [&] {
-        auto child =
-            ask({Message::Kind::directory, 0, file.facts.bytes, 0}, file.handle.get(), progress);
+        auto child = ask({Message::Kind::directory, 0, file.facts.bytes, 0}, file.handle, progress);
         DirectoryFile directory = answerOf(child, progress, [](const Child::Answer &answer) {
             return unpack<DirectoryFile>(answer.body);
         });
@@ -312,8 +309,7 @@ void Decoder::archive(const fs::path &path,
                       const task::Progress &progress) {
     const RegularFile file = open(path);
     naming(path, [&] {
-        auto child =
-            ask({Message::Kind::archive, 0, file.facts.bytes, 0}, file.handle.get(), progress);
+        auto child = ask({Message::Kind::archive, 0, file.facts.bytes, 0}, file.handle, progress);
         // Every part but the last is full and files follow each other, so the answer cannot be
         // endless.
         bool isAnnouncing = true, isInFile = false;
@@ -350,8 +346,7 @@ void Decoder::archive(const fs::path &path,
 VolumeLayout Decoder::layout(const fs::path &path, const task::Progress &progress) {
     const RegularFile file = open(path);
     return naming(path, [&] {
-        auto child =
-            ask({Message::Kind::layout, 0, file.facts.bytes, 0}, file.handle.get(), progress);
+        auto child = ask({Message::Kind::layout, 0, file.facts.bytes, 0}, file.handle, progress);
         VolumeLayout layout = answerOf(child, progress, [](const Child::Answer &answer) {
             return unpack<VolumeLayout>(answer.body);
         });
@@ -370,7 +365,7 @@ bool Decoder::samples(const fs::path &path, const SampleRange &samples,
                          (samples.isSwapped ? swapped : 0);
         auto child = ask({Message::Kind::samples, code, file.facts.bytes, samples.bytes, samples.at,
                           samples.skip},
-                         file.handle.get(), progress);
+                         file.handle, progress);
         std::uint64_t left = samples.bytes;
         for (bool isDone = false; !isDone;) {
             answerOf(child, progress, [&](const Child::Answer &answer) {

@@ -14,6 +14,7 @@
 #include "core/decoding/client/instance.h"
 #include "core/decoding/client/segmentation_file.h"
 #include "core/decoding/client/volume_layout.h"
+#include "core/platform/handle.h"
 #include "core/task/progress.h"
 
 namespace pellucid::decoding {
@@ -134,7 +135,7 @@ private:
     std::unique_ptr<Child> acquire(const task::Progress &progress);
     std::unique_ptr<Child> startChild(const task::Progress &progress) const;
     void release(std::unique_ptr<Child> child);
-    std::unique_ptr<Child> ask(const struct Message &request, int file,
+    std::unique_ptr<Child> ask(const struct Message &request, platform::HandleView file,
                                const task::Progress &progress);
     template <class F>
     auto answerOf(std::unique_ptr<Child> &child, const task::Progress &progress, F &&unpack);

@@ -34,7 +34,7 @@ struct Message {
         attributes,   ///< all attributes of a DICOM file
         uncompressed, ///< the file with plain pixels; `code`: 1 with explicit value types, else 0
         // sent by the decoder
-        ready = 100, ///< it is confined, see confined::Confinement, in `code`
+        ready = 100, ///< it is confined, see platform::Confinement, in `code`
         need,        ///< `size`: of the arena
         part,        ///< `size` bytes of body, then `dataBytes`; of an archive with bits of
                      ///< `ArchiveFlag` in `code`

@@ -322,9 +322,8 @@ std::vector<volume::ValueWindow> readWindows(DcmItem &item, const CharacterSets 
     for (std::size_t n = 0; n < std::min(centers.size(), widths.size()); ++n) {
         OFString name;
         item.findAndGetOFString(DCM_WindowCenterWidthExplanation, name, n);
-        const volume::ValueWindow window{centers[n], widths[n],
-                                         oneLine(sets.utf8(name.c_str(), false)), false,
-                                         functionIn(item)};
+        const volume::ValueWindow window{centers[n], widths[n], oneLine(sets.utf8(name.c_str())),
+                                         false, functionIn(item)};
         const bool known = std::any_of(windows.begin(), windows.end(), [&](const auto &w) {
             return w.center == window.center && w.width == window.width;
         });

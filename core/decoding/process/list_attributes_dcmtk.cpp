@@ -114,7 +114,7 @@ private:
         if (element.getOFStringArray(value, OFFalse).bad())
             return "not readable";
         const std::string text(value.c_str());
-        return oneLine(hasLetters(element) ? sets.utf8(text, element.ident() == EVR_PN) : text);
+        return oneLine(hasLetters(element) ? sets.utf8(text) : text);
     }
 
     AttributeList &m_list;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstring>
 #include <new>
-#include <sys/mman.h>
 
 #include "core/dcmtk/codecs.h"
 #include "core/decoding/client/channel.h"
@@ -15,9 +14,9 @@
 #include "core/decoding/process/damage.h"
 #include "core/decoding/process/parse.h"
 #include "core/decoding/process/reasons.h"
-#include "core/decoding/process/watch.h"
-#include "core/dicom_text/iso2022.h"
 #include "core/files/mapping.h"
+#include "core/platform/characters.h"
+#include "core/platform/watch.h"
 #include "core/task/error.h"
 
 namespace pellucid::decoding::process {
@@ -33,11 +32,12 @@ struct Disconnected {};
 
 class Server {
 public:
-    Server(int socket, int arena) : m_socket(socket), m_arena(arena) {}
+    explicit Server(platform::HelpersEnds ends)
+        : m_channel(std::move(ends.channel)), m_arena(std::move(ends.file)) {}
 
     // Returns false when the other side is gone.
     bool serveNext() {
-        const auto request = receive(m_socket, Takes::descriptor);
+        const auto request = receive(m_channel, Takes::handle);
         if (!request)
             return false;
         m_watch.allow(decodingSeconds(request->message));
@@ -53,12 +53,11 @@ public:
 
 private:
     void answer(const Received &request) {
-        const files::Mapping file(request.descriptor.get(), request.message.size,
+        const files::Mapping file(request.handle, request.message.size,
                                   files::Mapping::Access::read);
         switch (request.message.kind) {
         case Message::Kind::header:
-            // Only the header is needed, without read-ahead: discs and network shares are slow.
-            ::madvise(file.data(), file.size(), MADV_RANDOM);
+            platform::expectFewReads(file.bytes()); // only the header is needed
             finish(0, pack(parseHeader(file.bytes())), {});
             break;
         case Message::Kind::image: {
@@ -77,7 +76,7 @@ private:
             break;
         }
         case Message::Kind::attributes:
-            ::madvise(file.data(), file.size(), MADV_RANDOM);
+            platform::expectFewReads(file.bytes());
             finish(0, pack(listAttributes(file.bytes())), {});
             break;
         case Message::Kind::uncompressed:
@@ -132,24 +131,28 @@ private:
     }
 
     // The time that the other side takes to answer does not count.
-    Message ask(const Message &message) {
+    Received ask(const Message &message) {
         m_watch.pause();
-        if (!send(m_socket, message))
+        if (!send(m_channel, message))
             throw Disconnected();
-        const auto reply = receive(m_socket, Takes::descriptor);
+        auto reply = receive(m_channel, Takes::handle);
         if (!reply)
             throw Disconnected();
         m_watch.resume();
-        return reply->message;
+        return *std::move(reply);
     }
 
     void put(const std::string &body, std::span<const std::byte> data) {
         const std::uint64_t at = dataOffset(body.size()), needed = at + data.size();
         if (needed > m_arenaBytes) {
-            const Message reply = ask({Message::Kind::need, 0, needed, 0});
-            if (reply.kind != Message::Kind::granted || reply.size < needed)
+            Received reply = ask({Message::Kind::need, 0, needed, 0});
+            if (reply.message.kind != Message::Kind::granted || reply.message.size < needed)
                 throw Error(ErrorCode::outOfMemory, because::needsTooMuchMemory);
-            m_arenaBytes = reply.size;
+            m_arenaBytes = reply.message.size;
+            if (reply.handle) {
+                m_mapped = files::Mapping();
+                m_arena = std::move(reply.handle);
+            }
         }
         if (m_mapped.size() < m_arenaBytes)
             m_mapped = files::Mapping(m_arena, m_arenaBytes, files::Mapping::Access::write);
@@ -160,34 +163,36 @@ private:
 
     void part(int flags, const std::string &body, std::span<const std::byte> data) {
         put(body, data);
-        if (ask({Message::Kind::part, flags, body.size(), data.size()}).kind != Message::Kind::next)
+        if (ask({Message::Kind::part, flags, body.size(), data.size()}).message.kind !=
+            Message::Kind::next)
             throw Disconnected();
     }
 
     void finish(int code, const std::string &body, std::span<const std::byte> data) {
         put(body, data);
-        if (!send(m_socket, {Message::Kind::done, code, body.size(), data.size()}))
+        if (!send(m_channel, {Message::Kind::done, code, body.size(), data.size()}))
             throw Disconnected();
     }
 
-    int m_socket, m_arena;
+    Channel m_channel;
+    Handle m_arena;
     files::Mapping m_mapped;
     std::uint64_t m_arenaBytes = 1; // unknown before the first answer, which requests it
-    Watch m_watch;
+    platform::Watch m_watch;
 };
 
 } // namespace
 
 void prepareToServe() {
     dcmtk::prepareDcmtk();
-    dicom_text::openCharacterTables();
+    platform::openCharacterTables();
 }
 
-int serve(int socket, int arena, int confinement) {
-    if (!send(socket, {Message::Kind::ready, confinement, 0, 0}))
+int serve(platform::HelpersEnds ends, int confinement) {
+    if (!send(ends.channel, {Message::Kind::ready, confinement, 0, 0}))
         return 1;
     try {
-        for (Server server(socket, arena); server.serveNext();) {
+        for (Server server(std::move(ends)); server.serveNext();) {
         }
     } catch (const Disconnected &) {
     }

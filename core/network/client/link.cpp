@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <exception>
 #include <system_error>
 #include <utility>
 
+#include "core/confined/helper.h"
 #include "core/confined/packing.h"
 #include "core/confined/protection.h"
 #include "core/network/client/reasons.h"
@@ -87,10 +87,10 @@ Link::~Link() {
 void Link::start() {
     const std::filesystem::path program = confined::findProgram("pellucid-net", "PELLUCID_NET");
     try {
-        m_process = confined::Process({.path = program, .file = -1, .environment = {}});
+        m_process = platform::Helper(program);
     } catch (const std::system_error &error) {
         throw Error(ErrorCode::internal,
-                    because::helperCannotStart(task::systemReason(error.code().value())), program);
+                    because::helperCannotStart(task::systemReason(error.code())), program);
     }
 }
 
@@ -164,7 +164,7 @@ RetrievalEnd Link::retrieve(const Retrieval &retrieval, Receiver &receiver,
     return end;
 }
 
-std::optional<task::Reason> Link::store(int file, std::uint64_t bytes,
+std::optional<task::Reason> Link::store(platform::HandleView file, std::uint64_t bytes,
                                         const task::Progress &progress) {
     m_isAtWork = true;
     std::string remark;
@@ -185,8 +185,8 @@ Tokens Link::requestTokens(const TokenRequest &request, const task::Progress &pr
     return unpack<Tokens>(converse(progress, nullptr, {}, {}, Kind::done).body);
 }
 
-void Link::send(const Message &message, int descriptor) {
-    if (network::send(m_process.socket(), message, descriptor))
+void Link::send(const Message &message, platform::HandleView handle) {
+    if (network::send(m_process.channel(), message, handle))
         return;
     fail({Kind::failed, -1, 0, {}});
 }
@@ -197,11 +197,11 @@ Message Link::converse(const task::Progress &progress, Receiver *receiver,
     for (;;) {
         std::optional<Packet> packet;
         try {
-            if (!confined::waitForPacket(m_process.socket(), m_patienceSeconds, progress)) {
+            if (!confined::waitForPacket(m_process.channel(), m_patienceSeconds, progress)) {
                 m_isUsable = false;
                 throw Error(ErrorCode::unreachable, because::helperDoesNotAnswer);
             }
-            packet = receive(m_process.socket());
+            packet = receive(m_process.channel());
         } catch (const task::Cancelled &) {
             requestCancel();
             throw;
@@ -250,7 +250,7 @@ void Link::take(const Packet &packet, Receiver &receiver) {
     if (message.kind == Kind::arrival) {
         m_arrival = unpack<Arrival>(message.body);
         const auto answer = receiver.open(m_arrival);
-        const int *const file = std::get_if<int>(&answer);
+        const auto *const file = std::get_if<platform::HandleView>(&answer);
         m_isArriving = file != nullptr;
         if (file != nullptr)
             send({Kind::file, 0, 0, {}}, *file);
@@ -271,22 +271,22 @@ void Link::take(const Packet &packet, Receiver &receiver) {
 void Link::requestCancel() {
     m_isUsable = false;
     if (!m_isAtWork) { // the server has nothing to end
-        m_process = confined::Process();
+        m_process = platform::Helper();
         return;
     }
-    network::send(m_process.socket(), {Kind::cancel, 0, 0, {}});
+    network::send(m_process.channel(), {Kind::cancel, 0, 0, {}});
     const auto end =
         std::chrono::steady_clock::now() + std::chrono::duration<double>(cancelSeconds);
     while (std::chrono::steady_clock::now() < end) {
-        if (!confined::waitForPacket(m_process.socket(), 0.1, {}))
+        if (!confined::waitForPacket(m_process.channel(), 0.1, {}))
             continue;
-        const auto packet = receive(m_process.socket());
+        const auto packet = receive(m_process.channel());
         if (!packet || packet->message.kind == Kind::done || packet->message.kind == Kind::failed)
             break;
         if (packet->message.kind == Kind::arrival || packet->message.kind == Kind::received)
-            network::send(m_process.socket(), {Kind::refused, status::outOfResources, 0, {}});
+            network::send(m_process.channel(), {Kind::refused, status::outOfResources, 0, {}});
     }
-    m_process = confined::Process();
+    m_process = platform::Helper();
 }
 
 void Link::fail(const Message &message) {
@@ -303,12 +303,12 @@ void Link::fail(const Message &message) {
         }
     }
     m_isUsable = false;
-    const std::optional<int> signal =
-        message.kind == Kind::failed ? m_process.endSignal() : std::nullopt;
-    if (!signal)
+    const std::optional<platform::Ending> ended =
+        message.kind == Kind::failed ? m_process.ending() : std::nullopt;
+    if (!ended)
         throw Error(ErrorCode::unreachable, because::implausibleReply);
-    system::log("a network helper was ended by signal " + std::to_string(*signal));
-    throw Error(ErrorCode::unreachable, *signal == SIGSYS
+    system::log("a network helper was ended by " + std::to_string(ended->number));
+    throw Error(ErrorCode::unreachable, ended->how == platform::Ending::How::brokeConfinement
                                             ? task::Reason(because::helperBrokeItsConfinement)
                                             : because::helperCrashed);
 }
@@ -317,7 +317,7 @@ void serveClient(platform::Handle socket, const Acceptance &acceptance, Receiver
                  const task::Progress &progress, const StepObserver &observe) {
     Link link(acceptance.silenceSeconds + slackSeconds);
     link.start();
-    link.send({Kind::accept, 0, 0, pack(acceptance)}, socket.get());
+    link.send({Kind::accept, 0, 0, pack(acceptance)}, socket);
     socket = platform::Handle(); // so that the client notices when the helper ends
     link.converse(progress, &receiver, {}, observe, Kind::done);
 }
@@ -328,7 +328,7 @@ void awaitRedirect(platform::Handle socket, const Redirection &redirection,
                    const task::Progress &progress) {
     Link link(redirection.seconds + slackSeconds);
     link.start();
-    link.send({Kind::redirect, 0, 0, pack(redirection)}, socket.get());
+    link.send({Kind::redirect, 0, 0, pack(redirection)}, socket);
     socket = platform::Handle(); // so that the browser notices when the helper ends
     note(link.converse(progress, nullptr, {}, {}, Kind::ready).code);
     ready();

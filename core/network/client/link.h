@@ -8,9 +8,8 @@
 #include <string>
 #include <variant>
 
-#include "core/confined/process.h"
 #include "core/network/client/message.h"
-#include "core/platform/handle.h"
+#include "core/platform/helper.h"
 #include "core/task/progress.h"
 
 namespace pellucid::network {
@@ -19,9 +18,8 @@ namespace pellucid::network {
 class Receiver {
 public:
     virtual ~Receiver() = default;
-    /// An open file for the object, or the status that refuses it (PS3.4, B.2.3). The file belongs
-    /// to the receiver.
-    virtual std::variant<int, std::uint16_t> open(const Arrival &arrival) = 0;
+    /// An open file for the object, or the status that refuses it (PS3.4, B.2.3).
+    virtual std::variant<platform::HandleView, std::uint16_t> open(const Arrival &arrival) = 0;
     /// The object is complete; 0 bytes: it could not be written. *Returns* 0 when it is kept, or
     /// the status for the sender.
     virtual std::uint16_t keep(const Arrival &arrival, std::uint64_t bytes) = 0;
@@ -54,7 +52,7 @@ public:
                           const task::Progress &progress = {});
     /// Sends an object from an open file of this size. *Returns* how the server changed the
     /// object; nothing if it stored it unchanged.
-    std::optional<task::Reason> store(int file, std::uint64_t bytes,
+    std::optional<task::Reason> store(platform::HandleView file, std::uint64_t bytes,
                                       const task::Progress &progress = {});
     /// Reads the description of a login server at the path of the peer (OpenID Connect Discovery
     /// 1.0, 4). *Requires*: Purpose::login.
@@ -64,7 +62,7 @@ public:
     Tokens requestTokens(const TokenRequest &request, const task::Progress &progress = {});
 
     bool isUsable() const { return m_isUsable; }
-    /// See confined::Confinement.
+    /// See platform::Confinement.
     int confinement() const { return m_confinement; }
 
 private:
@@ -78,7 +76,7 @@ private:
     void connect(const task::Progress &progress, const StepObserver &observe);
     /// Makes a request, again while the server closes the connection after some answer.
     template <class F> void request(const task::Progress &progress, F &&make);
-    void send(const Message &message, int descriptor = -1);
+    void send(const Message &message, platform::HandleView handle = {});
     /// Passes on messages until the end of the request.
     Message converse(const task::Progress &progress, Receiver *receiver,
                      const std::function<void(Attributes)> &match, const StepObserver &observe,
@@ -88,7 +86,7 @@ private:
     void requestCancel();
 
     std::optional<Connection> m_connection;
-    confined::Process m_process;
+    platform::Helper m_process;
     double m_patienceSeconds;
     int m_confinement = 0;
     bool m_isUsable = false;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/network/client/message.h"
 
-#include "core/confined/packet.h"
 #include "core/confined/packing.h"
 #include "core/network/client/reasons.h"
 
@@ -140,30 +139,29 @@ template <class T> void check(const T & /*value*/) {}
 
 } // namespace
 
-bool send(int socket, const Message &message, int descriptor) {
+bool send(const platform::Channel &channel, const Message &message, platform::HandleView handle) {
     if (message.body.size() > largestPacket)
         return false;
     const Header header{std::uint32_t(message.kind), message.code, message.number};
-    return confined::sendPacket(socket, std::as_bytes(std::span(&header, 1)),
-                                std::as_bytes(std::span(message.body)), descriptor,
-                                confined::WhenBusy::wait);
+    return channel.send(std::as_bytes(std::span(&header, 1)),
+                        std::as_bytes(std::span(message.body)), handle, platform::WhenBusy::wait);
 }
 
-std::optional<Packet> receive(int socket) {
+std::optional<Packet> receive(const platform::Channel &channel) {
     Packet packet;
     Header header{};
     std::string &body = packet.message.body;
     body.resize(largestPacket);
-    auto received = confined::receivePacket(socket, std::as_writable_bytes(std::span(&header, 1)),
-                                            std::as_writable_bytes(std::span(body)),
-                                            confined::Takes::descriptor);
+    auto received =
+        channel.receive(std::as_writable_bytes(std::span(&header, 1)),
+                        std::as_writable_bytes(std::span(body)), platform::Takes::handle);
     if (!received)
         return std::nullopt;
     packet.message.kind = Message::Kind(header.kind);
     packet.message.code = header.code;
     packet.message.number = header.number;
     body.resize(received->bytes - sizeof header);
-    packet.descriptor = std::move(received->descriptor);
+    packet.handle = std::move(received->handle);
     return packet;
 }
 

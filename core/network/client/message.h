@@ -10,7 +10,7 @@
 #include "core/network/client/login.h"
 #include "core/network/client/peer.h"
 #include "core/network/client/query.h"
-#include "core/platform/handle.h"
+#include "core/platform/channel.h"
 #include "core/task/reason.h"
 
 namespace pellucid::network {
@@ -35,7 +35,7 @@ struct Message {
         discover, ///< of a login server: where its services are
         tokens,   ///< body: TokenRequest
         // sent by pellucid-net
-        ready = 100, ///< it is confined, see confined::Confinement, and connected; `code`
+        ready = 100, ///< it is confined, see platform::Confinement, and connected; `code`
         step,        ///< of connecting: `code` is a Step that succeeded, body: what it found
         match,       ///< body: Attributes
         arrival,     ///< body: Arrival; waits for `file`
@@ -68,14 +68,15 @@ inline constexpr std::size_t uidsAtOnce = 1000;
 
 struct Packet {
     Message message;
-    platform::Handle descriptor;
+    platform::Handle handle;
 };
 
-/// Sends a message, and a descriptor unless it is -1; waits while the other end is busy. False if
-/// it is closed.
-bool send(int socket, const Message &message, int descriptor = -1);
+/// Sends a message, and a handle if there is one; waits while the other end is busy. False if it is
+/// closed.
+bool send(const platform::Channel &channel, const Message &message,
+          platform::HandleView handle = {});
 /// Waits for a message. Empty if the other end is closed, or sent something else.
-std::optional<Packet> receive(int socket);
+std::optional<Packet> receive(const platform::Channel &channel);
 
 /// What a server of this program accepts from one connection.
 struct Acceptance {

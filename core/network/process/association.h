@@ -31,7 +31,7 @@ public:
     Association(const Connection &connection, Control &control);
     /// Answers a client through a connected socket; confines this process as well. Offers storage
     /// and verification. *Throws* the same.
-    Association(const Acceptance &acceptance, int socket, Control &control);
+    Association(const Acceptance &acceptance, platform::HandleView socket, Control &control);
     ~Association();
     Association(const Association &) = delete;
     Association &operator=(const Association &) = delete;

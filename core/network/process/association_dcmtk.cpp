@@ -5,9 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstring>
-#include <poll.h>
 
 #include <dcmtk/config/osconfig.h>
 
@@ -23,6 +21,9 @@
 #include "core/network/process/confine.h"
 #include "core/network/process/connect.h"
 #include "core/network/process/reasons.h"
+#include "core/platform/channel.h"
+#include "core/platform/next_connect.h"
+#include "core/platform/process.h"
 
 namespace pellucid::network::process {
 
@@ -34,7 +35,7 @@ namespace because = task::because;
 constexpr std::size_t maxContexts = 128;
 
 void prepareNetwork(double connectSeconds, double silenceSeconds) {
-    ::signal(SIGPIPE, SIG_IGN);
+    platform::letBrokenPipesFail();
     dcmConnectionTimeout.set(Sint32(std::lround(connectSeconds)));
     dcmSocketReceiveTimeout.set(Sint32(std::lround(silenceSeconds)));
     dcmSocketSendTimeout.set(Sint32(std::lround(silenceSeconds)));
@@ -145,7 +146,7 @@ Association::Association(const Connection &connection, Control &control)
     const Peer &peer = connection.peer;
     prepareNetwork(peer.connectSeconds, peer.silenceSeconds);
     ConnectionEvents events{
-        [this, &control, &peer](int) {
+        [this, &control, &peer] {
             control.step(Step::tcp, peer.host + ":" + std::to_string(peer.port));
             m_confinement = confine();
         },
@@ -155,7 +156,8 @@ Association::Association(const Connection &connection, Control &control)
                             std::move(events), Certificates{peer.authorities, peer.certificate,
                                                             peer.key, peer.keyPassword, peer.host})
                       : std::make_unique<Transport>(std::move(events));
-    useAtNextConnect(connectTo(peer, control).socket);
+    m_transport->use(connectTo(peer, control).socket);
+    platform::skipNextConnect();
     if (ASC_initializeNetwork(NET_REQUESTOR, 0, int(std::lround(peer.associationSeconds)),
                               &m_network)
             .bad())
@@ -213,12 +215,12 @@ void Association::failRequest(const std::string &text, bool usesTls) const {
     throw Lost{because::associationFails(text)};
 }
 
-Association::Association(const Acceptance &acceptance, int socket, Control &control)
+Association::Association(const Acceptance &acceptance, platform::HandleView socket,
+                         Control &control)
     : m_silenceSeconds(acceptance.silenceSeconds) {
     prepareNetwork(acceptance.silenceSeconds, acceptance.silenceSeconds);
     ConnectionEvents events{
-        [](int) {},
-        [&control](const std::string &parameters) { control.step(Step::tls, parameters); }};
+        [] {}, [&control](const std::string &parameters) { control.step(Step::tls, parameters); }};
     m_transport =
         acceptance.usesTls
             ? std::make_unique<Transport>(std::move(events), Certificates{acceptance.authorities,
@@ -229,7 +231,7 @@ Association::Association(const Acceptance &acceptance, int socket, Control &cont
                                                                           acceptance.clientHosts})
             : std::make_unique<Transport>(std::move(events));
     // The program has accepted the connection; DCMTK calls that external.
-    dcmExternalSocketHandle.set(socket);
+    dcmExternalSocketHandle.set(socket.get());
     const int patience = int(std::lround(acceptance.silenceSeconds));
     if (ASC_initializeNetwork(NET_ACCEPTOR, 0, patience, &m_network).bad())
         throw Lost{because::networkCannotBeSetUp};
@@ -353,12 +355,11 @@ Association::Event Association::wait(Control &control) const {
         // Bytes that TLS has already decrypted are not seen by poll.
         if (ASC_dataWaiting(m_association, 0))
             return Event::data;
-        std::array<pollfd, 2> waiting{pollfd{m_transport->socket(), POLLIN, 0},
-                                      pollfd{control.socket(), POLLIN, 0}};
-        ::poll(waiting.data(), waiting.size(), 1000);
-        if (waiting[0].revents != 0)
+        const std::array sockets{m_transport->socket()};
+        const std::vector<bool> ready = platform::awaitAny(control.channel(), sockets, 1000);
+        if (ready[1])
             return Event::data;
-        if (waiting[1].revents != 0 && control.isCancelled())
+        if (ready[0] && control.isCancelled())
             return Event::cancel;
         if (Clock::now() > end)
             throw Lost{because::serverIsSilent(std::lround(m_silenceSeconds))};

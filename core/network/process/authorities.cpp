@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/network/process/authorities.h"
 
-#include <unistd.h>
+#include <fstream>
 
 namespace pellucid::network::process {
 
@@ -10,7 +10,7 @@ std::string systemAuthoritiesFile() {
          {"/etc/ssl/certs/ca-certificates.crt", "/etc/pki/tls/certs/ca-bundle.crt",
           "/etc/pki/ca-trust/extracted/pem/tls-ca-bundle.pem", "/etc/ssl/ca-bundle.pem",
           "/etc/ssl/cert.pem"})
-        if (::access(path, R_OK) == 0)
+        if (std::ifstream(path).is_open())
             return path;
     return {};
 }

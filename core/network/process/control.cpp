@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <poll.h>
 #include <system_error>
 
 #include "core/platform/file.h"
@@ -18,20 +17,19 @@ std::string shortened(const std::string &text, std::size_t bytes) {
 }
 
 void Control::send(const Message &message) {
-    if (!network::send(m_socket, message))
+    if (!network::send(m_channel, message))
         throw Disconnected();
 }
 
 Packet Control::wait() {
-    auto packet = receive(m_socket);
+    auto packet = receive(m_channel);
     if (!packet)
         throw Disconnected();
     return *std::move(packet);
 }
 
 bool Control::isCancelled() {
-    pollfd waiting{m_socket, POLLIN, 0};
-    if (::poll(&waiting, 1, 0) <= 0)
+    if (!m_channel.awaitPacket(0))
         return false;
     return wait().message.kind == Message::Kind::cancel;
 }
@@ -71,8 +69,8 @@ Storage::Storage(Control &control, const Arrival &arrival) : m_control(control) 
     Packet packet = answer();
     if (packet.message.kind == Message::Kind::refused)
         m_status = std::uint16_t(packet.message.code);
-    else if (packet.message.kind == Message::Kind::file && packet.descriptor)
-        m_file = std::move(packet.descriptor);
+    else if (packet.message.kind == Message::Kind::file && packet.handle)
+        m_file = std::move(packet.handle);
     else
         throw Disconnected();
 }

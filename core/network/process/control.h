@@ -24,9 +24,9 @@ inline constexpr std::size_t longestComment = 1024; ///< of a server's comment
 /// This process's end of the messages. Sending and waiting *throw* Disconnected.
 class Control {
 public:
-    explicit Control(int socket) : m_socket(socket) {}
+    explicit Control(const platform::Channel &channel) : m_channel(channel) {}
 
-    int socket() const { return m_socket; }
+    const platform::Channel &channel() const { return m_channel; }
     void send(const Message &message);
     Packet wait();
     /// Whether the program has asked to cancel. Any other message would be lost; the program sends
@@ -43,7 +43,7 @@ public:
     void failed(Failure failure, const task::Reason &reason);
 
 private:
-    int m_socket;
+    const platform::Channel &m_channel;
     std::chrono::steady_clock::time_point m_lastBeat = std::chrono::steady_clock::now();
 };
 

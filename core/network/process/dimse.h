@@ -18,8 +18,8 @@ RetrievalEnd get(Association &association, const Retrieval &retrieval, Control &
 RetrievalEnd move(Association &association, const Retrieval &retrieval, Control &control);
 /// C-STORE of an open file of this size: its data set goes out byte for byte. *Returns* how
 /// the server changed the object; nothing if it stored it unchanged.
-std::optional<task::Reason> store(Association &association, int file, std::uint64_t bytes,
-                                  Control &control);
+std::optional<task::Reason> store(Association &association, platform::HandleView file,
+                                  std::uint64_t bytes, Control &control);
 
 /// Answers a client until it releases the association: C-ECHO, and C-STORE as `Storage`.
 void provide(Association &association, Control &control);

@@ -410,8 +410,8 @@ RetrievalEnd move(Association &association, const Retrieval &retrieval, Control 
                    message.msg.CMoveRQ, retrieval, control);
 }
 
-std::optional<task::Reason> store(Association &association, int file, std::uint64_t bytes,
-                                  Control &control) {
+std::optional<task::Reason> store(Association &association, platform::HandleView file,
+                                  std::uint64_t bytes, Control &control) {
     const files::Mapping mapping(file, bytes, files::Mapping::Access::read);
     const FileStart start = startOf(mapping.bytes());
     const Encoding encoding{start.arrival.sopClassUid, start.arrival.transferSyntax};

@@ -3,17 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <poll.h>
-#include <strings.h>
-#include <unistd.h>
+#include <thread>
 
 #include <curl/curl.h>
 
@@ -24,6 +20,7 @@
 #include "core/network/process/reasons.h"
 #include "core/network/process/tls_profile.h"
 #include "core/network/process/tls_reasons.h"
+#include "core/platform/process.h"
 
 namespace pellucid::network::process {
 
@@ -46,7 +43,7 @@ std::string fileText(const std::string &path) {
 class HttpClient::Curl {
 public:
     Curl(const Peer &peer, Control &control, int &confinement) : m_peer(peer), m_control(control) {
-        ::signal(SIGPIPE, SIG_IGN);
+        platform::letBrokenPipesFail();
         ::curl_global_init(CURL_GLOBAL_DEFAULT);
         m_handle = ::curl_easy_init();
         // The first transfer makes what libcurl needs for itself, which no later one may make.
@@ -61,8 +58,8 @@ public:
                 m_key = fileText(peer.key);
             }
         }
-        const Connected connected = connectTo(peer, control);
-        m_socket = connected.socket;
+        platform::Connected connected = connectTo(peer, control);
+        m_socket = std::move(connected.socket);
         control.step(Step::tcp, peer.host + ":" + std::to_string(peer.port));
         m_origin = (peer.usesTls ? "https://" : "http://") + hostPart(peer.host) + ":" +
                    std::to_string(peer.port);
@@ -74,8 +71,6 @@ public:
     ~Curl() {
         ::curl_easy_cleanup(m_handle);
         ::curl_slist_free_all(m_resolved);
-        if (m_socket >= 0)
-            ::close(m_socket);
     }
     Curl(const Curl &) = delete;
     Curl &operator=(const Curl &) = delete;
@@ -125,7 +120,7 @@ private:
             if (m_control.isCancelled())
                 throw CancelledByProgram();
             m_control.heartbeat();
-            ::poll(nullptr, 0, 50);
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
         }
     }
 
@@ -149,12 +144,12 @@ private:
         const std::string here = origin(), host = part(CURLUPART_HOST);
         if (::curl_url_set(url.get(), CURLUPART_URL, location.c_str(), 0) != CURLUE_OK)
             throw Error(ErrorCode::unusable, because::serverPointsElsewhere);
-        if (::strcasecmp(origin().c_str(), here.c_str()) == 0) {
+        if (::curl_strequal(origin().c_str(), here.c_str()) != 0) {
             const std::string query = part(CURLUPART_QUERY);
             return part(CURLUPART_PATH) + (query.empty() ? "" : "?" + query);
         }
         if (!m_peer.usesTls && part(CURLUPART_SCHEME) == "https" &&
-            ::strcasecmp(part(CURLUPART_HOST).c_str(), host.c_str()) == 0) {
+            ::curl_strequal(part(CURLUPART_HOST).c_str(), host.c_str()) != 0) {
             const std::string port = part(CURLUPART_PORT);
             throw Error(ErrorCode::unusable,
                         because::serverWantsHttps("https://" + host +
@@ -278,7 +273,7 @@ private:
     }
     static curl_socket_t openSocket(void *self, curlsocktype, curl_sockaddr *) {
         // Afterwards it is libcurl's, which closes it.
-        return std::exchange(static_cast<Curl *>(self)->m_socket, CURL_SOCKET_BAD);
+        return curl_socket_t(static_cast<Curl *>(self)->m_socket.release());
     }
     static int isConnected(void *, curl_socket_t, curlsocktype) {
         return CURL_SOCKOPT_ALREADY_CONNECTED;
@@ -360,7 +355,7 @@ private:
     Control &m_control;
     CURL *m_handle = nullptr;
     curl_slist *m_resolved = nullptr;
-    int m_socket = -1;
+    platform::Handle m_socket;
     std::string m_origin, m_authorities, m_certificate, m_key;
 };
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <strings.h>
 
 #include <nlohmann/json.hpp>
 
@@ -55,7 +54,10 @@ Tokens readTokens(const std::string &text) {
     const Json json = Json::parse(text, nullptr, false);
     Tokens tokens{textOf(json, "access_token"), textOf(json, "refresh_token"), 0};
     // RFC 6749, 7.1: a token of an unknown type is not used.
-    const bool isBearer = ::strcasecmp(textOf(json, "token_type").c_str(), "bearer") == 0;
+    std::string type = textOf(json, "token_type");
+    std::transform(type.begin(), type.end(), type.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    const bool isBearer = type == "bearer";
     if (!isBearer || !isVisible(tokens.access, longestToken) ||
         (!tokens.refresh.empty() && !isVisible(tokens.refresh, longestToken)))
         fail(because::loginAnswerHasNoToken);

@@ -3,19 +3,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <poll.h>
-#include <sys/socket.h>
 #include <vector>
 
 #include "core/network/process/confine.h"
-#include "core/network/process/connection_owner.h"
 #include "core/network/process/login_json.h"
 #include "core/network/process/reasons.h"
+#include "core/platform/connection_owner.h"
+#include "core/platform/socket.h"
 
 namespace pellucid::network::process {
 
@@ -82,46 +80,35 @@ void show(const Handle &browser, const char *status, const std::string &text) {
                                "Connection: close\r\n\r\n" +
                                page;
     // A page fits into the buffer of a new connection.
-    (void)!::send(browser.get(), answer.data(), answer.size(), MSG_NOSIGNAL);
-    ::shutdown(browser.get(), SHUT_WR);
+    platform::sendLast(browser, answer);
 }
 
 struct Browser {
-    Handle socket;
-    sockaddr_in from{};
+    platform::Connected from;
     std::string head;
 };
-
-// Nothing while nobody can connect.
-std::optional<Browser> acceptedAt(int socket) {
-    Browser browser;
-    socklen_t size = sizeof browser.from;
-    browser.socket = Handle(::accept4(socket, reinterpret_cast<sockaddr *>(&browser.from), &size,
-                                      SOCK_CLOEXEC | SOCK_NONBLOCK));
-    return browser.socket ? std::optional(std::move(browser)) : std::nullopt;
-}
 
 // What a connection has sent; false at its end.
 bool receive(Browser &browser) {
     std::array<char, 4096> buffer{};
-    const ssize_t got = ::recv(browser.socket.get(), buffer.data(), buffer.size(), 0);
-    if (got < 0)
-        return errno == EINTR || errno == EAGAIN;
-    browser.head.append(buffer.data(), std::size_t(got));
-    return got > 0 && browser.head.size() <= longestHead;
+    const auto got = platform::receiveSome(browser.from.socket, buffer);
+    if (!got)
+        return true;
+    browser.head.append(buffer.data(), *got);
+    return *got > 0 && browser.head.size() <= longestHead;
 }
 
 // Passes the result on; the browser shows the end of it.
 void finish(const Browser &browser, const LoginResult &result, const Redirection &redirection,
             Control &control) {
     if (!result.error.empty()) {
-        show(browser.socket, "200 OK", redirection.failureText);
+        show(browser.from.socket, "200 OK", redirection.failureText);
         throw task::Error(task::ErrorCode::unusable, loginRefusal(result.error));
     }
     control.send({Kind::code, 0, 0, result.code});
     const Kind answer = control.wait().message.kind;
     const bool isKept = answer == Kind::kept;
-    show(browser.socket, "200 OK", isKept ? redirection.successText : redirection.failureText);
+    show(browser.from.socket, "200 OK", isKept ? redirection.successText : redirection.failureText);
     if (answer == Kind::cancel)
         throw CancelledByProgram();
 }
@@ -142,11 +129,11 @@ std::optional<LoginResult> loginResultOf(const std::string &head, const std::str
     return result;
 }
 
-void awaitRedirect(int socket, const Redirection &redirection, Control &control) {
+void awaitRedirect(platform::HandleView socket, const Redirection &redirection, Control &control) {
     // Other users see the address of the login among the arguments of the browser: one could log in
     // as himself and send his code here, and this user's images would go to his account (RFC 8252,
     // 8.9).
-    ConnectionOwner owner(socket);
+    platform::ConnectionOwner owner(socket);
     control.send({Kind::ready, confineToAccepting(), 0, {}});
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(redirection.seconds));
@@ -158,15 +145,14 @@ void awaitRedirect(int socket, const Redirection &redirection, Control &control)
         if (left <= 0)
             throw task::Error(task::ErrorCode::unusable,
                               because::loginTookTooLong(std::lround(redirection.seconds)));
-        std::vector<pollfd> waiting{{control.socket(), POLLIN, 0}, {socket, POLLIN, 0}};
+        std::vector<platform::HandleView> sockets{socket};
         for (const Browser &browser : browsers)
-            waiting.push_back({browser.socket.get(), POLLIN, 0});
-        if (::poll(waiting.data(), waiting.size(), int(left)) <= 0)
-            continue;
-        if (waiting[0].revents != 0 && control.isCancelled())
+            sockets.push_back(browser.from.socket);
+        const std::vector<bool> ready = platform::awaitAny(control.channel(), sockets, int(left));
+        if (ready[0] && control.isCancelled())
             throw CancelledByProgram();
         for (std::size_t n = browsers.size(); n-- > 0;) {
-            if (waiting[n + 2].revents == 0)
+            if (!ready[n + 2])
                 continue;
             const bool isOpen = receive(browsers[n]);
             if (isOpen && browsers[n].head.find("\r\n\r\n") == std::string::npos)
@@ -177,18 +163,18 @@ void awaitRedirect(int socket, const Redirection &redirection, Control &control)
                     control.done();
                     return;
                 }
-                show(browsers[n].socket, "400 Bad Request", redirection.failureText);
+                show(browsers[n].from.socket, "400 Bad Request", redirection.failureText);
             }
             browsers.erase(browsers.begin() + std::ptrdiff_t(n));
         }
-        if (waiting[1].revents == 0)
+        if (!ready[1])
             continue;
-        auto accepted = acceptedAt(socket);
+        auto accepted = platform::acceptFrom(socket, platform::Accepting::neverWaits);
         if (!accepted)
             continue;
         if (browsers.size() >= mostBrowsers) // the oldest one makes way
             browsers.erase(browsers.begin());
-        browsers.push_back(*std::move(accepted));
+        browsers.push_back({*std::move(accepted), {}});
     }
 }
 

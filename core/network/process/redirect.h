@@ -24,6 +24,6 @@ std::optional<LoginResult> loginResultOf(const std::string &head, const std::str
 /// program could use it. Other requests, and those of other users of this computer, are refused,
 /// and the redirect is still awaited. *Throws* Error{unusable} if the login is denied or nobody
 /// logs in; CancelledByProgram; Disconnected.
-void awaitRedirect(int socket, const Redirection &redirection, Control &control);
+void awaitRedirect(platform::HandleView socket, const Redirection &redirection, Control &control);
 
 } // namespace pellucid::network::process

@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "core/dicom_text/dictionary.h"
-#include "core/dicom_text/iso2022.h"
 #include "core/network/client/reasons.h"
 #include "core/network/process/association.h"
 #include "core/network/process/dimse.h"
 #include "core/network/process/login_client.h"
 #include "core/network/process/redirect.h"
 #include "core/network/process/web_client.h"
+#include "core/platform/characters.h"
 #include "core/task/reasons.h"
 
 namespace pellucid::network::process {
@@ -33,14 +33,15 @@ struct DimseClient {
         return purpose == Purpose::move ? move(association, retrieval, control)
                                         : get(association, retrieval, control);
     }
-    std::optional<task::Reason> store(int file, std::uint64_t bytes, Control &control) {
+    std::optional<task::Reason> store(platform::HandleView file, std::uint64_t bytes,
+                                      Control &control) {
         return network::process::store(association, file, bytes, control);
     }
 };
 
 class Session {
 public:
-    explicit Session(int socket) : m_control(socket) {}
+    explicit Session(const platform::Channel &channel) : m_control(channel) {}
 
     void run() {
         Packet first = m_control.wait();
@@ -51,8 +52,7 @@ public:
             }
             if (first.message.kind == Kind::redirect) {
                 guardedRequest([&] {
-                    awaitRedirect(first.descriptor.get(), unpack<Redirection>(first.message.body),
-                                  m_control);
+                    awaitRedirect(first.handle, unpack<Redirection>(first.message.body), m_control);
                 });
                 return;
             }
@@ -83,8 +83,7 @@ public:
 
 private:
     void accept(const Packet &packet) {
-        Association association(unpack<Acceptance>(packet.message.body), packet.descriptor.get(),
-                                m_control);
+        Association association(unpack<Acceptance>(packet.message.body), packet.handle, m_control);
         m_control.send({Kind::ready, association.confinement(), 0, {}});
         provide(association, m_control);
         m_control.done();
@@ -92,7 +91,7 @@ private:
 
     // Returns false when the program is done with the connection.
     template <class Client> bool answerNext(Client &client) {
-        auto packet = receive(m_control.socket());
+        auto packet = receive(m_control.channel());
         if (!packet)
             return false;
         const Message &message = packet->message;
@@ -112,8 +111,7 @@ private:
                 m_control.done(pack(client.retrieve(retrievalOf(message), m_control)));
                 break;
             case Kind::store: {
-                const auto change =
-                    client.store(packet->descriptor.get(), message.number, m_control);
+                const auto change = client.store(packet->handle, message.number, m_control);
                 m_control.done(change ? change->encoded() : std::string());
                 break;
             }
@@ -127,7 +125,7 @@ private:
     }
 
     bool answerNext(LoginClient &client) {
-        const auto packet = receive(m_control.socket());
+        const auto packet = receive(m_control.channel());
         if (!packet)
             return false;
         const Message &message = packet->message;
@@ -198,12 +196,12 @@ private:
 
 void prepareToServe() {
     dicom_text::prepareDictionary();
-    dicom_text::openCharacterTables();
+    platform::openCharacterTables();
 }
 
-int serve(int socket) {
+int serve(const platform::Channel &channel) {
     try {
-        Session(socket).run();
+        Session(channel).run();
         return 0;
     } catch (const Disconnected &) {
         return 1;

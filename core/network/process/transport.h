@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/platform/handle.h"
 #include "core/task/reason.h"
 
 class DcmTransportLayer;
@@ -26,7 +27,7 @@ struct Certificates {
 
 /// What happens while a connection is made, before and after the first byte from the network.
 struct ConnectionEvents {
-    std::function<void(int socket)> connected;
+    std::function<void()> connected;
     std::function<void(const std::string &parameters)> secured;
 };
 
@@ -41,17 +42,25 @@ public:
     Transport(const Transport &) = delete;
     Transport &operator=(const Transport &) = delete;
 
+    /// Is carried by a connection that is there, whatever DCMTK connects, which knows no IPv6.
+    void use(platform::Handle connection) { m_state->connection = std::move(connection); }
     bool isSecure() const { return m_isSecure; }
     DcmTransportLayer &layer() { return *m_layer; }
-    bool isConnected() const { return m_state->socket >= 0; }
-    int socket() const { return m_state->socket; }
+    bool isConnected() const { return bool(m_state->socket); }
+    platform::HandleView socket() const { return m_state->socket; }
     /// Why the handshake failed, if it did.
     const std::optional<task::Reason> &refusal() const { return m_state->refusal; }
 
     struct State {
         ConnectionEvents events;
-        int socket = -1;
+        platform::HandleView socket;
         std::optional<task::Reason> refusal;
+
+        platform::Handle connection; ///< until it is used
+        platform::Handle replaced;   ///< what it is used for, whose options DCMTK still sets
+
+        /// Takes over the socket that DCMTK has made. *Returns* the one to use.
+        platform::Native connected(platform::Native made);
     };
 
 private:

@@ -2,17 +2,13 @@
 #include "core/network/process/transport.h"
 
 #include <algorithm>
-#include <arpa/inet.h>
 #include <array>
 #include <cerrno>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <openssl/err.h>
 #include <openssl/ssl.h>
 #include <openssl/x509_vfy.h>
 #include <openssl/x509v3.h>
 #include <string_view>
-#include <sys/socket.h>
 
 #include <dcmtk/config/osconfig.h>
 
@@ -27,6 +23,7 @@
 #include "core/network/process/reasons.h"
 #include "core/network/process/tls_profile.h"
 #include "core/network/process/tls_reasons.h"
+#include "core/platform/socket.h"
 #include "core/task/error.h"
 
 namespace pellucid::network::process {
@@ -35,25 +32,14 @@ namespace {
 
 namespace because = task::because;
 
-// Without these, each object waits for the delayed acknowledgement of the last one: 40 ms.
-void sendAtOnce(int socket) {
-    const int on = 1;
-    ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    ::setsockopt(socket, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
-}
-
-// The kernel forgets it after a while.
-void acknowledgeAtOnce(int socket) {
-    const int on = 1;
-    ::setsockopt(socket, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
-}
+using platform::HandleView, platform::Opened;
 
 class PlainConnection : public DcmTCPConnection {
 public:
-    explicit PlainConnection(int socket) : DcmTCPConnection(socket) {}
+    explicit PlainConnection(DcmNativeSocketType socket) : DcmTCPConnection(socket) {}
     ssize_t read(void *to, size_t bytes) override {
         const ssize_t got = DcmTCPConnection::read(to, bytes);
-        acknowledgeAtOnce(getSocket());
+        platform::acknowledgeAtOnce(HandleView(platform::Native(getSocket()), Opened::socket));
         return got;
     }
 };
@@ -62,10 +48,7 @@ class PlainLayer : public DcmTransportLayer {
 public:
     explicit PlainLayer(std::shared_ptr<Transport::State> state) : m_state(std::move(state)) {}
     DcmTransportConnection *createConnection(DcmNativeSocketType socket, OFBool) override {
-        sendAtOnce(socket);
-        m_state->socket = socket;
-        m_state->events.connected(socket);
-        return new PlainConnection(socket);
+        return new PlainConnection(DcmNativeSocketType(m_state->connected(socket)));
     }
 
 private:
@@ -83,18 +66,11 @@ std::string textOfLastError() {
     return text.c_str();
 }
 
-// Whether a host is named by its address.
-bool isAddress(const std::string &host) {
-    in6_addr address{};
-    return ::inet_pton(AF_INET, host.c_str(), &address) == 1 ||
-           ::inet_pton(AF_INET6, host.c_str(), &address) == 1;
-}
-
 // Whether a certificate has a host's name or address. Its common name counts only if it has no
 // other names (RFC 6125, 6.4.4).
 bool isCertificateOf(X509 *certificate, const std::string &host) {
     const bool hasNames = ::X509_get_ext_by_NID(certificate, NID_subject_alt_name, -1) >= 0;
-    if (isAddress(host) && hasNames)
+    if (platform::addressKind(host) && hasNames)
         return ::X509_check_ip_asc(certificate, host.c_str(), 0) == 1;
     return ::X509_check_host(certificate, host.c_str(), host.size(),
                              hasNames ? X509_CHECK_FLAG_NEVER_CHECK_SUBJECT : 0, nullptr) == 1;
@@ -109,14 +85,12 @@ std::string namesIn(X509 *certificate) {
         ::X509_get_ext_d2i(certificate, NID_subject_alt_name, nullptr, nullptr));
     for (int n = 0; n < sk_GENERAL_NAME_num(all); ++n) {
         const GENERAL_NAME *const one = sk_GENERAL_NAME_value(all, n);
-        std::array<char, INET6_ADDRSTRLEN> text{};
         if (one->type == GEN_DNS)
             add({reinterpret_cast<const char *>(::ASN1_STRING_get0_data(one->d.dNSName)),
                  std::size_t(::ASN1_STRING_length(one->d.dNSName))});
-        else if (one->type == GEN_IPADD &&
-                 ::inet_ntop(::ASN1_STRING_length(one->d.iPAddress) == 4 ? AF_INET : AF_INET6,
-                             ::ASN1_STRING_get0_data(one->d.iPAddress), text.data(), text.size()))
-            add(text.data());
+        else if (one->type == GEN_IPADD)
+            add(platform::addressText({::ASN1_STRING_get0_data(one->d.iPAddress),
+                                       std::size_t(::ASN1_STRING_length(one->d.iPAddress))}));
     }
     ::GENERAL_NAMES_free(all);
     std::array<char, longest> common{};
@@ -129,7 +103,7 @@ std::string namesIn(X509 *certificate) {
 
 class SecureConnection : public DcmTLSConnection {
 public:
-    SecureConnection(int socket, SSL *ssl, std::shared_ptr<Transport::State> state,
+    SecureConnection(DcmNativeSocketType socket, SSL *ssl, std::shared_ptr<Transport::State> state,
                      const std::vector<std::string> &clientHosts)
         : DcmTLSConnection(socket, ssl), m_ssl(ssl), m_state(std::move(state)),
           m_clientHosts(clientHosts) {}
@@ -145,7 +119,7 @@ public:
         const ssize_t got = DcmTLSConnection::read(to, bytes);
         if (got < 0)
             takeAlert();
-        acknowledgeAtOnce(getSocket());
+        platform::acknowledgeAtOnce(HandleView(platform::Native(getSocket()), Opened::socket));
         return got;
     }
     ssize_t write(void *from, size_t bytes) override {
@@ -246,23 +220,21 @@ public:
         setCertificateVerification(DCV_requireCertificate);
         if (!m_host.empty()) {
             X509_VERIFY_PARAM *const verified = ::SSL_CTX_get0_param(getNativeHandle());
-            if (isAddress(m_host))
+            if (platform::addressKind(m_host))
                 ::X509_VERIFY_PARAM_set1_ip_asc(verified, m_host.c_str());
             else
                 ::X509_VERIFY_PARAM_set1_host(verified, m_host.c_str(), m_host.size());
         }
     }
 
-    DcmTransportConnection *createConnection(DcmNativeSocketType socket, OFBool) override {
-        sendAtOnce(socket);
+    DcmTransportConnection *createConnection(DcmNativeSocketType made, OFBool) override {
         SSL *const ssl = ::SSL_new(getNativeHandle());
         if (ssl == nullptr)
             return nullptr;
-        ::SSL_set_fd(ssl, socket);
-        if (!m_host.empty() && !isAddress(m_host))
+        if (!m_host.empty() && !platform::addressKind(m_host))
             ::SSL_set_tlsext_host_name(ssl, m_host.c_str()); // names only (RFC 6066, 3)
-        m_state->socket = socket;
-        m_state->events.connected(socket);
+        const auto socket = DcmNativeSocketType(m_state->connected(made));
+        ::SSL_set_fd(ssl, int(socket));
         return new SecureConnection(socket, ssl, m_state, m_clientHosts);
     }
 
@@ -275,13 +247,26 @@ private:
 } // namespace
 
 Transport::Transport(ConnectionEvents events)
-    : m_state(std::make_shared<State>(State{std::move(events), -1, {}})),
+    : m_state(std::make_shared<State>(State{std::move(events), {}, {}, {}, {}})),
       m_layer(std::make_unique<PlainLayer>(m_state)) {}
 
 Transport::Transport(ConnectionEvents events, const Certificates &certificates)
-    : m_state(std::make_shared<State>(State{std::move(events), -1, {}})), m_isSecure(true),
+    : m_state(std::make_shared<State>(State{std::move(events), {}, {}, {}, {}})), m_isSecure(true),
       m_layer(std::make_unique<SecureLayer>(m_state, certificates)) {}
 
 Transport::~Transport() = default;
+
+platform::Native Transport::State::connected(platform::Native made) {
+    if (connection) {
+        replaced = platform::Handle(made, Opened::socket);
+        made = connection.release();
+    }
+    socket = HandleView(made, Opened::socket);
+    platform::makeWaiting(socket);
+    platform::sendAtOnce(socket);
+    platform::acknowledgeAtOnce(socket);
+    events.connected();
+    return made;
+}
 
 } // namespace pellucid::network::process

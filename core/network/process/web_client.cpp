@@ -7,7 +7,6 @@
 #include <cstring>
 #include <optional>
 #include <set>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -18,6 +17,7 @@
 #include "core/network/process/multipart.h"
 #include "core/network/process/reasons.h"
 #include "core/network/process/statuses.h"
+#include "core/platform/process.h"
 #include "core/system/utf8.h"
 
 namespace pellucid::network::process {
@@ -318,15 +318,16 @@ WebClient::Fetched WebClient::fetch(const std::string &path, Objects &objects) {
     return {answer, answer.status < 300 && reader && reader->finish()};
 }
 
-std::optional<task::Reason> WebClient::store(int file, std::uint64_t bytes, Control &) {
+std::optional<task::Reason> WebClient::store(platform::HandleView file, std::uint64_t bytes,
+                                             Control &) {
     const files::Mapping mapping(file, bytes, files::Mapping::Access::read);
     const std::string uid = startOf(mapping.bytes()).arrival.sopInstanceUid;
     // No data set contains it: 128 random bits.
-    std::array<unsigned char, 16> random{};
-    (void)!::getentropy(random.data(), random.size());
+    std::array<std::byte, 16> random{};
+    platform::fillRandomly(random);
     std::string boundary = "pellucid-";
-    for (const unsigned char byte : random)
-        boundary += fmt::format("{:02x}", byte);
+    for (const std::byte byte : random)
+        boundary += fmt::format("{:02x}", unsigned(byte));
     const std::string head = "--" + boundary + "\r\nContent-Type: application/dicom\r\n\r\n",
                       tail = "\r\n--" + boundary + "--\r\n";
     const auto answer = m_http.perform(

@@ -25,7 +25,8 @@ public:
     RetrievalEnd retrieve(const Retrieval &retrieval, Control &control);
     /// STOW-RS of an open file of this size. *Returns* how the server changed the object; nothing
     /// if it stored it unchanged.
-    std::optional<task::Reason> store(int file, std::uint64_t bytes, Control &control);
+    std::optional<task::Reason> store(platform::HandleView file, std::uint64_t bytes,
+                                      Control &control);
 
 private:
     class Objects;

@@ -31,6 +31,18 @@ Handle::~Handle() {
         ::close(m_native);
 }
 
+std::filesystem::path pathByName(const std::filesystem::path &path) {
+    if (!path.string().starts_with("/proc/self/fd/"))
+        return path;
+    std::error_code unknown;
+    const auto folder = std::filesystem::canonical(path.parent_path(), unknown);
+    return unknown ? path : folder / path.filename();
+}
+
+int quotaExceeded() {
+    return EDQUOT;
+}
+
 std::optional<FileId> fileIdOf(const std::filesystem::path &path) {
     struct stat about {};
     if (::stat(path.c_str(), &about) != 0)
@@ -86,12 +98,16 @@ bool lock(const Handle &file, Lock how) {
     }
 }
 
-std::span<std::byte> map(int file, std::size_t bytes, Access access) {
+std::span<std::byte> map(HandleView file, std::size_t bytes, Access access) {
     const int may = access == Access::write ? PROT_READ | PROT_WRITE : PROT_READ;
-    void *const data = ::mmap(nullptr, bytes, may, MAP_SHARED, file, 0);
+    void *const data = ::mmap(nullptr, bytes, may, MAP_SHARED, file.get(), 0);
     if (data == MAP_FAILED)
         throw std::system_error(errno, std::generic_category());
     return {static_cast<std::byte *>(data), bytes};
+}
+
+void expectFewReads(std::span<const std::byte> mapped) {
+    ::madvise(const_cast<std::byte *>(mapped.data()), mapped.size(), MADV_RANDOM);
 }
 
 void unmap(std::span<std::byte> mapped) {

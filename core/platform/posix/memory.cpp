@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fstream>
 #include <limits>
+#include <malloc.h>
 #include <string>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -113,6 +114,15 @@ void unmapLargePages(std::byte *memory, std::size_t bytes) {
 
 void discardLargePages(std::byte *memory, std::size_t bytes) {
     ::madvise(memory, bytes, MADV_DONTNEED);
+}
+
+void keepFreedMemory() {
+    ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
+}
+
+void returnFreedMemory() {
+    ::malloc_trim(0);
 }
 
 // A limit of 0 on core dumps would not stop those that go to a program (core(5)), as systemd's do.

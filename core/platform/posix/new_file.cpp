@@ -78,14 +78,18 @@ NewFile::~NewFile() {
         ::unlink(m_temporary.c_str());
 }
 
-int NewFile::get() const {
-    return ::fileno(m_file);
+HandleView NewFile::view() const {
+    return HandleView(::fileno(m_file));
+}
+
+std::filesystem::path NewFile::currentPath() const {
+    return "/proc/self/fd/" + std::to_string(view().get());
 }
 
 // Links a nameless file to its path, or to a hidden name if the path exists, because a link
 // replaces nothing.
 void NewFile::link(const std::filesystem::path &path) {
-    const std::string self = "/proc/self/fd/" + std::to_string(get());
+    const std::filesystem::path self = currentPath();
     const auto linkTo = [&](const std::filesystem::path &name) {
         return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
     };
@@ -116,8 +120,8 @@ std::string NewFile::copyTo(std::string name) const {
     if (!copy)
         fail(errno);
     try {
-        const off_t end = ::lseek(get(), 0, SEEK_END);
-        if (copyStart(get(), copy.get(), std::uint64_t(end)) != std::uint64_t(end))
+        const off_t end = ::lseek(view().get(), 0, SEEK_END);
+        if (copyStart(view(), copy, std::uint64_t(end)) != std::uint64_t(end))
             fail(EIO);
         if (::fchmod(copy.get(), m_mode) != 0 || ::fsync(copy.get()) != 0)
             fail(errno);
@@ -129,7 +133,7 @@ std::string NewFile::copyTo(std::string name) const {
 }
 
 void NewFile::publish(const std::filesystem::path &path, bool mustLast) {
-    if (std::fflush(m_file) != 0 || (mustLast && ::fsync(get()) != 0))
+    if (std::fflush(m_file) != 0 || (mustLast && ::fsync(view().get()) != 0))
         fail(errno);
     // All bytes are on the disk, or will be with the folder. A network share may refuse to rename
     // an open file; a nameless file is lost when it is closed.
@@ -142,11 +146,11 @@ void NewFile::publish(const std::filesystem::path &path, bool mustLast) {
     m_temporary.clear();
 }
 
-std::uint64_t copyStart(int from, int to, std::uint64_t bytes) {
+std::uint64_t copyStart(HandleView from, HandleView to, std::uint64_t bytes) {
     off_t at = 0;
     for (ssize_t copied = 1; std::uint64_t(at) < bytes && copied > 0;) {
         do
-            copied = ::sendfile(to, from, &at, std::size_t(bytes - std::uint64_t(at)));
+            copied = ::sendfile(to.get(), from.get(), &at, std::size_t(bytes - std::uint64_t(at)));
         while (copied < 0 && errno == EINTR);
         if (copied < 0)
             fail(errno);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <pthread.h>
 #include <sstream>
@@ -43,6 +44,10 @@ std::filesystem::path programFile() {
     return std::filesystem::read_symlink("/proc/self/exe", unknown);
 }
 
+void setMissingVariable(const char *name, const std::string &value) {
+    ::setenv(name, value.c_str(), 0);
+}
+
 void letLongFilesFail() {
     std::signal(SIGXFSZ, SIG_IGN);
 }
@@ -54,8 +59,11 @@ void letBrokenPipesFail() {
 void whenAskedToEnd(std::function<void()> first, std::function<void()> second) {
     sigset_t signals;
     ::sigemptyset(&signals);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-        ::sigaddset(&signals, signal);
+    ::sigaddset(&signals, SIGINT);
+    ::sigaddset(&signals, SIGTERM);
+    struct sigaction hangUp {};
+    if (::sigaction(SIGHUP, nullptr, &hangUp) == 0 && hangUp.sa_handler != SIG_IGN) // by nohup
+        ::sigaddset(&signals, SIGHUP);
     ::pthread_sigmask(SIG_BLOCK, &signals, nullptr); // of the threads to come, too
     std::thread([signals, first = std::move(first), second = std::move(second)] {
         int received = 0;

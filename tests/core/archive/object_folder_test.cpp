@@ -36,7 +36,7 @@ std::string objectWith(int value) {
 StoredObject keep(const ObjectFolder &folder, const std::string &bytes,
                   const std::vector<ObjectFolder::Place> &places = {}) {
     const auto file = folder.open(announced);
-    EXPECT_EQ(::write(file->descriptor(), bytes.data(), bytes.size()), ssize_t(bytes.size()));
+    EXPECT_EQ(::write(file->view().get(), bytes.data(), bytes.size()), ssize_t(bytes.size()));
     return folder.keep(*file, announced, bytes.size(), places);
 }
 
@@ -59,7 +59,7 @@ TEST(ObjectFolder, WhatWasCheckedCannotBeWrittenAnyMore) {
     const ObjectFolder objects(folder.path(), ObjectFolder::Durability::cached);
     const std::string object = objectWith(1), other = objectWith(2);
     const auto file = objects.open(announced);
-    const int helpers = ::dup(file->descriptor());
+    const int helpers = ::dup(file->view().get());
     ASSERT_EQ(::write(helpers, object.data(), object.size()), ssize_t(object.size()));
     const StoredObject kept = objects.keep(*file, announced, object.size());
     ASSERT_EQ(::pwrite(helpers, other.data(), other.size(), 0), ssize_t(other.size()));
@@ -68,7 +68,7 @@ TEST(ObjectFolder, WhatWasCheckedCannotBeWrittenAnyMore) {
     EXPECT_EQ(test::readText(kept.path), object);
     // Nor does it decide how much is kept.
     const auto shorter = objects.open(announced);
-    ASSERT_EQ(::write(shorter->descriptor(), "DICM", 4), 4);
+    ASSERT_EQ(::write(shorter->view().get(), "DICM", 4), 4);
     EXPECT_THROW(objects.keep(*shorter, announced, object.size()), task::Error);
 }
 

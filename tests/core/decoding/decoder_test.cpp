@@ -16,7 +16,6 @@
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
-#include "core/confined/confinement.h"
 #include "core/decoding/client/channel.h"
 #include "core/decoding/client/child.h"
 #include "core/decoding/client/reasons.h"
@@ -26,6 +25,7 @@
 #include "core/dicom/scan.h"
 #include "core/dicom/write_series.h"
 #include "core/phantom/phantom.h"
+#include "core/platform/confinement.h"
 #include "core/task/error.h"
 #include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"
@@ -65,8 +65,8 @@ protected:
 } // namespace
 
 TEST(Decoder, isConfinedHere) {
-    EXPECT_EQ(Decoder::shared().confinement() & (confined::limitsHold | confined::callsAreFiltered),
-              confined::limitsHold | confined::callsAreFiltered);
+    EXPECT_EQ(Decoder::shared().confinement() & (platform::limitsHold | platform::callsAreFiltered),
+              platform::limitsHold | platform::callsAreFiltered);
 }
 
 TEST(Decoder, aMissingProgramIsNamed) {

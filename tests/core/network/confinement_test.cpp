@@ -15,8 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/confined/confinement.h"
 #include "core/network/process/confine.h"
+#include "core/platform/confinement.h"
 
 namespace pellucid::network::process {
 
@@ -28,7 +28,7 @@ int confined(const std::function<bool()> &attempt, int (*confine)() = network::p
     const pid_t child = ::fork();
     if (child == 0) {
         const int bits = confine();
-        const int needed = confined::limitsHold | confined::callsAreFiltered;
+        const int needed = platform::limitsHold | platform::callsAreFiltered;
         if ((bits & needed) != needed)
             ::_exit(99);
         ::_exit(attempt() ? 1 : 0);
@@ -155,8 +155,8 @@ TEST(NetworkConfinement, TheNetworkIsEmptyWhereThatIsPossible) {
     };
     const bool isPossible =
         inChild([] { return ::unshare(CLONE_NEWUSER | CLONE_NEWNET) == 0 ? 1 : 0; }) == 1;
-    EXPECT_EQ(inChild([] { return confine(); }) & confined::networkIsEmpty,
-              isPossible ? confined::networkIsEmpty : 0);
+    EXPECT_EQ(inChild([] { return confine(); }) & platform::networkIsEmpty,
+              isPossible ? platform::networkIsEmpty : 0);
 }
 
 // The process that awaits a browser accepts connections on the socket that it has, and no more.

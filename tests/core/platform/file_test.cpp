@@ -88,12 +88,12 @@ TEST(File, IsSharedByItsMappings) {
     const test::TemporaryFolder folder;
     test::writeText(folder / "file", "abcdefgh");
     const Handle file = openOrCreate(folder / "file");
-    const auto written = map(file.get(), 8, Access::write), read = map(file.get(), 8, Access::read);
+    const auto written = map(file, 8, Access::write), read = map(file, 8, Access::read);
     written[0] = std::byte('x');
     EXPECT_EQ(textOf(read), "xbcdefgh");
     unmap(written);
     unmap(read);
-    EXPECT_THROW(map(-1, 8, Access::read), std::system_error);
+    EXPECT_THROW(map({}, 8, Access::read), std::system_error);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/confined/confinement.h"
+#include "core/platform/confinement.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -13,14 +13,51 @@
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <vector>
 
 #include <seccomp.h>
 
 #include "core/platform/memory.h"
 
-namespace pellucid::confined {
+namespace pellucid::platform {
 
 namespace {
+
+// A system call that is allowed with this second argument only.
+struct AllowedCommand {
+    int call = 0, argument = 0;
+};
+
+// What a helper calls besides what all of them call.
+struct Calls {
+    std::vector<int> calls;
+    std::vector<AllowedCommand> commands;
+};
+
+// Not newfstatat, which tells what any path leads to.
+Calls callsOf(Talks talks) {
+    switch (talks) {
+    case Talks::throughItsSocket:
+        return {{SCMP_SYS(poll), SCMP_SYS(ppoll), SCMP_SYS(select), SCMP_SYS(pselect6),
+                 SCMP_SYS(recvfrom), SCMP_SYS(readv), SCMP_SYS(writev), SCMP_SYS(pwrite64),
+                 SCMP_SYS(shutdown), SCMP_SYS(setsockopt), SCMP_SYS(getsockopt),
+                 SCMP_SYS(getpeername), SCMP_SYS(getsockname), SCMP_SYS(lseek),
+                 SCMP_SYS(clock_nanosleep), SCMP_SYS(nanosleep)},
+                // Not the commands that send signals.
+                {{SCMP_SYS(fcntl), F_GETFD},
+                 {SCMP_SYS(fcntl), F_SETFD},
+                 {SCMP_SYS(fcntl), F_GETFL},
+                 {SCMP_SYS(fcntl), F_SETFL}}};
+    case Talks::toThoseWhoConnect:
+        return {{SCMP_SYS(poll), SCMP_SYS(ppoll), SCMP_SYS(recvfrom), SCMP_SYS(accept4),
+                 SCMP_SYS(lseek)},
+                // To shut the other direction of a listening socket would free it to connect.
+                {{SCMP_SYS(shutdown), SHUT_WR}}};
+    case Talks::toTheProgram:
+        break;
+    }
+    return {};
+}
 
 bool limit(int what, std::uint64_t most) {
     const rlimit both{most, most};
@@ -92,7 +129,7 @@ int allowMemory(scmp_filter_ctx filter) {
 }
 
 // Only a compromised helper makes these calls, unless it is allowed to.
-int killForbiddenCalls(scmp_filter_ctx filter, std::initializer_list<int> allowed) {
+int killForbiddenCalls(scmp_filter_ctx filter, const std::vector<int> &allowed) {
     int failed = 0;
     for (const int call : {SCMP_SYS(execve),
                            SCMP_SYS(execveat),
@@ -131,7 +168,7 @@ bool limitResources(const Needs &needs) {
     holds = limit(RLIMIT_FSIZE, needs.fileBytes) && holds;
     // Limits private memory; files and an arena, which the parent fills, do not count.
     holds = limit(RLIMIT_DATA, needs.memoryBytes) && holds;
-    platform::hideMemory();
+    hideMemory();
 #else
     (void)needs;
 #endif
@@ -143,13 +180,14 @@ bool filterCalls(const Needs &needs) {
     if (filter == nullptr)
         return false;
     int failed = allowCalls(filter);
-    for (const int call : needs.calls)
+    const Calls more = callsOf(needs.talks);
+    for (const int call : more.calls)
         failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
-    for (const AllowedCommand &command : needs.commands)
+    for (const AllowedCommand &command : more.commands)
         failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, command.call, 1,
                                      SCMP_A1(SCMP_CMP_EQ, scmp_datum_t(command.argument)));
     failed |= allowMemory(filter);
-    failed |= killForbiddenCalls(filter, needs.calls);
+    failed |= killForbiddenCalls(filter, more.calls);
     failed |= ::seccomp_load(filter); // also forbids new privileges
     ::seccomp_release(filter);
     return failed == 0;
@@ -202,4 +240,4 @@ int confine(const Needs &needs) {
            (hasNoFiles ? filesAreFiltered : 0) | (hasNoNetwork ? networkIsEmpty : 0);
 }
 
-} // namespace pellucid::confined
+} // namespace pellucid::platform

@@ -1,28 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <fstream>
-#include <netinet/in.h>
-#include <string>
-#include <sys/types.h>
+#include <memory>
 
-namespace pellucid::network::process {
+#include "core/platform/handle.h"
+#include "core/platform/socket.h"
+
+namespace pellucid::platform {
 
 /// Tells which connections to a port of this computer are of programs of this user. Made before the
 /// process is confined.
 class ConnectionOwner {
 public:
     /// `listening`: a TCP socket for IPv4.
-    explicit ConnectionOwner(int listening);
+    explicit ConnectionOwner(HandleView listening);
+    ~ConnectionOwner();
     /// Whether a program of this user has an open connection from there. True if the system does
     /// not tell.
-    bool isThisUser(const sockaddr_in &from);
+    bool isThisUser(const Connected &from);
 
 private:
-    std::array<std::ifstream, 2> m_tables;
-    std::string m_port;
-    uid_t m_user;
+    struct Tables;
+    std::unique_ptr<Tables> m_tables;
 };
 
-} // namespace pellucid::network::process
+} // namespace pellucid::platform

@@ -4,7 +4,7 @@
 #include <csignal>
 #include <spawn.h>
 
-namespace pellucid::files {
+namespace pellucid::platform {
 
 /// The attributes of a program that works for this one: the terminal's interrupt does not reach it,
 /// and its signals start with their defaults.
@@ -31,4 +31,4 @@ private:
     posix_spawnattr_t m_attributes;
 };
 
-} // namespace pellucid::files
+} // namespace pellucid::platform

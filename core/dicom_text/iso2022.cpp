@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdint>
 #include <initializer_list>
 
-#include <iconv.h>
+#include "core/platform/characters.h"
 
 namespace pellucid::dicom_text {
 
@@ -17,15 +16,23 @@ namespace {
 enum class High { none, katakana, table };
 
 struct Set {
-    std::string_view number; ///< "100" of ISO_IR 100 and ISO 2022 IR 100
-    char designation;        ///< after ESC -
-    const char *name;        ///< name for iconv
+    std::string_view number;      ///< "100" of ISO_IR 100 and ISO 2022 IR 100
+    std::string_view designation; ///< the escape sequence
+    const char *name;             ///< of platform::characterSets
 };
-constexpr std::array sets{
-    Set{"100", 'A', "ISO-8859-1"},  Set{"101", 'B', "ISO-8859-2"}, Set{"109", 'C', "ISO-8859-3"},
-    Set{"110", 'D', "ISO-8859-4"},  Set{"144", 'L', "ISO-8859-5"}, Set{"127", 'G', "ISO-8859-6"},
-    Set{"126", 'F', "ISO-8859-7"},  Set{"138", 'H', "ISO-8859-8"}, Set{"148", 'M', "ISO-8859-9"},
-    Set{"203", 'b', "ISO-8859-15"}, Set{"166", 'T', "TIS-620"}};
+constexpr std::array sets{Set{"100", "\x1b-A", "ISO-8859-1"}, Set{"101", "\x1b-B", "ISO-8859-2"},
+                          Set{"109", "\x1b-C", "ISO-8859-3"}, Set{"110", "\x1b-D", "ISO-8859-4"},
+                          Set{"144", "\x1b-L", "ISO-8859-5"}, Set{"127", "\x1b-G", "ISO-8859-6"},
+                          Set{"126", "\x1b-F", "ISO-8859-7"}, Set{"138", "\x1b-H", "ISO-8859-8"},
+                          Set{"148", "\x1b-M", "ISO-8859-9"}, Set{"203", "\x1b-b", "ISO-8859-15"},
+                          Set{"166", "\x1b-T", "TIS-620"},    Set{"149", "\x1b$)C", "EUC-KR"},
+                          Set{"58", "\x1b$)A", "GB2312"}};
+// Sets of two-byte characters that no escape sequence leaves, and what needs no conversion.
+constexpr std::array wholeSets{std::pair("GB18030", "GB18030"), std::pair("GBK", "GBK"),
+                               std::pair("ISO_IR 192", ""), std::pair("ISO_IR 6", ""),
+                               std::pair("ISO 2022 IR 6", "")};
+// Japanese sets, of which the first has half of a byte.
+constexpr std::array otherNumbers{"13", "87", "159"};
 
 // The set of two-byte characters, until the next designation.
 enum class Designated { single, jis0208, jis0212 };
@@ -38,28 +45,6 @@ constexpr std::array escapes{
     Escape{"\x1b(B", Designated::single}, Escape{"\x1b(J", Designated::single},
     Escape{"\x1b$B", Designated::jis0208}, Escape{"\x1b$@", Designated::jis0208},
     Escape{"\x1b$(D", Designated::jis0212}};
-
-// An invalid character becomes a question mark, and reading continues. `width`: bytes per
-// character.
-std::string converted(std::string bytes, const char *from, std::size_t width) {
-    const iconv_t converter = ::iconv_open("UTF-8", from);
-    if (reinterpret_cast<std::intptr_t>(converter) == -1)
-        return "?";
-    std::string out(4 * bytes.size() + 8, '\0');
-    char *in = bytes.data(), *to = out.data();
-    std::size_t left = bytes.size(), space = out.size();
-    while (::iconv(converter, &in, &left, &to, &space) == std::size_t(-1) && space > 0) {
-        *to++ = '?';
-        --space;
-        if (errno != EILSEQ || left < width)
-            break;
-        in += width;
-        left -= width;
-    }
-    ::iconv_close(converter);
-    out.resize(out.size() - space);
-    return out;
-}
 
 // Half-width katakana (JIS X 0201) are contiguous, here and in Unicode from U+FF61.
 std::string katakana(unsigned char byte) {
@@ -90,10 +75,8 @@ public:
 
     // Reads up to the next designation: the second byte of a character may look like a delimiter.
     std::string read(const std::string &part) {
-        if (m_designated == Designated::jis0208)
-            return converted("\x1b$B" + part + "\x1b(B", "ISO-2022-JP-2", 2);
-        if (m_designated == Designated::jis0212)
-            return converted("\x1b$(D" + part + "\x1b(B", "ISO-2022-JP-2", 2);
+        if (m_designated != Designated::single)
+            return readPairs(part);
         std::string out;
         for (std::size_t at = 0; at < part.size();) {
             if (part[at] == '^' ||
@@ -118,17 +101,29 @@ public:
             return 3;
         }
         for (const Set &set : sets)
-            if (text.starts_with("\x1b-") && text.size() > 2 && text[2] == set.designation) {
+            if (text.starts_with(set.designation)) {
                 setHigh(High::table, set.name);
-                return 3;
+                return set.designation.size();
             }
         return 0;
     }
 
 private:
+    // As EUC-JP has them: with the highest bits set, and those of JIS X 0212 after a byte more.
+    std::string readPairs(const std::string &part) const {
+        std::string out;
+        for (std::size_t at = 0; at + 1 < part.size(); at += 2) {
+            std::string pair{char(part[at] | 0x80), char(part[at + 1] | 0x80)};
+            if (m_designated == Designated::jis0212)
+                pair.insert(0, 1, char(0x8F));
+            const std::string character = platform::utf8Of(pair, "EUC-JP");
+            out += character.starts_with('?') ? "?" : character;
+        }
+        return part.size() % 2 == 0 ? out : out + '?';
+    }
     std::string readSingle(const std::string &bytes) const {
         if (m_high == High::table)
-            return converted(bytes, m_table, 1);
+            return platform::utf8Of(bytes, m_table);
         std::string out;
         for (const char c : bytes) {
             const auto byte = (unsigned char)(c);
@@ -149,26 +144,25 @@ private:
     const char *m_table = nullptr, *m_initialTable = nullptr;
 };
 
-// DICOM's character sets (PS3.3, C.12.1.1.2) under glibc's names. Their tables are libraries, which
-// stay loaded as long as a converter is open.
-constexpr std::array characterSets{
-    "ISO-IR-6",      "ISO-8859-1",  "ISO-8859-2",  "ISO-8859-3", "ISO-8859-4",    "ISO-8859-5",
-    "ISO-8859-6",    "ISO-8859-7",  "ISO-8859-8",  "ISO-8859-9", "ISO-8859-15",   "TIS-620",
-    "JIS_X0201",     "ISO-IR-87",   "ISO-IR-159",  "ISO-IR-149", "ISO-2022-JP",   "ISO-2022-JP-1",
-    "ISO-2022-JP-2", "ISO-2022-KR", "ISO-2022-CN", "EUC-KR",     "EUC-JP",        "GB18030",
-    "GBK",           "GB2312",      "UTF-8",       "ASCII",      "ANSI_X3.4-1968"};
-
 } // namespace
 
-bool usesIso2022(const std::set<std::string> &terms) {
-    const auto numbers = {"13", "87", "159", "203"};
-    return std::any_of(numbers.begin(), numbers.end(),
-                       [&](const char *number) { return hasTerm(terms, number); });
+bool areKnown(const std::vector<std::string> &terms) {
+    return std::all_of(terms.begin(), terms.end(), [](const std::string &term) {
+        const auto isTerm = [&](std::string_view number) { return hasTerm({term}, number); };
+        return term.empty() || std::any_of(otherNumbers.begin(), otherNumbers.end(), isTerm) ||
+               std::any_of(sets.begin(), sets.end(),
+                           [&](const Set &set) { return isTerm(set.number); }) ||
+               std::any_of(wholeSets.begin(), wholeSets.end(),
+                           [&](const auto &set) { return term == set.first; });
+    });
 }
 
-std::string utf8OfIso2022(std::string_view text, const std::set<std::string> &terms,
-                          const std::string &first) {
-    Reader reader(terms, first);
+std::string utf8OfSets(std::string_view text, const std::vector<std::string> &terms) {
+    const std::string first = terms.empty() ? "" : terms.front();
+    for (const auto &[term, name] : wholeSets)
+        if (terms.size() == 1 && first == term)
+            return *name == '\0' ? std::string(text) : platform::utf8Of(std::string(text), name);
+    Reader reader({terms.begin(), terms.end()}, first);
     std::string out;
     while (!text.empty()) {
         if (const std::size_t length = reader.designate(text); length > 0) {
@@ -180,11 +174,6 @@ std::string utf8OfIso2022(std::string_view text, const std::set<std::string> &te
         out += reader.read(part);
     }
     return out;
-}
-
-void openCharacterTables() {
-    for (const char *const set : characterSets)
-        (void)::iconv_open("UTF-8", set); // left open on purpose; unknown sets are not used
 }
 
 } // namespace pellucid::dicom_text

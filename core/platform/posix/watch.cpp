@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/decoding/process/watch.h"
+#include "core/platform/watch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-namespace pellucid::decoding::process {
+namespace pellucid::platform {
 
 namespace {
 
@@ -52,4 +52,4 @@ void Watch::pause() {
     tick(0);
 }
 
-} // namespace pellucid::decoding::process
+} // namespace pellucid::platform
