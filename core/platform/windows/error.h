@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include <winsock2.h>
+// After it.
+#include <windows.h>
+
+#include "core/platform/handle.h"
+
+namespace pellucid::platform {
+
+/// An error of Windows or of its sockets; those that other systems have too, as theirs.
+std::error_code errorOf(DWORD error);
+[[noreturn]] void failWith(DWORD error);
+[[noreturn]] inline void fail() {
+    failWith(::GetLastError());
+}
+
+inline HANDLE nativeOf(HandleView handle) {
+    return reinterpret_cast<HANDLE>(handle.get());
+}
+inline SOCKET socketOf(HandleView handle) {
+    return SOCKET(handle.get());
+}
+/// What Windows calls none in either of two ways.
+inline Handle handleOf(HANDLE native, Opened what = Opened::file) {
+    return Handle(native == nullptr ? -1 : reinterpret_cast<Native>(native), what);
+}
+
+/// A path for Windows: it may have more than 260 characters, end in a dot, or be named as a device
+/// is.
+std::wstring longPath(const std::filesystem::path &path);
+
+/// Who may use a new object: this user and the system alone.
+class PrivateSecurity {
+public:
+    PrivateSecurity();
+    ~PrivateSecurity();
+    PrivateSecurity(const PrivateSecurity &) = delete;
+    PrivateSecurity &operator=(const PrivateSecurity &) = delete;
+    SECURITY_ATTRIBUTES *get() { return &m_attributes; }
+
+private:
+    SECURITY_ATTRIBUTES m_attributes{sizeof(SECURITY_ATTRIBUTES), nullptr, FALSE};
+};
+
+/// The user of a process's token, as text. *Throws* std::system_error.
+std::wstring userOf(HANDLE process);
+
+/// Starts Winsock, once.
+void useSockets();
+
+/// Letters for names that nobody else has.
+std::wstring randomName(int letters);
+
+} // namespace pellucid::platform

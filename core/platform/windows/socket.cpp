@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/platform/socket.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "core/platform/windows/error.h"
+// After winsock2.h.
+#include <ws2tcpip.h>
+
+namespace pellucid::platform {
+
+namespace {
+
+// An address and a port, of either kind.
+union Place {
+    sockaddr any;
+    sockaddr_in at4;
+    sockaddr_in6 at6;
+    sockaddr_storage all{};
+};
+
+std::string textOf(const Place &place) {
+    std::array<char, NI_MAXHOST> text{};
+    const in6_addr &at = place.at6.sin6_addr;
+    constexpr std::size_t mappedAt = 12; // bytes
+    if (place.any.sa_family == AF_INET)
+        ::inet_ntop(AF_INET, &place.at4.sin_addr, text.data(), text.size());
+    else if (IN6_IS_ADDR_V4MAPPED(&at))
+        ::inet_ntop(AF_INET, at.s6_addr + mappedAt, text.data(), text.size());
+    else // with its scope, if it has one
+        ::getnameinfo(&place.any, sizeof place.at6, text.data(), DWORD(text.size()), nullptr, 0,
+                      NI_NUMERICHOST);
+    return text.data();
+}
+
+int portOf(const Place &place) {
+    return ntohs(place.any.sa_family == AF_INET6 ? place.at6.sin6_port : place.at4.sin_port);
+}
+
+int sizeOf(const Place &place) {
+    return place.any.sa_family == AF_INET6 ? int(sizeof place.at6) : int(sizeof place.at4);
+}
+
+std::optional<Place> placeIn(const std::string &text) {
+    useSockets();
+    Place place;
+    if (::inet_pton(AF_INET, text.c_str(), &place.at4.sin_addr) == 1)
+        place.any.sa_family = AF_INET;
+    else if (::inet_pton(AF_INET6, text.c_str(), &place.at6.sin6_addr) == 1)
+        place.any.sa_family = AF_INET6;
+    else
+        return std::nullopt;
+    return place;
+}
+
+Handle newSocket(int family) {
+    useSockets();
+    return Handle(Native(::WSASocketW(family, SOCK_STREAM, IPPROTO_TCP, nullptr, 0,
+                                      WSA_FLAG_OVERLAPPED | WSA_FLAG_NO_HANDLE_INHERIT)),
+                  Opened::socket);
+}
+
+void setWaiting(HandleView socket, Accepting accepting) {
+    u_long never = accepting == Accepting::neverWaits ? 1 : 0;
+    ::ioctlsocket(socketOf(socket), long(FIONBIO), &never);
+}
+
+template <class T> void set(HandleView socket, int level, int option, T value) {
+    ::setsockopt(socketOf(socket), level, option, reinterpret_cast<const char *>(&value),
+                 sizeof value);
+}
+
+// An address of this computer to listen on; empty: all of them.
+Place ownPlace(const std::string &address, int port) {
+    Place place;
+    if (address.empty()) // IPv6 may be switched off
+        place.any.sa_family = newSocket(AF_INET6) ? AF_INET6 : AF_INET;
+    else if (const auto given = placeIn(address))
+        place = *given;
+    else
+        failWith(WSAEINVAL);
+    if (place.any.sa_family == AF_INET6) {
+        place.at6.sin6_port = htons(std::uint16_t(port));
+        return place;
+    }
+    place.at4.sin_port = htons(std::uint16_t(port));
+    if (place.at4.sin_addr.s_addr == INADDR_BROADCAST)
+        failWith(WSAEINVAL);
+    return place;
+}
+
+} // namespace
+
+std::optional<AddressKind> addressKind(const std::string &text) {
+    const auto place = placeIn(text);
+    if (!place)
+        return std::nullopt;
+    return place->any.sa_family == AF_INET ? AddressKind::ipv4 : AddressKind::ipv6;
+}
+
+bool isLoopback(const std::string &address) {
+    constexpr std::uint32_t loopback = 127;
+    const auto place = placeIn(address);
+    if (!place)
+        return false;
+    return place->any.sa_family == AF_INET ? ntohl(place->at4.sin_addr.s_addr) >> 24 == loopback
+                                           : bool(IN6_IS_ADDR_LOOPBACK(&place->at6.sin6_addr));
+}
+
+std::vector<std::string> addressesOf(const std::string &host) {
+    useSockets();
+    addrinfo wanted{};
+    wanted.ai_socktype = SOCK_STREAM;
+    addrinfo *found = nullptr;
+    std::vector<std::string> addresses;
+    if (::getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0)
+        return addresses;
+    for (const addrinfo *each = found; each != nullptr; each = each->ai_next) {
+        Place place;
+        std::memcpy(&place.all, each->ai_addr,
+                    std::min<std::size_t>(each->ai_addrlen, sizeof place.all));
+        addresses.push_back(textOf(place));
+    }
+    ::freeaddrinfo(found);
+    return addresses;
+}
+
+ListeningSocket listenOn(const std::string &address, int port, int waiting, Accepting accepting) {
+    Place place = ownPlace(address, port);
+    ListeningSocket listening{newSocket(place.any.sa_family)};
+    const SOCKET socket = socketOf(listening.socket);
+    // Windows lets a port that is in use be taken over, unless its owner refuses.
+    set(listening.socket, SOL_SOCKET, SO_EXCLUSIVEADDRUSE, DWORD(1));
+    if (place.any.sa_family == AF_INET6)
+        set(listening.socket, IPPROTO_IPV6, IPV6_V6ONLY, DWORD(0));
+    int size = sizeOf(place);
+    if (!listening.socket || ::bind(socket, &place.any, size) != 0 ||
+        ::listen(socket, waiting) != 0)
+        failWith(DWORD(::WSAGetLastError()));
+    size = sizeof place;
+    if (::getsockname(socket, &place.any, &size) != 0)
+        failWith(DWORD(::WSAGetLastError()));
+    setWaiting(listening.socket, accepting);
+    listening.port = portOf(place);
+    return listening;
+}
+
+bool awaitInput(HandleView socket, int milliseconds) {
+    WSAPOLLFD waiting{socketOf(socket), POLLRDNORM, 0};
+    return ::WSAPoll(&waiting, 1, milliseconds) > 0;
+}
+
+std::optional<Connected> acceptFrom(HandleView listening, Accepting accepting) {
+    Place from;
+    int size = sizeof from;
+    Handle socket(Native(::accept(socketOf(listening), &from.any, &size)), Opened::socket);
+    if (!socket)
+        return std::nullopt;
+    setWaiting(socket, accepting);
+    return Connected{std::move(socket), textOf(from), portOf(from)};
+}
+
+Handle connectTo(const std::string &address, int port, double seconds) {
+    useSockets();
+    addrinfo wanted{};
+    wanted.ai_socktype = SOCK_STREAM;
+    wanted.ai_flags = AI_NUMERICHOST; // with a scope, perhaps
+    addrinfo *found = nullptr;
+    if (::getaddrinfo(address.c_str(), std::to_string(port).c_str(), &wanted, &found) != 0)
+        failWith(WSAEINVAL);
+    Handle socket = newSocket(found->ai_family);
+    setWaiting(socket, Accepting::neverWaits);
+    int error = 0;
+    if (!socket ||
+        ::connect(socketOf(socket), found->ai_addr, int(found->ai_addrlen)) == SOCKET_ERROR)
+        error = ::WSAGetLastError();
+    ::freeaddrinfo(found);
+    if (error == WSAEWOULDBLOCK) { // WSAPoll does not report a refusal before Windows 10 2004
+        fd_set connected, failed;
+        FD_ZERO(&connected);
+        FD_ZERO(&failed);
+        FD_SET(socketOf(socket), &connected);
+        FD_SET(socketOf(socket), &failed);
+        timeval patience{long(seconds), long(std::fmod(seconds, 1.0) * 1e6)};
+        int size = sizeof error;
+        if (::select(0, nullptr, &connected, &failed, &patience) > 0)
+            ::getsockopt(socketOf(socket), SOL_SOCKET, SO_ERROR, reinterpret_cast<char *>(&error),
+                         &size);
+        else
+            error = WSAETIMEDOUT;
+    }
+    if (error != 0)
+        failWith(DWORD(error));
+    sendAtOnce(socket);
+    return socket;
+}
+
+void makeWaiting(HandleView socket) {
+    setWaiting(socket, Accepting::waits);
+}
+
+void sendLast(HandleView socket, std::string_view bytes) {
+    ::send(socketOf(socket), bytes.data(), int(bytes.size()), 0);
+    ::shutdown(socketOf(socket), SD_SEND);
+}
+
+std::optional<std::size_t> receiveSome(HandleView socket, std::span<char> to) {
+    const int got = ::recv(socketOf(socket), to.data(), int(to.size()), 0);
+    if (got >= 0)
+        return std::size_t(got);
+    return ::WSAGetLastError() == WSAEWOULDBLOCK ? std::nullopt : std::optional<std::size_t>(0);
+}
+
+void sendAtOnce(HandleView socket) {
+    set(socket, IPPROTO_TCP, TCP_NODELAY, DWORD(1));
+}
+
+// Windows decides for a whole interface.
+void acknowledgeAtOnce(HandleView) {}
+
+std::string addressText(std::span<const unsigned char> bytes) {
+    std::array<char, INET6_ADDRSTRLEN> text{};
+    if (bytes.size() == 4 || bytes.size() == 16)
+        ::inet_ntop(bytes.size() == 4 ? AF_INET : AF_INET6, bytes.data(), text.data(), text.size());
+    return text.data();
+}
+
+} // namespace pellucid::platform
