@@ -12,7 +12,7 @@ namespace pellucid::platform {
 
 namespace {
 
-constexpr UINT japanese = 20932, gb18030 = 54936;
+constexpr UINT japanese = 20932, gbk = 936, gb18030 = 54936;
 
 // In the order of `characterSets`; those of Korea and China have the characters of EUC-KR and
 // GB2312, and more.
@@ -36,11 +36,15 @@ std::size_t lengthAt(std::string_view text, UINT page) {
         return byte(0) == 0x8F ? 3 : 2;
     if (page == gb18030 && byte(1) >= '0' && byte(1) <= '9')
         return 4;
-    return page == gb18030 || page == 936 || page == 949 ? 2 : 1;
+    return page == gb18030 || page == gbk || page == 949 ? 2 : 1;
 }
 
 // Empty if it is no character.
 std::string converted(std::string character, UINT page) {
+    if (character.size() == 1 && (character[0] & 0x80) == 0)
+        return character;
+    if (page == gb18030 && character.size() == 2)
+        page = gbk; // of which it is an extension
     // This code page has JIS X 0212 in two bytes, the second of them without its highest bit.
     if (page == japanese && character.size() == 3)
         character = {character[1], char(character[2] & 0x7F)};

@@ -23,7 +23,7 @@ std::string utf8(const wchar_t *text) {
 
 // What is written is written as it is, as on other systems, and the console takes it as UTF-8.
 const bool isPrepared = [] {
-    ::_set_fmode(_O_BINARY);
+    _fmode = _O_BINARY;
     for (std::FILE *const stream : {stdin, stdout, stderr})
         ::_setmode(::_fileno(stream), _O_BINARY);
     ::SetConsoleOutputCP(CP_UTF8);
