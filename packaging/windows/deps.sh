@@ -201,7 +201,7 @@ source "$here/wine.sh" "$folder" # sets compiler_folder
 common=$(declare -f with_cmake with_configure with_meson; cat "$here/toolchain.cmake"; $mingw-g++-posix --version)
 for package in "${header_packages[@]}"; do
     dpkg -L "$package" | grep -E '^/usr/(include|share/cmake|share/eigen3|share/pkgconfig|lib/.*cmake)/' | while read -r file; do
-        [[ -f $file ]] && install -D -m 644 "$file" "$prefix/${file#/usr/}"
+        [[ ! -f $file ]] || install -D -m 644 "$file" "$prefix/${file#/usr/}"
     done
 done
 declare -A digest
