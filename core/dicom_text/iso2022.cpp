@@ -160,7 +160,7 @@ bool areKnown(const std::vector<std::string> &terms) {
 std::string utf8OfSets(std::string_view text, const std::vector<std::string> &terms) {
     const std::string first = terms.empty() ? "" : terms.front();
     for (const auto &[term, name] : wholeSets)
-        if (terms.size() == 1 && first == term)
+        if (first == term && (terms.size() == 1 || !first.ends_with(" 6"))) // which others extend
             return *name == '\0' ? std::string(text) : platform::utf8Of(std::string(text), name);
     Reader reader({terms.begin(), terms.end()}, first);
     std::string out;

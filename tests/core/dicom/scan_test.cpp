@@ -88,6 +88,7 @@ TEST(Scan, NamesOfManyCharacterSetsAreRead) {
         {"ISO_IR 166", "\xCA\xC1", "\u0E2A\u0E21"},
         {"ISO_IR 203", "\xBCuvre^\xA4", "\u0152uvre^\u20AC"},
         {"ISO_IR 192", "\xE5\xB1\xB1^\xC3\xA9", "\u5C71^\u00E9"},
+        {"ISO_IR 192\\ISO 2022 IR 100", "\xE5\xB1\xB1^\xC3\xA9", "\u5C71^\u00E9"},
         {"GB18030", "Wang^\xD0\xA1\xB6\xAB", "Wang^\u5C0F\u4E1C"},
         {"GBK", "\xD0\xA1", "\u5C0F"},
         {"\\ISO 2022 IR 149", "Hong=\x1b$)C\xFB\xF3", "Hong=\u6D2A"},
