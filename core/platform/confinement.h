@@ -13,7 +13,7 @@ enum Confinement : std::int32_t {
     networkIsEmpty = 8
 };
 
-/// What a helper still does with sockets when it is confined.
+/// A confined helper uses sockets in one of these ways.
 enum class Talks {
     toTheProgram,     ///< through its channel alone
     throughItsSocket, ///< which is connected, and it reads and writes the files that it is given

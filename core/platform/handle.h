@@ -6,7 +6,7 @@
 
 namespace pellucid::platform {
 
-/// What the system calls an open file or socket by; -1: none.
+/// The system's number of an open file or socket; -1: none.
 #ifdef _WIN32
 using Native = std::intptr_t;
 #else

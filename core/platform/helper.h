@@ -49,7 +49,7 @@ private:
     Channel m_channel;
 };
 
-/// What a helper is given when it starts.
+/// A helper starts with these.
 struct HelpersEnds {
     Channel channel;
     Handle file; ///< if the program gives one

@@ -54,12 +54,12 @@ void makeWaiting(HandleView socket);
 
 /// Sends what fits into the buffers of a connection, and nothing more later.
 void sendLast(HandleView socket, std::string_view bytes);
-/// What has come: 0 bytes at the end. None if nothing has come yet.
+/// Reads what is there: 0 bytes at the end; none if nothing is there yet.
 std::optional<std::size_t> receiveSome(HandleView socket, std::span<char> to);
 
 /// From now on, what is written is sent at once.
 void sendAtOnce(HandleView socket);
-/// What has come is acknowledged at once, for a while. Without these two, each object waits for the
+/// Acknowledges received data at once, for a while. Without these two, each object waits for the
 /// delayed acknowledgement of the last one: 40 ms.
 void acknowledgeAtOnce(HandleView socket);
 

@@ -57,7 +57,7 @@ public:
         std::optional<task::Reason> refusal;
 
         platform::Handle connection; ///< until it is used
-        platform::Handle replaced;   ///< what it is used for, whose options DCMTK still sets
+        platform::Handle replaced;   ///< DCMTK's own socket: DCMTK still sets its options
 
         /// Takes over the socket that DCMTK has made. *Returns* the one to use.
         platform::Native connected(platform::Native made);

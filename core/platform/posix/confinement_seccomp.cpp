@@ -28,7 +28,7 @@ struct AllowedCommand {
     int call = 0, argument = 0;
 };
 
-// What a helper calls besides what all of them call.
+// The calls of one kind of helper, in addition to those of all.
 struct Calls {
     std::vector<int> calls;
     std::vector<AllowedCommand> commands;
