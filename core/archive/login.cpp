@@ -112,7 +112,7 @@ void Login::logIn(const OpenPage &open, const Texts &texts, const task::Progress
     const std::string url =
         at.authorizationUrl + (hasQuery ? "&" : "?") + network::formEncoded(query);
     network::awaitRedirect(
-        std::move(port.socket), {state, texts.success, texts.failure, patience}, [&] { open(url); },
+        std::move(port), {state, texts.success, texts.failure, patience}, [&] { open(url); },
         [&](const std::string &code) {
             const Tokens tokens = requestTokens(at.tokenUrl,
                                                 {{"grant_type", "authorization_code"},

@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
-
-#include "core/platform/handle.h"
-#include "core/platform/socket.h"
+#include <string>
 
 namespace pellucid::platform {
 
-/// Tells which connections to a port of this computer are of programs of this user. Made before the
-/// process is confined.
-class ConnectionOwner {
-public:
-    /// `listening`: a TCP socket for IPv4.
-    explicit ConnectionOwner(HandleView listening);
-    ~ConnectionOwner();
-    /// Whether a program of this user has an open connection from there. True if the system does
-    /// not tell.
-    bool isThisUser(const Connected &from);
-
-private:
-    struct Tables;
-    std::unique_ptr<Tables> m_tables;
-};
+/// Whether a program of this user has an open connection from this address and port, of IPv4, to
+/// this port of 127.0.0.1. True if the system does not report it.
+bool isOfThisUser(const std::string &address, int port, int to);
 
 } // namespace pellucid::platform

@@ -43,7 +43,7 @@ struct Connected {
     int port = 0;
 };
 /// None if the connection has gone, or the program has too many files open. `accepting`: how the
-/// new socket behaves.
+/// new socket behaves. *Throws* std::system_error if this process can accept no more.
 std::optional<Connected> acceptFrom(HandleView listening, Accepting accepting = Accepting::waits);
 
 /// Connects to an address. The socket waits for nothing, until `makeWaiting`. *Throws*
@@ -56,6 +56,9 @@ void makeWaiting(HandleView socket);
 void sendLast(HandleView socket, std::string_view bytes);
 /// Reads what is there: 0 bytes at the end; none if nothing is there yet.
 std::optional<std::size_t> receiveSome(HandleView socket, std::span<char> to);
+
+/// Whether the last call that sent something has failed because the other end has closed.
+bool otherEndHasHungUp();
 
 /// From now on, what is written is sent at once.
 void sendAtOnce(HandleView socket);

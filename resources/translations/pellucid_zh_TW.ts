@@ -3909,6 +3909,10 @@
         <source>Another program has it open</source>
         <translation>另一個程式正在使用它</translation>
     </message>
+    <message>
+        <source>this system has no list of trusted CA certificates; name a file of CA certificates (on the command line: --authorities)</source>
+        <translation>此系統沒有受信任的 CA 憑證清單；請指定含有 CA 憑證的檔案（命令列：--authorities）</translation>
+    </message>
 </context>
 <context>
     <name>RegionTexts</name>

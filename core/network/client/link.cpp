@@ -11,6 +11,7 @@
 #include "core/confined/packing.h"
 #include "core/confined/protection.h"
 #include "core/network/client/reasons.h"
+#include "core/platform/connection_owner.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
 
@@ -28,6 +29,7 @@ constexpr double startSeconds = 30.0; // on a loaded machine
 constexpr double slackSeconds = 10.0; // beyond the helper's own patience
 constexpr double cancelSeconds = 4.0; // the helper gives the server two
 
+constexpr std::uint64_t largestPort = 65535;
 constexpr std::size_t maxMatchesBytes = std::size_t(1) << 30; // of a search: a thousand each
 constexpr std::uint64_t maxBytes = std::uint64_t(1)
                                    << 36; // of an object; more is an attack on the disk
@@ -239,6 +241,14 @@ Message Link::converse(const task::Progress &progress, Receiver *receiver,
                 fail({Kind::done, 0, 0, {}});
             take(*packet, *receiver);
             break;
+        case Kind::browser: {
+            if (m_loginPort == 0 || message.number > largestPort)
+                fail({Kind::done, 0, 0, {}});
+            const bool isOurs =
+                platform::isOfThisUser(message.body, int(message.number), m_loginPort);
+            send({isOurs ? Kind::kept : Kind::refused, 0, 0, {}});
+            break;
+        }
         default:
             fail(message);
         }
@@ -322,14 +332,15 @@ void serveClient(platform::Handle socket, const Acceptance &acceptance, Receiver
     link.converse(progress, &receiver, {}, observe, Kind::done);
 }
 
-void awaitRedirect(platform::Handle socket, const Redirection &redirection,
+void awaitRedirect(LoopbackPort port, const Redirection &redirection,
                    const std::function<void()> &ready,
                    const std::function<void(const std::string &code)> &redeem,
                    const task::Progress &progress) {
     Link link(redirection.seconds + slackSeconds);
     link.start();
-    link.send({Kind::redirect, 0, 0, pack(redirection)}, socket);
-    socket = platform::Handle(); // so that the browser notices when the helper ends
+    link.m_loginPort = port.port;
+    link.send({Kind::redirect, 0, 0, pack(redirection)}, port.socket);
+    port.socket = platform::Handle(); // so that the browser notices when the helper ends
     note(link.converse(progress, nullptr, {}, {}, Kind::ready).code);
     ready();
     const std::string code = unpackCode(link.converse(progress, nullptr, {}, {}, Kind::code).body);

@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include "core/network/client/login.h"
 #include "core/network/client/message.h"
 #include "core/platform/helper.h"
 #include "core/task/progress.h"
@@ -68,7 +69,7 @@ public:
 private:
     friend void serveClient(platform::Handle, const Acceptance &, Receiver &,
                             const task::Progress &, const StepObserver &);
-    friend void awaitRedirect(platform::Handle, const Redirection &, const std::function<void()> &,
+    friend void awaitRedirect(LoopbackPort, const Redirection &, const std::function<void()> &,
                               const std::function<void(const std::string &)> &,
                               const task::Progress &);
     explicit Link(double patienceSeconds);
@@ -95,6 +96,7 @@ private:
     std::set<std::string> m_kept; ///< the objects of this request
     Arrival m_arrival;            ///< the current object
     bool m_isArriving = false;    ///< it has a file
+    int m_loginPort = 0;          ///< where a browser ends a login
 };
 
 /// Serves a client that has connected, in a `pellucid-net` of its own, until the client ends the
@@ -106,7 +108,7 @@ void serveClient(platform::Handle socket, const Acceptance &acceptance, Receiver
 /// reaches nothing else. `ready` is called when it listens, `redeem` with the authorization code;
 /// the browser shows failure if `redeem` throws. *Throws* as the requests of a link;
 /// Error{unusable} if the login is denied or nobody logs in; what `redeem` throws.
-void awaitRedirect(platform::Handle socket, const Redirection &redirection,
+void awaitRedirect(LoopbackPort port, const Redirection &redirection,
                    const std::function<void()> &ready,
                    const std::function<void(const std::string &code)> &redeem,
                    const task::Progress &progress = {});

@@ -28,8 +28,8 @@ struct Message {
         uids,     ///< body: more instances of the next `retrieve`
         store,    ///< with the open file; `number`: its size
         file,     ///< the answer to `arrival`: the open file to write to
-        kept,     ///< the answer to `received`
-        refused,  ///< the answer to either; `code`: the status for the sender
+        kept,     ///< the answer to `received`, `browser` and `code`
+        refused,  ///< the other answer to these and to `arrival`; `code`: the status for the sender
         cancel,
         redirect, ///< body: Redirection, with the listening socket; the first message of a login
         discover, ///< of a login server: where its services are
@@ -44,6 +44,8 @@ struct Message {
         done,        ///< the end of a request. body: QueryEnd, RetrievalEnd, Endpoints, Tokens, of
                      ///< `store` a Reason if the server has changed the object, or none
         failed,      ///< body: Reason; `code`: a Failure
+        browser,     ///< asks whether a connection to the login's port is of this user. body: its
+                     ///< address; `number`: its port; waits for `kept` or `refused`
         code,        ///< body: the authorization code of a login; waits for `kept` or `refused`
     };
     Kind kind = Kind::ready;

@@ -5,9 +5,10 @@
 
 namespace pellucid::network::process {
 
-/// The file with the certificates that the system trusts, in PEM format; empty if there is none
-/// where distributions keep it. Not OpenSSL's own path, which is that of the machine it was built
-/// on.
-std::string systemAuthoritiesFile();
+/// The text of a file in PEM format. *Throws* Error{usage} if it cannot be opened.
+std::string pemText(const std::string &path);
+/// The certificates of the authorities in a file, or of those that the system trusts if the path is
+/// empty, in PEM format. *Throws* Error{usage}.
+std::string authorityCertificates(const std::string &path);
 
 } // namespace pellucid::network::process

@@ -7,8 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <thread>
 
 #include <curl/curl.h>
@@ -30,13 +28,6 @@ namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
-std::string fileText(const std::string &path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in)
-        throw Error(ErrorCode::usage, because::isNoPemFile(std::strerror(errno)), path);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 } // namespace
 
 // One easy handle with its only connection.
@@ -51,11 +42,10 @@ public:
         ::curl_easy_perform(m_handle);
         ::curl_easy_reset(m_handle);
         if (peer.usesTls) {
-            m_authorities =
-                fileText(peer.authorities.empty() ? systemAuthoritiesFile() : peer.authorities);
+            m_authorities = authorityCertificates(peer.authorities);
             if (!peer.certificate.empty()) {
-                m_certificate = fileText(peer.certificate);
-                m_key = fileText(peer.key);
+                m_certificate = pemText(peer.certificate);
+                m_key = pemText(peer.key);
             }
         }
         platform::Connected connected = connectTo(peer, control);

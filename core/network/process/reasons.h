@@ -12,6 +12,7 @@ PELLUCID_REASON(hostIsUnknown, "there is no host named '%1'; check the name, and
 PELLUCID_REASON(hostDoesNotAnswer, "the host does not answer; check address and port, and any firewall")
 PELLUCID_REASON(connectionIsRefused, "the host refuses connections to this port; check the port, and that the server runs")
 PELLUCID_REASON(isNoPemFile, "is not a usable file in PEM format: %1")
+PELLUCID_REASON(systemTrustsNobody, "this system has no list of trusted CA certificates; name a file of CA certificates (on the command line: --authorities)")
 PELLUCID_REASON(keyIsNotOfTheCertificate, "is not the private key of the certificate")
 PELLUCID_REASON(certificateIsRefused, "the other side's certificate is not accepted: %1")
 PELLUCID_REASON(tlsFails, "TLS fails: %1")

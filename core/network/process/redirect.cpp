@@ -12,7 +12,6 @@
 #include "core/network/process/confine.h"
 #include "core/network/process/login_json.h"
 #include "core/network/process/reasons.h"
-#include "core/platform/connection_owner.h"
 #include "core/platform/socket.h"
 
 namespace pellucid::network::process {
@@ -98,6 +97,17 @@ bool receive(Browser &browser) {
     return *got > 0 && browser.head.size() <= longestHead;
 }
 
+// Other users see the address of the login among the arguments of the browser: one could log in as
+// himself and send his code here, and this user's images would go to his account (RFC 8252, 8.9).
+// The program looks up whose connection it is: this process cannot.
+bool isOfThisUser(const Browser &browser, Control &control) {
+    control.send({Kind::browser, 0, std::uint64_t(browser.from.port), browser.from.address});
+    const Kind answer = control.wait().message.kind;
+    if (answer == Kind::cancel)
+        throw CancelledByProgram();
+    return answer == Kind::kept;
+}
+
 // Passes the result on; the browser shows the end of it.
 void finish(const Browser &browser, const LoginResult &result, const Redirection &redirection,
             Control &control) {
@@ -130,10 +140,6 @@ std::optional<LoginResult> loginResultOf(const std::string &head, const std::str
 }
 
 void awaitRedirect(platform::HandleView socket, const Redirection &redirection, Control &control) {
-    // Other users see the address of the login among the arguments of the browser: one could log in
-    // as himself and send his code here, and this user's images would go to his account (RFC 8252,
-    // 8.9).
-    platform::ConnectionOwner owner(socket);
     control.send({Kind::ready, confineToAccepting(), 0, {}});
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(redirection.seconds));
@@ -157,7 +163,7 @@ void awaitRedirect(platform::HandleView socket, const Redirection &redirection, 
             const bool isOpen = receive(browsers[n]);
             if (isOpen && browsers[n].head.find("\r\n\r\n") == std::string::npos)
                 continue;
-            if (isOpen && owner.isThisUser(browsers[n].from)) {
+            if (isOpen && isOfThisUser(browsers[n], control)) {
                 if (const auto result = loginResultOf(browsers[n].head, redirection.state)) {
                     finish(browsers[n], *result, redirection, control);
                     control.done();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/network/process/tls_profile.h"
 
+#include <openssl/err.h>
+#include <openssl/pem.h>
 #include <openssl/ssl.h>
 
 namespace pellucid::network::process {
@@ -22,6 +24,23 @@ void applyTlsProfile(ssl_ctx_st *context) {
                                        SSL_OP_CIPHER_SERVER_PREFERENCE);
     ::SSL_CTX_clear_options(context, SSL_OP_LEGACY_SERVER_CONNECT |
                                          SSL_OP_ALLOW_UNSAFE_LEGACY_RENEGOTIATION);
+}
+
+bool trust(ssl_ctx_st *context, const std::string &certificates) {
+    BIO *const text = ::BIO_new_mem_buf(certificates.data(), int(certificates.size()));
+    bool hasAny = false;
+    ::ERR_clear_error();
+    while (text != nullptr) {
+        X509 *const each = ::PEM_read_bio_X509(text, nullptr, nullptr, nullptr);
+        if (each == nullptr)
+            break;
+        hasAny = ::X509_STORE_add_cert(::SSL_CTX_get_cert_store(context), each) == 1 || hasAny;
+        ::X509_free(each);
+    }
+    const bool isAtEnd = ERR_GET_REASON(::ERR_peek_last_error()) == PEM_R_NO_START_LINE;
+    ::BIO_free(text);
+    ::ERR_clear_error();
+    return hasAny && isAtEnd;
 }
 
 } // namespace pellucid::network::process

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <openssl/err.h>
 #include <openssl/ssl.h>
 #include <openssl/x509_vfy.h>
@@ -125,8 +124,8 @@ public:
     ssize_t write(void *from, size_t bytes) override {
         ::ERR_clear_error();
         const ssize_t sent = DcmTLSConnection::write(from, bytes);
-        const bool hasHungUp = errno == EPIPE || errno == ECONNRESET;
-        if (char next = 0; sent < 0 && hasHungUp) { // it may have said why before
+        if (char next = 0;
+            sent < 0 && platform::otherEndHasHungUp()) { // it may have said why before
             ::SSL_peek(m_ssl, &next, 1);
             takeAlert();
         }
@@ -203,9 +202,12 @@ public:
         // Anybody gets a certificate from an authority of the system.
         if (certificates.authorities.empty() && m_host.empty())
             throw task::Error(task::ErrorCode::usage, because::receiverNeedsAuthorities);
-        const std::string authorities =
-            certificates.authorities.empty() ? systemAuthoritiesFile() : certificates.authorities;
-        require(addTrustedCertificateFile(authorities.c_str(), DCF_Filetype_PEM), authorities);
+        if (!trust(getNativeHandle(), authorityCertificates(certificates.authorities)))
+            throw certificates.authorities.empty()
+                ? task::Error(task::ErrorCode::usage, because::systemTrustsNobody)
+                : task::Error(task::ErrorCode::usage,
+                              because::isNoPemFile(std::string("no certificate")),
+                              certificates.authorities);
         if (!certificates.certificate.empty()) {
             setPrivateKeyPasswd(certificates.keyPassword.c_str());
             require(setPrivateKeyFile(certificates.key.c_str(), DCF_Filetype_PEM),

@@ -7,8 +7,6 @@
 #include <fstream>
 #include <netinet/in.h>
 #include <sstream>
-#include <string>
-#include <sys/socket.h>
 #include <unistd.h>
 
 namespace pellucid::platform {
@@ -16,41 +14,24 @@ namespace pellucid::platform {
 namespace {
 
 // As the tables have it: the bytes of the address as a number of this processor.
-std::string textOf(in_addr address, int port) {
+std::string textOf(const char *address, int port) {
+    in_addr bytes{};
+    ::inet_pton(AF_INET, address, &bytes);
     std::array<char, 16> text{};
-    std::snprintf(text.data(), text.size(), "%08X:%04X", address.s_addr, unsigned(port));
+    std::snprintf(text.data(), text.size(), "%08X:%04X", bytes.s_addr, unsigned(port));
     return text.data();
 }
 
 } // namespace
 
-// A program that uses IPv6 for everything is in the second table.
-struct ConnectionOwner::Tables {
-    std::array<std::ifstream, 2> files{std::ifstream("/proc/self/net/tcp"),
-                                       std::ifstream("/proc/self/net/tcp6")};
-    std::string port;
-    uid_t user = ::geteuid();
-};
-
-ConnectionOwner::ConnectionOwner(HandleView listening) : m_tables(std::make_unique<Tables>()) {
-    sockaddr_in own{};
-    socklen_t size = sizeof own;
-    ::getsockname(listening.get(), reinterpret_cast<sockaddr *>(&own), &size);
-    m_tables->port = textOf(own.sin_addr, ntohs(own.sin_port));
-}
-
-ConnectionOwner::~ConnectionOwner() = default;
-
-bool ConnectionOwner::isThisUser(const Connected &from) {
-    if (!m_tables->files[0].is_open())
-        return true;
-    in_addr address{};
-    ::inet_pton(AF_INET, from.address.c_str(), &address);
+bool isOfThisUser(const std::string &address, int port, int to) {
     const std::string established = "01", mapped = "0000000000000000FFFF0000",
-                      place = textOf(address, from.port), &port = m_tables->port;
-    for (std::ifstream &table : m_tables->files) {
-        table.clear();
-        table.seekg(0);
+                      place = textOf(address.c_str(), port), own = textOf("127.0.0.1", to);
+    bool isReported = false;
+    // A program that uses IPv6 for everything is in the second table.
+    for (const char *const name : {"/proc/self/net/tcp", "/proc/self/net/tcp6"}) {
+        std::ifstream table(name);
+        isReported = isReported || table.is_open();
         for (std::string row; std::getline(table, row);) {
             std::istringstream columns(row);
             std::string number, local, remote, state, queues, timer, timeouts;
@@ -58,11 +39,11 @@ bool ConnectionOwner::isThisUser(const Connected &from) {
             columns >> number >> local >> remote >> state >> queues >> timer >> timeouts >> user;
             // A connection that its program has closed is nobody's.
             if (columns && (local == place || local == mapped + place) &&
-                (remote == port || remote == mapped + port) && state == established)
-                return user == m_tables->user;
+                (remote == own || remote == mapped + own) && state == established)
+                return user == ::geteuid();
         }
     }
-    return false;
+    return !isReported;
 }
 
 } // namespace pellucid::platform

@@ -186,6 +186,10 @@ std::optional<std::size_t> receiveSome(HandleView socket, std::span<char> to) {
     return errno == EINTR || errno == EAGAIN ? std::nullopt : std::optional<std::size_t>(0);
 }
 
+bool otherEndHasHungUp() {
+    return errno == EPIPE || errno == ECONNRESET;
+}
+
 void sendAtOnce(HandleView socket) {
     const int on = 1;
     ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/platform/memory.h"
+#include "core/platform/windows/accepting.h"
 #include "core/platform/windows/error.h"
 
 namespace pellucid::platform {
@@ -55,8 +56,11 @@ bool canOpenASocket() {
 
 // The program has started this process with a token that opens nothing, and with another one for
 // the time until now.
-int confine(const Needs &) {
+int confine(const Needs &needs) {
+    constexpr int mostConnections = 64; // that one login may use
     hideMemory();
+    if (needs.talks == Talks::toThoseWhoConnect)
+        makeSpareSockets(mostConnections);
     const bool isCodeFixed = forbidNewCode();
     const bool isReverted = ::RevertToSelf() != FALSE;
     const bool hasNoFiles = isReverted && !canOpenAFile();

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/platform/windows/accepting.h"
 #include "core/platform/windows/error.h"
 // After winsock2.h.
+#include <mswsock.h>
 #include <ws2tcpip.h>
 
 namespace pellucid::platform {
@@ -93,7 +95,49 @@ Place ownPlace(const std::string &address, int port) {
     return place;
 }
 
+std::vector<Handle> &spareSockets() {
+    static std::vector<Handle> all;
+    return all;
+}
+bool hasOnlySpares = false;
+
+// Accepts a connection that is already waiting.
+std::optional<Connected> acceptInto(Handle socket, HandleView listening) {
+    constexpr DWORD patienceMs = 100, addressBytes = sizeof(sockaddr_storage) + 16;
+    std::array<char, 2 * std::size_t(addressBytes)> addresses{};
+    const Handle event = handleOf(::CreateEventW(nullptr, TRUE, FALSE, nullptr));
+    OVERLAPPED state{};
+    state.hEvent = nativeOf(event);
+    DWORD got = 0;
+    BOOL isAccepted = ::AcceptEx(socketOf(listening), socketOf(socket), addresses.data(), 0,
+                                 addressBytes, addressBytes, &got, &state);
+    if (isAccepted == FALSE && ::WSAGetLastError() == ERROR_IO_PENDING) {
+        if (::WaitForSingleObject(state.hEvent, patienceMs) != WAIT_OBJECT_0)
+            ::CancelIoEx(nativeOf(listening), &state);
+        isAccepted = ::GetOverlappedResult(nativeOf(listening), &state, &got, TRUE);
+    }
+    if (isAccepted == FALSE) { // it has gone
+        spareSockets().push_back(std::move(socket));
+        return std::nullopt;
+    }
+    set(socket, SOL_SOCKET, SO_UPDATE_ACCEPT_CONTEXT, socketOf(listening));
+    sockaddr *own = nullptr, *other = nullptr;
+    int ownBytes = 0, otherBytes = 0;
+    ::GetAcceptExSockaddrs(addresses.data(), 0, addressBytes, addressBytes, &own, &ownBytes, &other,
+                           &otherBytes);
+    Place from;
+    std::memcpy(&from.all, other, std::min(std::size_t(otherBytes), sizeof from.all));
+    return Connected{std::move(socket), textOf(from), portOf(from)};
+}
+
 } // namespace
+
+void makeSpareSockets(int count) {
+    useSockets();
+    hasOnlySpares = true;
+    for (int n = 0; n < count; ++n)
+        spareSockets().push_back(newSocket(AF_INET));
+}
 
 std::optional<AddressKind> addressKind(const std::string &text) {
     const auto place = placeIn(text);
@@ -155,6 +199,14 @@ bool awaitInput(HandleView socket, int milliseconds) {
 }
 
 std::optional<Connected> acceptFrom(HandleView listening, Accepting accepting) {
+    if (hasOnlySpares) {
+        if (spareSockets().empty())
+            failWith(WSAEMFILE);
+        Handle spare = std::move(spareSockets().back());
+        spareSockets().pop_back();
+        setWaiting(spare, accepting);
+        return acceptInto(std::move(spare), listening);
+    }
     Place from;
     int size = sizeof from;
     Handle socket(Native(::accept(socketOf(listening), &from.any, &size)), Opened::socket);
@@ -213,6 +265,11 @@ std::optional<std::size_t> receiveSome(HandleView socket, std::span<char> to) {
     if (got >= 0)
         return std::size_t(got);
     return ::WSAGetLastError() == WSAEWOULDBLOCK ? std::nullopt : std::optional<std::size_t>(0);
+}
+
+bool otherEndHasHungUp() {
+    const int error = ::WSAGetLastError();
+    return error == WSAECONNRESET || error == WSAECONNABORTED || error == WSAESHUTDOWN;
 }
 
 void sendAtOnce(HandleView socket) {
