@@ -211,6 +211,7 @@ int main(int argc, char **argv) {
     using namespace pellucid;
     platform::letLongFilesFail();
     CLI::App app("Speed and error of projections", "pellucid-bench");
+    app.allow_windows_style_options(false); // a path may begin with a slash
     Options options;
     addOptions(app, options);
     try {

@@ -55,6 +55,7 @@ int run(int argc, char **argv) {
         fourier::keepWisdomIn(*cache / "fftw-wisdom");
 
     CLI::App app("X-ray-like pictures of DICOM studies, by Fourier projection", "pellucid-cli");
+    app.allow_windows_style_options(false); // a path may begin with a slash
     app.set_version_flag("--version", "pellucid-cli " PELLUCID_VERSION);
     app.require_subcommand(1);
     cli::addInfoCommand(app, context);

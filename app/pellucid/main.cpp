@@ -6,6 +6,7 @@
 #include <QUrl>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "app/exit_code.h"
 #include "app/pellucid/log_spdlog.h"
@@ -15,6 +16,7 @@
 #include "core/platform/display.h"
 #include "core/platform/memory.h"
 #include "core/platform/process.h"
+#include "core/platform/terminal.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
 #include "ui/engine/graphics_card.h"
@@ -45,14 +47,21 @@ void endWhenAsked() {
         endAtOnce);
 }
 
+int failAtStart(const std::string &what, pellucid::task::ErrorCode code) {
+    pellucid::platform::reportAtStart("pellucid: " + what);
+    return pellucid::exitCode(code);
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
     using namespace pellucid;
+    platform::joinTerminal();
     platform::leaveMemoryOutOfDumps(); // not hideMemory: desktops then refuse their dialogs
     platform::letLongFilesFail();
     endWhenAsked();
     CLI::App options("View DICOM studies as transparent projections", "pellucid");
+    options.allow_windows_style_options(false); // a path may begin with a slash
     std::vector<std::string> paths;
     options.set_version_flag("--version", "pellucid " PELLUCID_VERSION);
     std::string engine;
@@ -66,8 +75,7 @@ int main(int argc, char **argv) {
     } catch (const CLI::Success &success) {
         return options.exit(success);
     } catch (const CLI::ParseError &error) {
-        std::fprintf(stderr, "pellucid: %s\n", error.what());
-        return exitCode(task::ErrorCode::usage);
+        return failAtStart(error.what(), task::ErrorCode::usage);
     }
     QSurfaceFormat format;
     format.setVersion(3, 3);
@@ -80,8 +88,8 @@ int main(int argc, char **argv) {
     qInstallMessageHandler([](QtMsgType type, const QMessageLogContext &, const QString &text) {
         const QString line = text.section('\n', 0, 0).simplified();
         if (type == QtFatalMsg) {
-            std::fprintf(stderr, "pellucid: %s\n", qPrintable(reason.isEmpty() ? line : reason));
-            std::_Exit(exitCode(task::ErrorCode::noSuchDevice));
+            std::_Exit(failAtStart((reason.isEmpty() ? line : reason).toStdString(),
+                                   task::ErrorCode::noSuchDevice));
         }
         if (type != QtWarningMsg && type != QtCriticalMsg)
             return;
@@ -96,19 +104,16 @@ int main(int argc, char **argv) {
         keepLogIn(*cache / "log" / "pellucid.log");
     }
     // Checked before Qt tries and names each of its plugins.
-    if (!platform::mayHaveDisplay()) {
-        std::fprintf(stderr, "pellucid: there is no display (neither DISPLAY nor WAYLAND_DISPLAY "
-                             "is set)\n");
-        return exitCode(task::ErrorCode::noSuchDevice);
-    }
+    if (!platform::mayHaveDisplay())
+        return failAtStart("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)",
+                           task::ErrorCode::noSuchDevice);
     // Libraries map much memory at start, and some software renderers crash if they cannot.
     constexpr std::size_t mappedToStart = std::size_t(1100) << 20;
-    if (platform::mappableBytes() < mappedToStart) {
-        std::fprintf(
-            stderr, "pellucid: not enough memory to start: needs %zu MB, the limit leaves %zu MB\n",
-            mappedToStart >> 20, platform::mappableBytes() >> 20);
-        return exitCode(task::ErrorCode::outOfMemory);
-    }
+    if (platform::mappableBytes() < mappedToStart)
+        return failAtStart(
+            fmt::format("not enough memory to start: needs {} MB, the limit leaves {} MB",
+                        mappedToStart >> 20, platform::mappableBytes() >> 20),
+            task::ErrorCode::outOfMemory);
     system::log("pellucid " PELLUCID_VERSION ", Qt " + std::string(qVersion()));
     // The engine's context shares with the windows' contexts, so that its pictures stay on the
     // card.
@@ -156,13 +161,10 @@ int main(int argc, char **argv) {
             workstation.window().reopening().resume();
         return QApplication::exec();
     } catch (const task::Error &error) {
-        std::fprintf(stderr, "pellucid: %s\n", error.what());
-        return exitCode(error.code());
+        return failAtStart(error.what(), error.code());
     } catch (const std::bad_alloc &) {
-        std::fprintf(stderr, "pellucid: not enough memory to start\n");
-        return exitCode(task::ErrorCode::outOfMemory);
+        return failAtStart("not enough memory to start", task::ErrorCode::outOfMemory);
     } catch (...) {
-        std::fprintf(stderr, "pellucid: %s\n", ui::currentFailure().what.english().c_str());
-        return exitCode(task::ErrorCode::internal);
+        return failAtStart(ui::currentFailure().what.english(), task::ErrorCode::internal);
     }
 }

@@ -131,7 +131,7 @@ fs::path TransferLog::fileOfUser() {
 
 TransferLog::TransferLog(const fs::path &file) : m_file(file) {
     sqlite3 *database = nullptr;
-    const int opened = sqlite3_open_v2(file.c_str(), &database,
+    const int opened = sqlite3_open_v2(file.string().c_str(), &database,
                                        SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
     m_database.reset(database);
     if (opened != SQLITE_OK)

@@ -14,6 +14,10 @@ struct HiddenAnswer {
 };
 HiddenAnswer askHidden(const std::string &question, const std::stop_token &stop);
 
+/// Connects a program with windows to the terminal that started it, on systems that do not do so
+/// themselves.
+void joinTerminal();
+
 /// Ends the program without waiting for anything, but with a terminal that shows what is typed.
 [[noreturn]] void endAtOnce(int code);
 

@@ -315,9 +315,9 @@ Patient patientOf(const volume::Volume &volume, Mask dense, const task::Progress
     if (!shells.empty()) {
         // Give the patient's part of the rim back.
         remove(shells, tissue);
-        const Mask near = dilated(lattice, patient, rimMm, progress.part(0.78, 0.8));
+        const Mask nearby = dilated(lattice, patient, rimMm, progress.part(0.78, 0.8));
         for (std::size_t n = 0; n < patient.size(); ++n)
-            patient[n] = std::uint8_t(patient[n] | (near[n] & tissue[n]));
+            patient[n] = std::uint8_t(patient[n] | (nearby[n] & tissue[n]));
     }
     return {filledSlices(lattice, patient, progress.part(0.8, 1.0)), std::move(shells)};
 }

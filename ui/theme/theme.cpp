@@ -11,6 +11,9 @@
 #include <QPalette>
 #include <QRegularExpression>
 #include <QStyleFactory>
+#include <QWidget>
+
+#include "core/platform/display.h"
 
 // A static library must register its resources explicitly; the macro needs the global namespace.
 static void registerResources() {
@@ -106,6 +109,15 @@ void Theme::apply(QApplication &application) const {
         sheet.replace(match.capturedStart(), match.capturedLength(), value);
     }
     application.setStyleSheet(sheet);
+    for (const QWidget *const window : QApplication::topLevelWidgets())
+        if (window->isVisible())
+            matchTitleBar(*window);
+}
+
+void matchTitleBar(const QWidget &window) {
+    constexpr int middle = 128;
+    platform::setTitleBar(window.winId(),
+                          Theme::current().color("background").lightness() < middle);
 }
 
 } // namespace pellucid::ui

@@ -6,6 +6,7 @@
 #include <QString>
 
 class QApplication;
+class QWidget;
 
 namespace pellucid::ui {
 
@@ -26,6 +27,9 @@ public:
 private:
     QHash<QString, QColor> m_colors;
 };
+
+/// Draws a window's title bar in the current theme, where the system lets programs do so.
+void matchTitleBar(const QWidget &window);
 
 /// The background of every medical picture is black in both themes.
 inline constexpr QRgb pictureBackground = qRgb(0, 0, 0);

@@ -6,6 +6,7 @@
 #include "core/confined/protection.h"
 #include "core/task/progress.h"
 #include "ui/language/failure.h"
+#include "ui/theme/theme.h"
 #include "ui/widgets/plain_label.h"
 
 namespace pellucid::ui {
@@ -35,6 +36,9 @@ Application::~Application() {
 bool Application::notify(QObject *receiver, QEvent *event) {
     try {
         keepPlain(receiver, *event);
+        if (const auto *const widget = qobject_cast<QWidget *>(receiver);
+            event->type() == QEvent::Show && widget != nullptr && widget->isWindow())
+            matchTitleBar(*widget);
         return QApplication::notify(receiver, event);
     } catch (const task::Cancelled &) {
         // Nothing waits for the result.

@@ -2,6 +2,7 @@
 #include "core/platform/display.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <initializer_list>
@@ -22,6 +23,13 @@ bool windowsHaveOpenGl() {
 
 bool canLoad(const char *library) {
     return ::dlopen(library, RTLD_LAZY) != nullptr;
+}
+
+// From the desktop's own theme.
+void setTitleBar(std::uintptr_t, bool) {}
+
+void reportAtStart(const std::string &line) {
+    std::fprintf(stderr, "%s\n", line.c_str());
 }
 
 } // namespace pellucid::platform

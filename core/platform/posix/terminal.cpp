@@ -70,6 +70,8 @@ HiddenAnswer askHidden(const std::string &question, const std::stop_token &stop)
     return answer;
 }
 
+void joinTerminal() {}
+
 void endAtOnce(int code) {
     const std::lock_guard lock(hiding); // nothing is hidden from now on
     show();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/platform/terminal.h"
 
-#include <array>
+#include <cstdio>
 #include <mutex>
 
 #include "core/platform/windows/error.h"
@@ -91,6 +91,19 @@ HiddenAnswer askHidden(const std::string &question, const std::stop_token &stop)
     }
     write(out, "\r\n");
     return answer;
+}
+
+void joinTerminal() {
+    // What is redirected stays so.
+    const bool lacksOutput = ::GetStdHandle(STD_OUTPUT_HANDLE) == nullptr,
+               lacksErrors = ::GetStdHandle(STD_ERROR_HANDLE) == nullptr;
+    if ((!lacksOutput && !lacksErrors) || ::AttachConsole(ATTACH_PARENT_PROCESS) == FALSE)
+        return;
+    if (lacksOutput)
+        std::freopen("CONOUT$", "wb", stdout);
+    if (lacksErrors)
+        std::freopen("CONOUT$", "wb", stderr);
+    ::SetConsoleOutputCP(CP_UTF8);
 }
 
 void endAtOnce(int code) {
