@@ -91,7 +91,7 @@ TEST_F(Cli, AFolderOfAnotherUserIsNamed) {
                     fs::perms::owner_all | fs::perms::others_exec | fs::perms::others_read);
     fs::create_directory(folder / "locked");
     fs::permissions(folder / "locked", fs::perms::owner_all);
-    const auto r = run("setpriv --reuid=65534 --clear-groups test -x " + std::string(PELLUCID_CLI));
+    const auto r = run("setpriv --reuid=65534 --clear-groups test -x " + program());
     if (r.exitCode != 0)
         GTEST_SKIP() << "the program is not reachable for another user";
     expectOneLine(cli("info " + quoted(folder / "locked"), "setpriv --reuid=65534 --clear-groups"),
@@ -122,7 +122,7 @@ TEST_F(Cli, AnInterruptEndsWithOneLineAndNoFile) {
     const fs::path out = folder / "series";
     // A second thread means that the program handles signals: a signal sent while the libraries are
     // still loading would end the process without a message.
-    const auto r = run(std::string(PELLUCID_CLI) + " phantom " + out.string() +
+    const auto r = run(program() + " phantom " + out.string() +
                        " --kind head --size 600x600x600 & p=$!; "
                        "until [ \"$(ls /proc/$p/task 2>/dev/null | wc -l)\" -gt 1 ]; do "
                        "kill -0 $p || exit 1; sleep 0.01; done; kill -INT $p; wait $p");

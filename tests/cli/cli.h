@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -19,8 +20,15 @@ namespace pellucid::test {
 
 namespace fs = std::filesystem;
 
+/// The command line that was built with the tests, or one of another system, which a variable
+/// names.
+inline std::string program() {
+    const char *const other = std::getenv("PELLUCID_CLI");
+    return other != nullptr ? other : PELLUCID_CLI;
+}
+
 inline CommandResult cli(const std::string &arguments, const std::string &before = "") {
-    return run(before + " " + PELLUCID_CLI + " " + arguments);
+    return run(before + " " + program() + " " + arguments);
 }
 
 inline std::string quoted(const fs::path &path) {

@@ -232,10 +232,9 @@ TEST_F(Cli, TheChestTakesItsMemoryAndNoMore) {
     PELLUCID_NEEDS_TEST_DATA();
     const fs::path out = folder / "chest.png";
     // 1.5 GB is the promise; seconds are printed, not asserted, because machines are noisy.
-    const auto r =
-        run("/usr/bin/env bash -c 'ulimit -v 3000000; TIMEFORMAT=%R; time " +
-            std::string(PELLUCID_CLI) + " render " +
-            (test::testData() / "ct_chest_philips_64").string() + " -o " + out.string() + "'");
+    const auto r = run("/usr/bin/env bash -c 'ulimit -v 3000000; TIMEFORMAT=%R; time " + program() +
+                       " render " + (test::testData() / "ct_chest_philips_64").string() + " -o " +
+                       out.string() + "'");
     EXPECT_EQ(r.exitCode, 0) << r.error;
     RecordProperty("seconds", r.error);
     EXPECT_GT(fs::file_size(out), 50000U);

@@ -83,8 +83,7 @@ TEST_F(Faults, AKilledSaveLeavesTheOldOrTheNewPreset) {
 
 TEST_F(Faults, AKilledExportLeavesAWholePictureOrNone) {
     const fs::path in = series("head", 40), out = folder / "out.png";
-    const std::string render =
-        std::string(PELLUCID_CLI) + " render " + quoted(in) + " -o " + quoted(out);
+    const std::string render = program() + " render " + quoted(in) + " -o " + quoted(out);
     using Clock = std::chrono::steady_clock;
     const auto timed = [&](const std::string &command) {
         const auto start = Clock::now();
@@ -183,9 +182,10 @@ TEST_F(Faults, EndlessZerosAreRefusedAndTheDecoderEndsWithTheProgram) {
         }
         return found;
     };
-    const pid_t program = ::fork();
-    if (program == 0) {
-        ::execl(PELLUCID_CLI, PELLUCID_CLI, "info", zeros.c_str(), nullptr);
+    const std::string file = program();
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::execl(file.c_str(), file.c_str(), "info", zeros.c_str(), nullptr);
         ::_exit(9);
     }
     const auto isAtWork = [](pid_t pid) { // it has used half a second
@@ -200,10 +200,10 @@ TEST_F(Faults, EndlessZerosAreRefusedAndTheDecoderEndsWithTheProgram) {
     std::vector<pid_t> decoders;
     for (int n = 0; (decoders.empty() || !isAtWork(decoders[0])) && n < 3000; ++n) {
         std::this_thread::sleep_for(10ms);
-        decoders = decodersOf(program);
+        decoders = decodersOf(child);
     }
-    ::kill(program, SIGKILL);
-    ::waitpid(program, nullptr, 0);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
     ASSERT_EQ(decoders.size(), 1U);
     const auto isThere = [&] {
         const std::string stat = readText(fs::path("/proc") / std::to_string(decoders[0]) / "stat");

@@ -104,7 +104,7 @@ protected:
         return "XDG_DATA_HOME=" + quoted(folder / "data") +
                " XDG_CACHE_HOME=" + quoted(folder / "cache");
     }
-    std::string asking() const { return "env " + environment() + " " PELLUCID_CLI " find web"; }
+    std::string asking() const { return "env " + environment() + " " + program() + " find web"; }
 };
 
 } // namespace
@@ -150,7 +150,7 @@ TEST_F(Password, StaysInTheProgram) {
 #endif
     // Root may read everything.
     const std::string as = ::geteuid() == 0 ? "setpriv --reuid=65534 --clear-groups " : "";
-    if (run(as + "test -x " + PELLUCID_CLI).exitCode != 0)
+    if (run(as + "test -x " + program()).exitCode != 0)
         GTEST_SKIP() << "the program is not reachable for another user";
     const auto isRead = [&](AtTerminal &program) {
         return run(as + "head -c 1 /proc/" + std::to_string(program.pid()) + "/environ").exitCode ==

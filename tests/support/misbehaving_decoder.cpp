@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A decoder that a file has taken over. It is confined like the real one, and does what the word
 // after the file's preamble says.
-#include <array>
+#include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <string>
 #include <string_view>
-#include <sys/mman.h>
-#include <sys/socket.h>
-#include <sys/time.h>
-#include <unistd.h>
 #include <vector>
 
 #include "core/decoding/client/channel.h"
@@ -22,6 +16,7 @@
 #include "core/platform/watch.h"
 #include "core/task/reason.h"
 #include "core/task/reasons.h"
+#include "tests/support/misbehaving_acts.h"
 
 namespace {
 
@@ -48,42 +43,19 @@ void finish(const task::Reason &reason, std::int32_t code = decoding::isUnusable
     finishWith(reason.encoded(), code);
 }
 
-task::Reason outcome(bool isDone) {
-    return isDone ? because::inWords("went through") : task::systemReason(errno);
-}
-
 task::Reason byHand() {
     return because::inWords("decoded by hand");
 }
 
 // Does what confinement forbids. Returns whether the word was one of these.
 bool tryForbidden(std::string_view word) {
-    if (word == "open-file")
-        finish(outcome(::open("/etc/passwd", O_RDONLY) >= 0));
-    else if (word == "new-file")
-        finish(outcome(::open("pwned", O_WRONLY | O_CREAT, 0600) >= 0));
-    else if (word == "unlink")
-        finish(outcome(::unlink("/tmp/anything") >= 0));
-    else if (word == "write-arena-size")
-        finish(outcome(::ftruncate(ends.file.get(), 16) >= 0));
-    else if (word == "socket")
-        finish(outcome(::socket(AF_INET, SOCK_STREAM, 0) >= 0));
-    else if (word == "process")
-        finish(outcome(::fork() >= 0));
-    else if (word == "program")
-        finish(outcome(::execl("/bin/true", "true", nullptr) >= 0));
-    else if (word == "code")
-        finish(outcome(::mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1,
-                              0) != MAP_FAILED));
-    else if (word == "uncounted")
-        finish(outcome(::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1,
-                              0) != MAP_FAILED));
-    else if (word == "descriptor")
-        finish(outcome(
-            decoding::send(ends.channel, {Message::Kind::need, 0, mib, 0}, ends.channel.end())));
-    else if (word == "kill-parent")
-        finish(outcome(::kill(::getppid(), SIGTERM) >= 0));
-    else if (word == "memory") {
+    if (const auto error = test::attempt(word, ends))
+        finish(*error ? task::systemReason(*error) : because::inWords("went through"));
+    else if (word == "descriptor") {
+        const bool isSent =
+            decoding::send(ends.channel, {Message::Kind::need, 0, mib, 0}, ends.channel.end());
+        finish(isSent ? because::inWords("went through") : task::systemReason(errno));
+    } else if (word == "memory") {
         std::vector<char *> taken;
         for (;;) {
             auto *const more = static_cast<char *>(std::malloc(256 * mib));
@@ -99,19 +71,18 @@ bool tryForbidden(std::string_view word) {
 
 void act(std::string_view word) {
     if (word == "crash")
-        ::raise(SIGSEGV);
+        test::crash();
     else if (word == "killed")
-        ::raise(SIGKILL);
+        test::beKilled();
     else if (word == "hang")
-        for (const itimerval never{};;)
-            ::setitimer(ITIMER_PROF, &never, nullptr);
+        test::hang();
     else if (word == "dawdle") { // until its own clock ends it
         platform::Watch watch;
         watch.allow(decoding::decodingSeconds({Message::Kind::header, 0, 0, 0}));
         for (;;)
-            ::getppid();
+            test::work();
     } else if (word == "silence")
-        ::_exit(0);
+        std::_Exit(0);
     else if (tryForbidden(word))
         return;
     else if (word == "ask-for-all")
@@ -130,7 +101,7 @@ void act(std::string_view word) {
     else if (word == "other-kind")
         send({Message::Kind(7777), 0, 0, 0});
     else if (word == "short-message")
-        (void)!::write(ends.channel.end().get(), "x", 1);
+        test::writeTooLittle(ends.channel);
     else if (word == "empty-header")
         send({Message::Kind::done, 0, 0, 0});
     else if (word == "no-reason")

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
+#include <random>
 #include <string>
+
+#include "core/platform/folders.h"
 
 namespace pellucid::test {
 
@@ -12,11 +13,10 @@ namespace pellucid::test {
 class TemporaryFolder {
 public:
     TemporaryFolder() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "pellucid-test-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-            throw std::runtime_error("no temporary folder");
-        m_path = name;
+        std::random_device random;
+        m_path = std::filesystem::temp_directory_path() /
+                 ("pellucid-test-" + std::to_string(random()) + std::to_string(random()));
+        platform::makePrivateFolder(m_path);
     }
     ~TemporaryFolder() {
         std::error_code ignored;

@@ -28,6 +28,7 @@
 #include "core/platform/confinement.h"
 #include "core/task/error.h"
 #include "tests/support/files.h"
+#include "tests/support/misbehaving_acts.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pellucid::decoding {
@@ -36,7 +37,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-using testing::HasSubstr;
+using testing::AnyOf, testing::HasSubstr;
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -112,18 +113,20 @@ TEST(Decoder, aFileThatChangesWhileItIsReadIsRefused) {
 
 TEST(Decoder, pipesAndDevicesAreRefusedAtOnce) {
     const test::TemporaryFolder folder;
-    ASSERT_EQ(std::system(("mkfifo " + (folder / "pipe").string()).c_str()), 0);
+    if (std::system(("mkfifo " + (folder / "pipe").string()).c_str()) != 0)
+        GTEST_SKIP() << "this system has no pipes among files";
     for (const fs::path &path : {folder / "pipe", fs::path("/dev/zero"), folder.path()})
         EXPECT_THROW(Decoder::shared().header(path), task::Error) << path;
 }
 
 TEST_F(TakenOver, itReachesNothing) {
-    for (const char *const word : {"open-file", "new-file", "unlink", "write-arena-size", "code",
-                                   "uncounted", "descriptor", "kill-parent"})
-        EXPECT_EQ(answerTo(word), "Operation not permitted") << word;
-    // A system call that no decoder needs ends the process.
-    for (const char *const word : {"socket", "process", "program"})
-        EXPECT_THAT(answerTo(word), HasSubstr("a forbidden system call")) << word;
+    if (!test::systemConfines())
+        GTEST_SKIP() << "Wine gives every program the user's rights";
+    // Linux ends a process that makes a system call that no decoder needs.
+    for (const std::string &word : test::forbiddenWords())
+        EXPECT_THAT(answerTo(word), AnyOf("Operation not permitted", "Permission denied",
+                                          HasSubstr("a forbidden system call")))
+            << word;
     EXPECT_FALSE(fs::exists("pwned"));
 }
 

@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs, uses, upgrades and removes Pellucid under Wine, in a Windows of its own: windows_installer_test.sh PACKAGES OUT.
+# Screenshots in OUT are for looking at. Needs a display.
+set -euo pipefail
+packages=$(realpath "$1") out=$(mkdir -p "$2" && realpath "$2")
+source_folder=$(realpath "$(dirname "$0")/../..")
+installer=$(ls "$packages"/pellucid-*-windows-x86_64.exe) zip=$(ls "$packages"/pellucid-*-windows-x86_64.zip)
+home=$(mktemp -d)
+trap 'rm -rf "$home"' EXIT
+unset WINEPATH XDG_DATA_HOME XDG_CACHE_HOME XDG_CONFIG_HOME
+mkdir "$home/windows"
+# shellcheck source=../../packaging/windows/wine.sh
+source "$source_folder/packaging/windows/wine.sh" "$home/windows"
+trap 'wineserver -k || true; rm -rf "$home"' EXIT
+unset WINEPATH # nothing but what is installed
+drive=$WINEPREFIX/drive_c
+local=$drive/users/$(id -un)/AppData/Local programs=$local/Programs/Pellucid
+fail() { echo "windows_installer_test: $*" >&2; exit 1; }
+check() { echo "== $*"; }
+key='HKCU\Software\Microsoft\Windows\CurrentVersion\Uninstall\Pellucid'
+shot() { ffmpeg -loglevel error -y -f x11grab -i "$DISPLAY" -frames:v 1 "$out/$1.png"; }
+
+check "installing for this user"
+wine "$installer" /S || fail "exit code $?"
+[[ -f $programs/bin/pellucid.exe && ! -e $programs.new ]] || fail "nothing is installed"
+wine reg query "$key" /v DisplayVersion | grep -q "0\.[0-9]" || fail "no entry among the apps"
+
+check "the command line"
+cli() { wine "$programs/bin/pellucid-cli.exe" "$@"; }
+[[ $(cli --version) == "pellucid-cli "* ]] || fail "no version"
+(cd "$home" && cli phantom study --size 32 && cli render study -o out.png && [[ -s out.png ]]) || fail "nothing is rendered"
+
+check "a double-click on a file opens it"
+file=$(find "$home/study" -name '*.dcm' | head -1)
+(cd "$home/study" && wine start /unix "$file") &
+sleep "${PELLUCID_SLOW:-25}"
+shot double_click
+wine tasklist | grep -q '^pellucid\.exe' || fail "the program does not run"
+
+check "an upgrade is refused while the program runs"
+code=0
+wine "$installer" /S || code=$?
+((code == 2)) || fail "exit code $code"
+wineserver -k
+sleep 1
+
+check "an upgrade keeps what is the user's"
+mkdir -p "$local/Pellucid/Data/presets"
+echo '{}' >"$local/Pellucid/Data/presets/mine.json"
+echo mine >"$programs/mine.txt"
+wine "$installer" /S || fail "exit code $?"
+[[ -f $local/Pellucid/Data/presets/mine.json && -f $programs.old/mine.txt && $(ls "$programs.old") == mine.txt ]] || fail "something is lost"
+
+check "no folder of others is taken"
+for name in file uninstall.exe; do
+    mkdir -p "$drive/Other"
+    echo other >"$drive/Other/$name"
+    code=0
+    wine "$installer" /S '/D=C:\Other' || code=$?
+    ((code == 2)) && [[ $(ls "$drive/Other") == "$name" ]] || fail "it is: $name"
+    rm "$drive/Other/$name"
+done
+mkdir -p "$drive/Place.new"
+echo other >"$drive/Place.new/file"
+code=0
+wine "$installer" /S '/D=C:\Place' || code=$?
+((code == 2)) && [[ -f $drive/Place.new/file ]] || fail "a folder beside it is"
+rm -r "$drive/Place.new"
+
+check "another folder takes the place of the former one"
+wine "$installer" /S '/D=C:\Place' || fail "exit code $?"
+[[ -f $drive/Place/bin/pellucid.exe && ! -e $programs ]] || fail "both are there"
+wine "$installer" /S "/D=C:\\users\\$(id -un)\\AppData\\Local\\Programs\\Pellucid" || fail "exit code $?"
+[[ -f $programs/bin/pellucid.exe && ! -e $drive/Place ]] || fail "both are there"
+
+check "removing"
+wine "$programs/uninstall.exe" /S || fail "exit code $?"
+for _ in {1..50}; do
+    [[ -e $programs ]] || break
+    sleep 0.2
+done
+[[ ! -e $programs ]] || fail "left: $(ls -R "$programs")"
+[[ -f $local/Pellucid/Data/presets/mine.json ]] || fail "the user's data are gone"
+if wine reg query 'HKCU\Software\Classes' /s | grep -i pellucid; then fail "left in the registry"; fi
+
+check "installing for all users"
+wine "$installer" /S /AllUsers || fail "exit code $?"
+[[ -f "$drive/Program Files/Pellucid/bin/pellucid.exe" ]] || fail "nothing is installed"
+wine "$drive/Program Files/Pellucid/uninstall.exe" /S || fail "exit code $?"
+
+check "the ZIP"
+(cd "$home" && unzip -q "$zip" && cd pellucid-*/bin && wine pellucid-cli.exe --version) || fail "it does not run"
+echo "windows_installer_test: passed"
