@@ -8,25 +8,15 @@ The shared libraries in TREE, and those that its programs are linked with, are l
 package database. The copyright file of each package is copied to the folder LICENCES. If TREE contains
 libraries, it also runs on other systems; then the licence texts that those files refer to are copied, too.
 """
-import hashlib
-import json
 import os
 import pathlib
 import re
 import subprocess
 import sys
-import time
 
-
-# The licence texts that Debian's copyright files refer to.
-COMMON = pathlib.Path("/usr/share/common-licenses")
-# Their licence texts are in the copyright file beside the list.
-SCANS = [
-    ("Lung-PET-CT-Dx", "https://doi.org/10.7937/TCIA.2020.NNC2-0461", "CC-BY-4.0",
-     "2020 Li P. et al., The Cancer Imaging Archive", "chest_*.png"),
-    ("dcm_qa_ct", "NOASSERTION", "BSD-2-Clause",
-     "2019 Chris Rorden; data of Aliza Medical Imaging", "head_bone.png, head_muscle.png, head_fluid.png"),
-]
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1]))
+sys.dont_write_bytecode = True
+import spdx
 
 
 def output(*command: str) -> str:
@@ -51,20 +41,8 @@ def packages_of(paths: list[str]) -> dict[str, str]:
     return {path: owners[name] for path, names in candidates.items() for name in reversed(names) if name in owners}
 
 
-def licences_of(package: str) -> tuple[list[str], pathlib.Path]:
-    """The licences that a machine-readable copyright file names (none for other files), and the file."""
-    copyright_file = pathlib.Path("/usr/share/doc") / package / "copyright"
-    text = copyright_file.read_text(errors="replace")
-    return sorted(set(re.findall(r"^License: *(\S+)", text, re.MULTILINE))), copyright_file
-
-
-def identifier(text: str) -> str:
-    return "SPDXRef-" + re.sub(r"[^A-Za-z0-9.-]", "-", text)
-
-
 def main() -> None:
     tree, version, licences, out = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3]), sys.argv[4]
-    epoch = int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))
     programs = [p for p in sorted(tree.rglob("*")) if p.is_file() and not p.is_symlink() and is_program(p)]
     libraries: dict[str, str] = {}
     for program in programs:
@@ -103,58 +81,16 @@ def main() -> None:
     licences.mkdir(parents=True, exist_ok=True)
     packages = []
     common: set[str] = set()
-    known = "|".join(map(re.escape, sorted(os.listdir(COMMON), key=len, reverse=True)))
     for package, names in sorted(by_package.items()):
-        found, copyright_file = licences_of(package)
-        (licences / package).write_bytes(copyright_file.read_bytes())
-        common.update(re.findall(rf"{COMMON}/({known})", copyright_file.read_text(errors="replace")))
-        packages.append({
-            "SPDXID": identifier(package),
-            "name": package,
-            "versionInfo": output("dpkg-query", "-W", "-f=${Version}", package),
-            "supplier": "Organization: Debian",
-            "downloadLocation": "NOASSERTION",
-            "filesAnalyzed": False,
-            "licenseConcluded": "NOASSERTION",
-            "licenseDeclared": "NOASSERTION",
-            "licenseComments": "named in its copyright file: " + ", ".join(found) if found
-                               else "see its copyright file",
-            "copyrightText": "NOASSERTION",
-            "comment": "libraries: " + ", ".join(names) if names else "compiled in, or data",
-        })
+        text = (pathlib.Path("/usr/share/doc") / package / "copyright").read_bytes()
+        (licences / package).write_bytes(text)
+        common |= spdx.common_in(text.decode(errors="replace"))
+        packages.append(spdx.component(package, output("dpkg-query", "-W", "-f=${Version}", package),
+                                       text.decode(errors="replace"),
+                                       "libraries: " + ", ".join(names) if names else "compiled in, or data"))
     if (tree / "lib").is_dir():
-        (licences / "common-licenses").mkdir(exist_ok=True)
-        for name in sorted(common):
-            (licences / "common-licenses" / name).write_bytes((COMMON / name).read_bytes())
-    packages += [{
-        "SPDXID": identifier(name), "name": name, "downloadLocation": place, "filesAnalyzed": False,
-        "licenseConcluded": licence, "licenseDeclared": licence, "copyrightText": whose,
-        "comment": f"scan shown in pictures of the manual: {pictures}",
-    } for name, place, licence, whose, pictures in SCANS]
-    brought.update(scan[0] for scan in SCANS)
-    own = {
-        "SPDXID": "SPDXRef-pellucid", "name": "pellucid", "versionInfo": version,
-        "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
-        "licenseConcluded": "GPL-3.0-or-later", "licenseDeclared": "GPL-3.0-or-later",
-        "copyrightText": "The Pellucid developers",
-    }
-    digest = hashlib.sha256()
-    for program in programs:
-        digest.update(program.read_bytes())
-    document = {
-        "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
-        "name": f"pellucid-{version}",
-        "documentNamespace": f"https://spdx.org/spdxdocs/pellucid-{version}-{digest.hexdigest()[:32]}",
-        "creationInfo": {"created": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(epoch)),
-                         "creators": ["Tool: inventory.py"]},
-        "packages": [own, *packages],
-        "relationships": [{"spdxElementId": "SPDXRef-DOCUMENT", "relationshipType": "DESCRIBES",
-                           "relatedSpdxElement": "SPDXRef-pellucid"}]
-                         + [{"spdxElementId": "SPDXRef-pellucid", "relationshipType": "CONTAINS" if p["name"] in brought else "DEPENDS_ON",
-                             "relatedSpdxElement": p["SPDXID"]} for p in packages],
-    }
-    pathlib.Path(out).write_text(json.dumps(document, indent=1) + "\n")
-    print(f"inventory: {len(programs)} programs and libraries, {len(packages)} third-party packages")
+        spdx.copy_common(common, licences)
+    spdx.write(out, version, programs, packages, brought)
 
 
 if __name__ == "__main__":

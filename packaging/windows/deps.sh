@@ -33,7 +33,7 @@ recipes=(
     "dcmtk 3.6.7-9~deb12u4 openssl libpng1.6"
     "insighttoolkit5 5.2.1-5+deb12u1"
     "qt6-base 6.4.2+dfsg-10 sqlite3 libpng1.6"
-    "qtkeychain 0.13.2-5 qt6-base"
+    "qtkeychain 0.15.0-1 qt6-base" # Debian 13
 )
 # Headers alone: Debian's own packages have them, and CMake's files for them.
 header_packages=(libglm-dev nlohmann-json3-dev libcli11-dev libeigen3-dev)
@@ -50,10 +50,13 @@ highway() { with_cmake -DBUILD_TESTING=OFF -DHWY_ENABLE_EXAMPLES=OFF; }
 onetbb() { with_cmake -DBUILD_SHARED_LIBS=ON -DTBB_TEST=OFF -DTBB_STRICT=OFF; }
 # The instruction sets of Debian's own build, for the same digits.
 fftw3() {
-    with_configure --disable-doc --with-our-malloc --enable-sse2 --enable-avx
-    with_configure --disable-doc --with-our-malloc --enable-sse2 --enable-avx --enable-single
+    with_configure --disable-doc --with-our-malloc --enable-threads --enable-sse2 --enable-avx
+    with_configure --disable-doc --with-our-malloc --enable-threads --enable-sse2 --enable-avx --enable-single
 }
-libepoxy() { with_meson -Degl=no -Dglx=no -Dx11=false -Dtests=false; }
+libepoxy() {
+    with_meson -Degl=no -Dglx=no -Dx11=false -Dtests=false
+    sed -i '/^Requires.private/d' "$prefix/lib/pkgconfig/epoxy.pc" # Windows has no file for its OpenGL
+}
 openjpeg2() { with_cmake -DBUILD_CODEC=OFF; }
 brotli() {
     with_cmake
@@ -119,7 +122,10 @@ qt6-base() {
         -DFEATURE_sql_sqlite=ON -DFEATURE_system_sqlite=ON -DFEATURE_sql_odbc=OFF -DFEATURE_tabletevent=OFF -DFEATURE_dbus=OFF \
         -DFEATURE_icu=OFF -DFEATURE_glib=OFF -DFEATURE_zstd=OFF
 }
-qtkeychain() { with_cmake -DBUILD_SHARED_LIBS=OFF -DBUILD_WITH_QT6=ON -DBUILD_TRANSLATIONS=OFF -DBUILD_TEST_APPLICATION=OFF; }
+qtkeychain() {
+    sed -i 's|/utf-8||' CMakeLists.txt qtkeychain/CMakeLists.txt # an option of another compiler
+    with_cmake -DBUILD_SHARED_LIBS=OFF -DBUILD_WITH_QT6=ON -DBUILD_TRANSLATIONS=OFF -DBUILD_TEST_APPLICATION=OFF
+}
 
 # ---- The ways to build.
 
@@ -161,25 +167,26 @@ INI
 
 # ---- Fetching and building what is missing.
 
-# The machine's own list of packages, with sources in place of programs.
+# The machine's own list of packages, with sources in place of programs, and those of Debian 13 beside its own.
 sources=$folder/sources
 apt_options=(-o "Dir::Etc::sourcelist=$sources/sources.sources" -o Dir::Etc::sourceparts=- -o "Dir::State::lists=$sources/lists"
     -o "Dir::Cache=$sources/cache" -o APT::Sandbox::User="$(id -un)" -qq)
 list_sources() {
     mkdir -p "$sources"/lists/partial "$sources"/cache
     {
-        sed -s -e '$a\\' -e 's/^Types:.*/Types: deb-src/' /etc/apt/sources.list.d/*.sources 2>/dev/null || true
+        sed -s -e '$a\\' -e 's/^Types:.*/Types: deb-src/' -e 's/^\(Suites:.* bookworm\)\( .*\)\?$/\1 trixie\2/' /etc/apt/sources.list.d/*.sources 2>/dev/null || true
     } >"$sources/sources.sources"
     if [[ ! -s $sources/sources.sources ]]; then
         apt_options[1]="Dir::Etc::sourcelist=$sources/sources.list"
-        cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null | sed -n 's/^deb \(\[[^]]*\] \)\?/deb-src \1/p' >"$sources/sources.list"
+        cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null | sed -n 's/^deb \(\[[^]]*\] \)\?/deb-src \1/p' |
+            sed 'p; s/ bookworm / trixie /; t; d' >"$sources/sources.list"
     fi
     apt-get "${apt_options[@]}" update
+    listed=1
 }
 fetch() { # NAME VERSION: unpacked, with Debian's patches, in $folder/work/NAME/source
     local name=$1 version=$2
-    [[ -d $sources/lists/auxfiles || -n ${listed:-} ]] || list_sources
-    listed=1
+    [[ -n ${listed:-} ]] || list_sources
     mkdir -p "$sources/$name"
     local file=${name}_${version#*:}
     if (cd "$sources/$name" && apt-get "${apt_options[@]}" source --download-only "$name=$version"); then
@@ -195,13 +202,22 @@ fetch() { # NAME VERSION: unpacked, with Debian's patches, in $folder/work/NAME/
     fi
 }
 
+keep_licence() { # NAME VERSION: for the packages
+    local source=$folder/work/$1/source files
+    mkdir -p "$prefix/share/licences"
+    rm -f "$prefix/share/licences/$1"_*
+    files=("$source"/debian/copyright)
+    [[ -f ${files[0]} ]] || files=("$source"/COPYING*)
+    cat "${files[@]}" >"$prefix/share/licences/${1}_$2"
+}
+
 # shellcheck source=wine.sh
 source "$here/wine.sh" "$folder" # sets compiler_folder
 # Sources are unpacked with the times of their files, and built elsewhere on other machines.
-common=$(declare -f with_cmake with_configure with_meson; cat "$here/toolchain.cmake"; $mingw-g++-posix --version)
+common=$(declare -f with_cmake with_configure with_meson; grep -v '^#' "$here/toolchain.cmake"; $mingw-g++-posix --version)
 for package in "${header_packages[@]}"; do
     dpkg -L "$package" | grep -E '^/usr/(include|share/cmake|share/eigen3|share/pkgconfig|lib/.*cmake)/' | while read -r file; do
-        [[ ! -f $file ]] || install -D -m 644 "$file" "$prefix/${file#/usr/}"
+        [[ ! -f $file ]] || install -C -D -m 644 "$file" "$prefix/${file#/usr/}"
     done
 done
 declare -A digest
@@ -210,12 +226,13 @@ for recipe in "${recipes[@]}"; do
     read -r name version needs <<<"$recipe"
     digest[$name]=$({ echo "$common $recipe"; declare -f "$name"; for need in $needs; do echo "${digest[$need]}"; done; } | sha256sum | cut -c -16)
     stamp=$prefix/stamps/$name
-    [[ $(cat "$stamp" 2>/dev/null) != "${digest[$name]}" ]] || continue
+    [[ $(cat "$stamp" 2>/dev/null) != "${digest[$name]}" || ! -f $prefix/share/licences/${name}_$version ]] || continue
     (($# < 2)) || [[ " $* " == *" $name "* ]] || continue
     echo "deps.sh: $name $version"
     started=$SECONDS
     rm -rf "$folder/work/$name" && mkdir -p "$folder/work/$name"
     fetch "$name" "$version"
+    keep_licence "$name" "$version"
     set +e # within a condition, the recipe would not stop at what fails
     (
         set -e

@@ -21,7 +21,7 @@ set(ENV{PKG_CONFIG_LIBDIR} ${PELLUCID_WINDOWS_PREFIX}/lib/pkgconfig)
 set(ENV{PKG_CONFIG_PATH} "")
 set(PKG_CONFIG_ARGN --static)
 
-# Windows 10. All libraries but those of Qt, TBB and the compiler are static.
+# Windows 10. All libraries but those of Qt, TBB, libarchive, zlib and the compiler are static.
 set(definitions "-D_WIN32_WINNT=0x0A00 -DWINVER=0x0A00 -DNTDDI_VERSION=0x0A000006 -DOPJ_STATIC -DLIBARCHIVE_STATIC -DCURL_STATICLIB -DJXL_STATIC_DEFINE")
 # On Windows, GCC aligns no variable of the stack to more than 16 bytes, but moves vectors as if it did (its bug 54412): the
 # assembler writes these moves as unaligned ones, which cost nothing on aligned addresses.

@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Sourced with the folder of deps.sh: what Wine needs to run programs that find their libraries there and in the compiler.
-export WINEPREFIX=$1/wine WINEDEBUG=-all
+# Without winemenubuilder, which would add file types and menu entries to this machine's desktop.
+export WINEPREFIX=$1/wine WINEDEBUG=-all WINEDLLOVERRIDES="winemenubuilder.exe=d"
+if [[ ! -f $WINEPREFIX/windows10 ]]; then # it would be Windows 7
+    { wineboot --init && wine winecfg -v win10 && touch "$WINEPREFIX/windows10"; } >"$1/wine.log" 2>&1 ||
+        { echo "wine.sh: Wine cannot be set up: $1/wine.log" >&2; exit 1; }
+fi
 compiler_folder=$(dirname "$(x86_64-w64-mingw32-gcc-posix -print-file-name=libstdc++-6.dll)")
 winepath=
 for libraries in "$1/prefix/bin" "$compiler_folder" /usr/x86_64-w64-mingw32/lib; do
