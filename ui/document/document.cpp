@@ -78,9 +78,9 @@ void Document::addProblems(const std::vector<dicom::Skipped> &problems) {
     // A folder that is opened again has the same problems.
     std::set<std::pair<std::string, std::string>> known;
     for (const dicom::Skipped &problem : m_problems)
-        known.emplace(problem.path.native(), problem.reason.encoded());
+        known.emplace(problem.path.string(), problem.reason.encoded());
     for (const dicom::Skipped &problem : problems)
-        if (known.emplace(problem.path.native(), problem.reason.encoded()).second)
+        if (known.emplace(problem.path.string(), problem.reason.encoded()).second)
             m_problems.push_back(problem);
     emit changed(Change::problems);
 }
