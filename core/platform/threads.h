@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <vector>
 
 namespace pellucid::platform {
@@ -22,5 +24,10 @@ inline void rest() {
     __builtin_ia32_pause();
 #endif
 }
+
+/// Sleeps while a number is `seen`, until it is woken. Only other threads of this process wake it.
+void sleepWhile(const std::atomic<std::uint32_t> &number, std::uint32_t seen);
+/// Wakes one thread that sleeps on a number, which was changed before.
+void wakeOne(std::atomic<std::uint32_t> &number);
 
 } // namespace pellucid::platform

@@ -66,7 +66,7 @@ WorkerTeam::~WorkerTeam() {
     m_stop = true;
     for (const auto &worker : m_workers) {
         worker->wake.fetch_add(1);
-        worker->wake.notify_one();
+        platform::wakeOne(worker->wake);
     }
     for (const auto &worker : m_workers)
         worker->thread.join();
@@ -110,7 +110,7 @@ void WorkerTeam::work(Worker &worker) {
         }
         worker.asleep.store(true);
         if (!m_stop.load())
-            worker.wake.wait(seen);
+            platform::sleepWhile(worker.wake, seen);
         worker.asleep.store(false);
         lastWork = std::chrono::steady_clock::now();
     }
@@ -138,7 +138,7 @@ void WorkerTeam::run(std::span<const Phase> phases) {
                     continue;
                 worker.wake.fetch_add(1);
                 if (worker.asleep.load())
-                    worker.wake.notify_one();
+                    platform::wakeOne(worker.wake);
             }
         }
         while (takePart(0))

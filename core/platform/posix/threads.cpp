@@ -34,4 +34,12 @@ void lowerPriority() {
     ::setpriority(PRIO_PROCESS, id_t(::gettid()), 19);
 }
 
+void sleepWhile(const std::atomic<std::uint32_t> &number, std::uint32_t seen) {
+    number.wait(seen);
+}
+
+void wakeOne(std::atomic<std::uint32_t> &number) {
+    number.notify_one();
+}
+
 } // namespace pellucid::platform

@@ -27,4 +27,15 @@ void lowerPriority() {
     ::SetThreadPriority(::GetCurrentThread(), THREAD_PRIORITY_LOWEST);
 }
 
+// Not by the number's own functions: on Windows, those of GCC 12.2 look at it before they take the
+// lock of their condition, and a thread that is woken in between sleeps for ever.
+void sleepWhile(const std::atomic<std::uint32_t> &number, std::uint32_t seen) {
+    ::WaitOnAddress(const_cast<std::atomic<std::uint32_t> *>(&number), &seen, sizeof seen,
+                    INFINITE);
+}
+
+void wakeOne(std::atomic<std::uint32_t> &number) {
+    ::WakeByAddressSingle(&number);
+}
+
 } // namespace pellucid::platform
