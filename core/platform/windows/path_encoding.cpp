@@ -8,11 +8,9 @@
 // names from files may have any.
 namespace std {
 
-codecvt_base::result
-codecvt<wchar_t, char, mbstate_t>::do_in(state_type &state, const extern_type *from,
-                                         const extern_type *fromEnd, const extern_type *&fromNext,
-                                         intern_type *to, intern_type *toEnd,
-                                         intern_type *&toNext) const {
+codecvt_base::result codecvt<wchar_t, char, mbstate_t>::do_in(
+    state_type &state, const extern_type *from, const extern_type *fromEnd,
+    const extern_type *&fromNext, intern_type *to, intern_type *toEnd, intern_type *&toNext) const {
     constexpr int longest = 2; // of a character in UTF-16
     static const codecvt_utf8_utf16<wchar_t> utf8;
     for (;;) {
