@@ -36,9 +36,10 @@ Application::~Application() {
 bool Application::notify(QObject *receiver, QEvent *event) {
     try {
         keepPlain(receiver, *event);
-        if (const auto *const widget = qobject_cast<QWidget *>(receiver);
-            event->type() == QEvent::Show && widget != nullptr && widget->isWindow())
-            matchTitleBar(*widget);
+        if (event->type() == QEvent::Show)
+            if (const auto *const widget = qobject_cast<QWidget *>(receiver);
+                widget != nullptr && widget->isWindow())
+                matchTitleBar(*widget);
         return QApplication::notify(receiver, event);
     } catch (const task::Cancelled &) {
         // Nothing waits for the result.
