@@ -9,7 +9,7 @@
 
 #include "core/platform/helper.h"
 
-/// What a process that has been taken over does to the system; a file for each system.
+/// A process that has been taken over calls the system by these. Each system has its own file.
 namespace pellucid::test {
 
 /// Whether this system confines processes; Wine gives every program the user's rights.

@@ -57,7 +57,7 @@ public:
         std::optional<task::Reason> refusal;
 
         platform::Handle connection; ///< until it is used
-        platform::Handle replaced;   ///< DCMTK's own socket: DCMTK still sets its options
+        platform::Handle replaced;   ///< DCMTK's socket, open because DCMTK sets its options
 
         /// Takes over the socket that DCMTK has made. *Returns* the one to use.
         platform::Native connected(platform::Native made);

@@ -94,7 +94,7 @@ HiddenAnswer askHidden(const std::string &question, const std::stop_token &stop)
 }
 
 void joinTerminal() {
-    // What is redirected stays so.
+    // Redirected output stays redirected.
     const bool lacksOutput = ::GetStdHandle(STD_OUTPUT_HANDLE) == nullptr,
                lacksErrors = ::GetStdHandle(STD_ERROR_HANDLE) == nullptr;
     if ((!lacksOutput && !lacksErrors) || ::AttachConsole(ATTACH_PARENT_PROCESS) == FALSE)
