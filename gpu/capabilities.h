@@ -22,7 +22,8 @@ struct Capabilities {
     bool canRender() const { return version >= 43; }
 };
 
-/// Those of the context that is current on the calling thread.
+/// Those of the context that is current on the calling thread; without limits below OpenGL 3.3. On
+/// Windows, a thread must call it before other functions of OpenGL, for each context.
 Capabilities currentCapabilities();
 
 /// Memory that is free on the card now; empty unless a vendor's extension reports it.

@@ -4,6 +4,9 @@
 #include <array>
 
 #include <epoxy/gl.h>
+#ifdef _WIN32
+#include <epoxy/wgl.h>
+#endif
 
 namespace pellucid::gpu {
 
@@ -18,6 +21,10 @@ std::size_t limit(GLenum name) {
 } // namespace
 
 Capabilities currentCapabilities() {
+#ifdef _WIN32
+    // A driver's functions belong to a context there; libepoxy looks them up again.
+    epoxy_handle_external_wglMakeCurrent();
+#endif
     Capabilities c;
     c.version = epoxy_gl_version();
     if (const auto *name = reinterpret_cast<const char *>(glGetString(GL_RENDERER)))
@@ -25,6 +32,8 @@ Capabilities currentCapabilities() {
     for (const char *software :
          {"llvmpipe", "softpipe", "SwiftShader", "WARP", "GDI Generic", "Microsoft Basic Render"})
         c.software = c.software || c.renderer.find(software) != std::string::npos;
+    if (!c.canShowImages()) // Windows without a driver has 1.1, which lacks the function of limit()
+        return c;
     c.largest3dTexture = int(limit(GL_MAX_3D_TEXTURE_SIZE));
     c.largest2dTexture = int(limit(GL_MAX_TEXTURE_SIZE));
     if (c.version >= 43) {

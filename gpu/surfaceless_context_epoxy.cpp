@@ -99,12 +99,6 @@ EGLContext contextOf(EGLDisplay display, int major, int minor) {
 
 } // namespace
 
-bool Context::isLost() {
-    if (!m_detectsResets)
-        m_detectsResets = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
-    return *m_detectsResets && glGetGraphicsResetStatus() != GL_NO_ERROR;
-}
-
 SurfacelessContext::SurfacelessContext(bool software) {
     if (!canLoad("libEGL.so.1"))
         refuse(because::noLibEgl);
@@ -124,9 +118,9 @@ SurfacelessContext::SurfacelessContext(bool software) {
             if (m_context != EGL_NO_CONTEXT)
                 return;
         }
-    refuse(wasFound   ? because::noEglContext
+    refuse(wasFound   ? because::noContext
            : software ? because::noEglDevice
-                      : because::noCardForEgl);
+                      : because::noCard);
 }
 
 SurfacelessContext::~SurfacelessContext() {
@@ -137,7 +131,7 @@ void SurfacelessContext::makeCurrent() {
     // EGL's current API is a setting of the thread.
     if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE ||
         eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, m_context) == EGL_FALSE)
-        refuse(because::eglContextUnusable);
+        refuse(because::contextUnusable);
 }
 
 void SurfacelessContext::doneCurrent() {

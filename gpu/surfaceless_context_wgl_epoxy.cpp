@@ -2,14 +2,16 @@
 // Windows makes contexts for windows alone, so this one has a window that is never shown.
 #include "gpu/surfaceless_context.h"
 
-#include <array>
-#include <string_view>
 #include <vector>
 
-#include <epoxy/gl.h>
 #include <epoxy/wgl.h>
+// libepoxy finds these by what it knows of the thread's context, which they change.
+#undef wglCreateContext
+#undef wglDeleteContext
+#undef wglMakeCurrent
 
 #include "core/task/error.h"
+#include "gpu/capabilities.h"
 #include "gpu/reasons.h"
 
 namespace pellucid::gpu {
@@ -64,33 +66,17 @@ HGLRC contextOf(HDC device, int major, int minor) {
     return nullptr;
 }
 
-// Software renderers: Microsoft's own, those of remote desktops and virtual machines, and Mesa's.
-bool isSoftware() {
-    const auto *const text = reinterpret_cast<const char *>(glGetString(GL_RENDERER));
-    const std::string_view renderer = text != nullptr ? text : "";
-    return renderer.empty() || renderer.find("GDI Generic") != std::string_view::npos ||
-           renderer.find("llvmpipe") != std::string_view::npos ||
-           renderer.find("Microsoft Basic Render") != std::string_view::npos ||
-           renderer.find("SwiftShader") != std::string_view::npos;
-}
-
 } // namespace
-
-bool Context::isLost() {
-    if (!m_detectsResets)
-        m_detectsResets = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
-    return *m_detectsResets && glGetGraphicsResetStatus() != GL_NO_ERROR;
-}
 
 SurfacelessContext::SurfacelessContext(bool software) {
     const HDC device = newDeviceContext();
     if (device == nullptr)
-        refuse(because::noLibOpenGl);
+        refuse(because::noContext);
     // Only an old context tells how to make a new one.
     const HGLRC first = wglCreateContext(device);
     bool isCard = false, makesNew = false;
     if (first != nullptr && wglMakeCurrent(device, first) != FALSE) {
-        isCard = !isSoftware();
+        isCard = !currentCapabilities().software;
         makesNew = epoxy_has_wgl_extension(device, "WGL_ARB_create_context_profile");
     }
     if (makesNew && (isCard || software))
@@ -101,7 +87,7 @@ SurfacelessContext::SurfacelessContext(bool software) {
     wglDeleteContext(first);
     if (m_context == nullptr) {
         destroy(device);
-        refuse(!isCard && !software ? because::noCardForEgl : because::noEglContext);
+        refuse(!isCard && !software ? because::noCard : because::noContext);
     }
     m_display = device;
 }
@@ -113,7 +99,8 @@ SurfacelessContext::~SurfacelessContext() {
 
 void SurfacelessContext::makeCurrent() {
     if (wglMakeCurrent(static_cast<HDC>(m_display), static_cast<HGLRC>(m_context)) == FALSE)
-        refuse(because::eglContextUnusable);
+        refuse(because::contextUnusable);
+    epoxy_handle_external_wglMakeCurrent();
 }
 
 void SurfacelessContext::doneCurrent() {

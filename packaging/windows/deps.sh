@@ -53,8 +53,9 @@ fftw3() {
     with_configure --disable-doc --with-our-malloc --enable-threads --enable-sse2 --enable-avx
     with_configure --disable-doc --with-our-malloc --enable-threads --enable-sse2 --enable-avx --enable-single
 }
+# A DLL: it keeps its table of functions by thread, for which Windows must call it.
 libepoxy() {
-    with_meson -Degl=no -Dglx=no -Dx11=false -Dtests=false
+    with_meson --default-library shared -Degl=no -Dglx=no -Dx11=false -Dtests=false
     sed -i '/^Requires.private/d' "$prefix/lib/pkgconfig/epoxy.pc" # Windows has no file for its OpenGL
 }
 openjpeg2() { with_cmake -DBUILD_CODEC=OFF; }
@@ -161,7 +162,7 @@ cpu_family = 'x86_64'
 cpu = 'x86_64'
 endian = 'little'
 INI
-    meson setup "$build" --cross-file "$folder/meson.ini" --prefix "$prefix" --libdir lib --buildtype release --default-library static "$@"
+    meson setup "$build" --cross-file "$folder/meson.ini" --prefix "$prefix" --libdir lib --buildtype release "$@"
     ninja -C "$build" install
 }
 

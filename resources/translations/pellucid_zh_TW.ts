@@ -2542,20 +2542,20 @@
         <translation>此電腦沒有 libOpenGL</translation>
     </message>
     <message>
-        <source>EGL cannot create an OpenGL 3.3 context</source>
-        <translation>此處的 EGL 無法建立 OpenGL 3.3 環境</translation>
+        <source>the graphics driver cannot create an OpenGL 3.3 context</source>
+        <translation>顯示驅動程式無法建立 OpenGL 3.3 環境</translation>
     </message>
     <message>
         <source>EGL finds no device</source>
         <translation>EGL 在此找不到裝置</translation>
     </message>
     <message>
-        <source>EGL finds no graphics card</source>
-        <translation>沒有 EGL 可用的顯示卡</translation>
+        <source>no graphics card was found</source>
+        <translation>找不到顯示卡</translation>
     </message>
     <message>
-        <source>the EGL context cannot be used</source>
-        <translation>EGL 無法使用其環境</translation>
+        <source>the OpenGL context cannot be used</source>
+        <translation>無法使用 OpenGL 環境</translation>
     </message>
     <message>
         <source>OpenGL %1.%2 (%3) is too old; the GPU engine needs 4.3</source>
