@@ -118,9 +118,7 @@ SurfacelessContext::SurfacelessContext(bool software) {
             if (m_context != EGL_NO_CONTEXT)
                 return;
         }
-    refuse(wasFound   ? because::noContext
-           : software ? because::noEglDevice
-                      : because::noCard);
+    refuse(wasFound ? because::noContext : software ? because::noEglDevice : because::noCard);
 }
 
 SurfacelessContext::~SurfacelessContext() {
