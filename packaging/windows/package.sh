@@ -42,7 +42,7 @@ added=1
 while ((added)); do
     added=0
     while read -r name; do
-        [[ ! -f $tree/bin/$name ]] || continue
+        [[ ! -f $tree/bin/$name && $name != api-ms-win-* ]] || continue # those are names for parts of Windows
         for place in "$prefix/bin" "$compiler_folder" /usr/x86_64-w64-mingw32/lib none; do
             [[ ! -f $place/$name ]] || break
         done
