@@ -29,16 +29,88 @@ wine reg query "$key" /v DisplayVersion | grep -q "0\.[0-9]" || fail "no entry a
 check "the command line"
 cli() { wine "$programs/bin/pellucid-cli.exe" "$@"; }
 [[ $(cli --version) == "pellucid-cli "* ]] || fail "no version"
-(cd "$home" && cli phantom study --size 32 && cli render study -o out.png && [[ -s out.png ]]) || fail "nothing is rendered"
+(cd "$home" && cli phantom study --size 32x32x32 && cli render study -o out.png && [[ -s out.png ]]) || fail "nothing is rendered"
 
-check "a double-click on a file opens it"
+# Screenshots are also what shows whether a picture came, and whether it changed.
+pixels() { ffmpeg -loglevel error -f x11grab -draw_mouse 0 -i "$DISPLAY" -frames:v 1 -vf "crop=$1" -f rawvideo - | sha256sum; }
+changes() { # SECONDS WHAT COMMAND...: the projection within that time
+    local seconds=$1 what=$2 before
+    shift 2
+    before=$(pixels "$projection")
+    "$@"
+    for ((i = 0; i < seconds; ++i)); do
+        sleep 1
+        [[ $(pixels "$projection") == "$before" ]] || return 0
+    done
+    fail "$what: the projection is the same"
+}
+window() { # TITLE: its number, as soon as it is there
+    for _ in {1..120}; do
+        xdotool search --onlyvisible --name "$1" 2>/dev/null | head -1 | grep . && return
+        sleep 0.5
+    done
+    fail "no window: $1"
+}
+drag() { # WINDOW X Y, in it, and where to on the screen: X Y
+    local X Y
+    xdotool mousemove --window "$1" "$2" "$3" sleep 0.3 mousedown 1 sleep 0.3
+    eval "$(xdotool getmouselocation --shell)"
+    for i in {1..8}; do xdotool mousemove $((X + ($4 - X) * i / 8)) $((Y + ($5 - Y) * i / 8)) sleep 0.2; done
+    xdotool mouseup 1
+}
+openbox &
+check "the window"
 file=$(find "$home/study" -name '*.dcm' | head -1)
-(cd "$home/study" && wine start /unix "$file") &
-sleep "${PELLUCID_SLOW:-25}"
-shot double_click
-wine tasklist | grep -q '^pellucid\.exe' || fail "the program does not run"
+wine "$programs/bin/pellucid.exe" "$home/study" &
+id=$(window '^Pellucid$')
+sleep "${PELLUCID_SLOW:-20}"
+eval "$(xdotool getwindowgeometry --shell "$id")" # X, Y, WIDTH, HEIGHT
+projection=$((WIDTH * 2 / 5)):$((HEIGHT / 2)):$((X + WIDTH * 7 / 20)):$((Y + HEIGHT / 4))
+shot window
+
+check "turning, a preset, and a picture of it"
+middle=($((X + WIDTH / 2)) $((Y + HEIGHT / 2)))
+changes 5 "turning" drag "$id" $((WIDTH / 2)) $((HEIGHT / 2)) $((middle[0] + 120)) "${middle[1]}"
+shot turned
+changes 10 "a preset" xdotool mousemove $((X + WIDTH * 87 / 100)) $((Y + HEIGHT * 12 / 100)) click 1
+shot preset
+xdotool key ctrl+e
+window 'Export picture' >/dev/null
+sleep 1
+shot export
+xdotool key Return
+sleep 5
+picture=$(find "$drive/users" -name projection.png)
+[[ -s $picture ]] || fail "no picture"
+cp "$picture" "$out/projection.png"
+
+check "a folder dropped from the file manager opens"
+mkdir "$drive/drop"
+if [[ -n ${PELLUCID_STUDY:-} ]]; then
+    cp -r "$PELLUCID_STUDY" "$drive/drop/a study"
+else
+    (cd "$drive/drop" && cli phantom "a study" --kind chest --size 32x32x32)
+fi
+wine explorer 'C:\drop' &
+id=$(window '^drop$')
+xdotool windowmove "$id" 0 0 windowactivate "$id" sleep 2
+shot file_manager
+changes 20 "dropping" drag "$id" 185 85 "${middle[@]}"
+sleep 3
+shot dropped
+
+check "closing"
+id=$(window '^Pellucid$')
+xdotool windowactivate "$id" key alt+F4
+for _ in {1..50}; do
+    wine tasklist | grep -q '^pellucid\.exe' || break
+    sleep 0.2
+done
+! wine tasklist | grep -q '^pellucid\.exe' || fail "it still runs"
 
 check "an upgrade is refused while the program runs"
+wine "$programs/bin/pellucid.exe" &
+window '^Pellucid$' >/dev/null
 code=0
 wine "$installer" /S || code=$?
 ((code == 2)) || fail "exit code $code"
@@ -87,6 +159,14 @@ if wine reg query 'HKCU\Software\Classes' /s | grep -i pellucid; then fail "left
 check "installing for all users"
 wine "$installer" /S /AllUsers || fail "exit code $?"
 [[ -f "$drive/Program Files/Pellucid/bin/pellucid.exe" ]] || fail "nothing is installed"
+
+check "a double-click on a file opens it" # Wine does not look at the file types of one user
+wine start /unix "$file" &
+window '^Pellucid$' >/dev/null
+sleep "${PELLUCID_SLOW:-20}"
+shot double_click
+wineserver -k
+sleep 1
 wine "$drive/Program Files/Pellucid/uninstall.exe" /S || fail "exit code $?"
 
 check "the ZIP"

@@ -87,7 +87,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     m_frames->setToolTip(tr("Pictures of one turn around the patient"));
     m_path->setObjectName("exportPathEdit");
     m_path->setMinimumWidth(360);
-    m_path->setText(QDir(exportFolder()).filePath("projection.png"));
+    m_path->setText(QDir::toNativeSeparators(QDir(exportFolder()).filePath("projection.png")));
     m_message->setObjectName("exportMessage");
     m_message->setWordWrap(true);
     auto *other = new QPushButton(tr("Browse..."));
@@ -223,8 +223,8 @@ void ExportDialog::browse() {
     const QString path = askForSavePath(this, tr("Export picture"), m_path->text(), "*" + suffix);
     if (path.isEmpty())
         return;
-    m_path->setText(path);
-    m_confirmed = path; // the file dialog has asked
+    m_path->setText(QDir::toNativeSeparators(path));
+    m_confirmed = m_path->text(); // the file dialog has asked
 }
 
 void ExportDialog::saveRecipe() {

@@ -112,7 +112,7 @@ QLineEdit *addFileRow(QFormLayout &form, const QString &label, const char *name,
     QObject::connect(choose, &QToolButton::clicked, edit, [edit, label] {
         const QStringList chosen = askForFiles(edit, label);
         if (!chosen.isEmpty())
-            edit->setText(chosen.front());
+            edit->setText(QDir::toNativeSeparators(chosen.front()));
     });
     auto *row = new QWidget;
     auto *layout = new QHBoxLayout(row);
