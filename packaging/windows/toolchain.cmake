@@ -26,7 +26,9 @@ set(definitions "-D_WIN32_WINNT=0x0A00 -DWINVER=0x0A00 -DNTDDI_VERSION=0x0A00000
 # On Windows, GCC aligns no variable of the stack to more than 16 bytes, but moves vectors as if it did (its bug 54412): the
 # assembler writes these moves as unaligned ones, which cost nothing on aligned addresses.
 set(CMAKE_C_FLAGS_INIT "${definitions} -Wa,-muse-unaligned-vector-move")
-set(CMAKE_CXX_FLAGS_INIT "${definitions} -Wa,-muse-unaligned-vector-move")
+# It also takes for granted which registers an inline function of a header leaves alone, although the linker may keep another
+# file's copy of it, with other options: not so on Linux, where such functions can be replaced.
+set(CMAKE_CXX_FLAGS_INIT "${definitions} -Wa,-muse-unaligned-vector-move -fno-ipa-ra")
 # Two builds are the same to the bit.
 foreach(kind EXE SHARED MODULE)
     set(CMAKE_${kind}_LINKER_FLAGS_INIT -Wl,--no-insert-timestamp)
