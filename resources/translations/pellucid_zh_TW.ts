@@ -1534,10 +1534,6 @@
         <translation>此電腦沒有 libEGL</translation>
     </message>
     <message>
-        <source>the OpenGL context cannot be used</source>
-        <translation>無法使用 OpenGL 環境</translation>
-    </message>
-    <message>
         <source>the graphics card was chosen</source>
         <translation>已選擇顯示卡</translation>
     </message>

@@ -16,7 +16,6 @@ PELLUCID_REASON(oldOpenGl, "OpenGL %1.%2 is too old; showing images needs 3.3")
 PELLUCID_REASON(softwareOpenGl, "OpenGL runs on a software renderer")
 PELLUCID_REASON(noSecondContext, "a second OpenGL context cannot be created")
 PELLUCID_REASON(contextsDoNotShare, "OpenGL contexts cannot share their objects")
-PELLUCID_REASON(contextUnusable, "the OpenGL context cannot be used")
 
 // The window
 PELLUCID_REASON(noProjectionYet, "there is no projection yet")

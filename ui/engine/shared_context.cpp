@@ -8,6 +8,7 @@
 
 #include "core/system/log.h"
 #include "core/task/error.h"
+#include "gpu/reasons.h"
 #include "ui/engine/reasons.h"
 
 namespace pellucid::ui {

@@ -34,7 +34,7 @@ protected:
             archive_write_set_options(writer, options);
         if (password != nullptr)
             archive_write_set_passphrase(writer, password);
-        EXPECT_EQ(archive_write_open_filename(writer, path.c_str()), ARCHIVE_OK);
+        EXPECT_EQ(archive_write_open_filename(writer, path.string().c_str()), ARCHIVE_OK);
         fill(writer);
         archive_write_close(writer);
         archive_write_free(writer);

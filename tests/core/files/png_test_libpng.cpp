@@ -28,7 +28,7 @@ std::vector<int> bitsAndColors(const std::filesystem::path &path) {
 std::vector<std::uint8_t> readRgba(const std::filesystem::path &path) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    EXPECT_NE(png_image_begin_read_from_file(&image, path.c_str()), 0);
+    EXPECT_NE(png_image_begin_read_from_file(&image, path.string().c_str()), 0);
     image.format = PNG_FORMAT_RGBA;
     std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
     EXPECT_NE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr), 0);

@@ -20,7 +20,7 @@ TEST(Process, HasAnIdentityWhileItRuns) {
 }
 
 TEST(Process, KnowsItsProgram) {
-    EXPECT_EQ(programFile().filename(), "platform_test");
+    EXPECT_EQ(programFile().stem(), "platform_test");
     EXPECT_TRUE(std::filesystem::exists(programFile()));
 }
 

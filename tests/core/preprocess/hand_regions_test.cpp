@@ -83,8 +83,8 @@ TEST(Paint, ReachesASampleWithTheSmallestBall) {
     const Lattice lattice = tilted();
     std::vector<Region> regions(lattice.size().count(), Region::outside);
     const PatientPoint between = lattice.patient(volume::VoxelPoint{{4.4, 5.4, 6.4}});
-    const PatientPoint far = lattice.patient(volume::VoxelPoint{{1e7, 5.4, 6.4}});
-    preprocess::paint(lattice, {{{between}, 0.1, false}, {{far}, 0.1, false}}, regions);
+    const PatientPoint away = lattice.patient(volume::VoxelPoint{{1e7, 5.4, 6.4}});
+    preprocess::paint(lattice, {{{between}, 0.1, false}, {{away}, 0.1, false}}, regions);
     EXPECT_EQ(std::count(regions.begin(), regions.end(), Region::filled), 1);
     EXPECT_EQ(regions[lattice.size().offsetOf(4, 5, 6)], Region::filled);
 }

@@ -61,7 +61,7 @@ TEST_F(WrittenSegmentation, RoundTripsBitForBit) {
         segment::writeSegmentation(file, segments, lattice, labels);
 
         DcmSegmentation *opened = nullptr;
-        ASSERT_TRUE(DcmSegmentation::loadFile(file.c_str(), opened).good());
+        ASSERT_TRUE(DcmSegmentation::loadFile(file.string().c_str(), opened).good());
         const std::unique_ptr<DcmSegmentation> byDcmtk(opened);
         EXPECT_EQ(byDcmtk->getNumberOfSegments(), 3U);
         OFString name;

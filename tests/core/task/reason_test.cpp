@@ -189,9 +189,10 @@ TEST(Reason, theSystemsReasonsAreKnown) {
         systemReason(std::error_code(ENOENT, std::system_category())).is(because::noSuchFile));
     EXPECT_TRUE(systemReason(ENOMEM).is(because::notEnoughMemory));
     // The texts are the system's own.
-    for (const int error : {ENOENT, EACCES, EPERM, ENOSPC, EDQUOT, EROFS, EISDIR, ENOTDIR,
-                            ENAMETOOLONG, EMFILE, EIO, EFBIG, ELOOP})
-        EXPECT_EQ(systemReason(error).english(), std::strerror(error));
+    for (const int error : {ENOENT, EACCES, EPERM, ENOSPC, EROFS, EISDIR, ENOTDIR, ENAMETOOLONG,
+                            EMFILE, EIO, EFBIG, ELOOP})
+        if (std::string_view(std::strerror(error)) != "Unknown error") // as Windows has some
+            EXPECT_EQ(systemReason(error).english(), std::strerror(error));
     constexpr int unknown = 99999;
     const Reason other = systemReason(unknown);
     EXPECT_TRUE(other.is(because::systemReports));
