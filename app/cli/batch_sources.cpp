@@ -125,9 +125,9 @@ private:
     // They would be inputs of the next run.
     void leaveOutResults() {
         const bool hadStudies = !m_index.studies.empty();
-        const std::string folder = dicom::resolved(m_except).string() + "/";
+        const std::string folder = dicom::resolved(m_except).generic_string() + "/";
         const auto isResult = [&](const fs::path &path) {
-            return dicom::resolved(path).string().starts_with(folder);
+            return dicom::resolved(path).generic_string().starts_with(folder);
         };
         for (dicom::IndexedStudy &study : m_index.studies)
             std::erase_if(study.files, isResult);
