@@ -32,7 +32,7 @@ Capabilities currentCapabilities() {
     for (const char *software :
          {"llvmpipe", "softpipe", "SwiftShader", "WARP", "GDI Generic", "Microsoft Basic Render"})
         c.software = c.software || c.renderer.find(software) != std::string::npos;
-    if (!c.canShowImages()) // Windows without a driver has 1.1, which lacks the function of limit()
+    if (!c.canShowImages()) // Windows without a driver has 1.1, without glGetInteger64v
         return c;
     c.largest3dTexture = int(limit(GL_MAX_3D_TEXTURE_SIZE));
     c.largest2dTexture = int(limit(GL_MAX_TEXTURE_SIZE));

@@ -15,6 +15,7 @@
 #include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/study_index.h"
+#include "core/files/is_below.h"
 #include "core/files/reasons.h"
 #include "core/files/session_folder.h"
 #include "core/system/content_digest.h"
@@ -125,9 +126,9 @@ private:
     // They would be inputs of the next run.
     void leaveOutResults() {
         const bool hadStudies = !m_index.studies.empty();
-        const std::string folder = dicom::resolved(m_except).generic_string() + "/";
+        const fs::path folder = dicom::resolved(m_except);
         const auto isResult = [&](const fs::path &path) {
-            return dicom::resolved(path).generic_string().starts_with(folder);
+            return files::isBelow(dicom::resolved(path), folder);
         };
         for (dicom::IndexedStudy &study : m_index.studies)
             std::erase_if(study.files, isResult);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <system_error>
 
+#include "core/files/is_below.h"
 #include "core/files/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
@@ -80,7 +81,7 @@ void SessionFolder::setAbandoned(bool isAbandoned) {
 
 bool isInSessionFolder(const fs::path &path) {
     const auto sessions = sessionsFolder();
-    return sessions && path.string().starts_with(sessions->string() + "/");
+    return sessions && isBelow(path, *sessions);
 }
 
 void removeAbandonedSessionFolders() {

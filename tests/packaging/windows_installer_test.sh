@@ -31,7 +31,7 @@ cli() { wine "$programs/bin/pellucid-cli.exe" "$@"; }
 [[ $(cli --version) == "pellucid-cli "* ]] || fail "no version"
 (cd "$home" && cli phantom study --size 32x32x32 && cli render study -o out.png && [[ -s out.png ]]) || fail "nothing is rendered"
 
-# Screenshots are also what shows whether a picture came, and whether it changed.
+# Screenshots also show whether the projection changed.
 pixels() { ffmpeg -loglevel error -f x11grab -draw_mouse 0 -i "$DISPLAY" -frames:v 1 -vf "crop=$1" -f rawvideo - | sha256sum; }
 changes() { # SECONDS WHAT COMMAND...: the projection within that time
     local seconds=$1 what=$2 before

@@ -15,6 +15,7 @@
 #include "core/dicom/reasons.h"
 #include "core/dicom/scan.h"
 #include "core/files/atomic_file.h"
+#include "core/files/is_below.h"
 #include "core/files/session_folder.h"
 #include "core/task/error.h"
 #include "core/volume/volume_file.h"
@@ -173,7 +174,7 @@ std::vector<fs::path> missingParts(const Library &library, const dicom::Catalogu
 }
 
 bool isLibraryCopy(const LibraryPlace &place, const fs::path &path) {
-    return path.string().starts_with(place.copiesFolder().string() + "/");
+    return files::isBelow(path, place.copiesFolder());
 }
 
 // The library's copies of a series, by instance UID.

@@ -11,6 +11,7 @@
 #include <QSqlError>
 #include <QVariant>
 
+#include "core/files/is_below.h"
 #include "core/task/error.h"
 #include "ui/language/kept_reasons.h"
 #include "ui/library/list_query.h"
@@ -324,7 +325,7 @@ std::optional<StudyFacts> Library::study(qint64 id) const {
 
 std::vector<VolumeFacts> Library::volumes(const StudyFacts &study) const {
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
-    const std::string copies = m_place.copiesFolder().string() + "/";
+    const fs::path copies = m_place.copiesFolder();
     std::vector<VolumeFacts> volumes;
     ListQuery series(
         list,
@@ -336,7 +337,7 @@ std::vector<VolumeFacts> Library::volumes(const StudyFacts &study) const {
         files.bind(series.integer(0)).run();
         if (files.next()) {
             seriesFacts.files = int(files.integer(0));
-            seriesFacts.isCopied = files.text(1).toStdString().starts_with(copies);
+            seriesFacts.isCopied = files::isBelow(files.text(1).toStdString(), copies);
         }
         ListQuery rows(
             list,
@@ -387,11 +388,11 @@ std::vector<fs::path> Library::copiesOf(const StudyFacts &study) const {
     ListQuery rows(list, "SELECT path FROM instances WHERE series IN (SELECT id FROM series WHERE "
                          "study = ?)");
     rows.bind(findStudy(list, study)).run();
-    const std::string copies = m_place.copiesFolder().string() + "/";
     std::vector<fs::path> own;
     while (rows.next())
-        if (const std::string path = rows.text(0).toStdString(); path.starts_with(copies))
-            own.emplace_back(path);
+        if (fs::path path = rows.text(0).toStdString();
+            files::isBelow(path, m_place.copiesFolder()))
+            own.push_back(std::move(path));
     return own;
 }
 
@@ -406,7 +407,7 @@ void Library::removeCopies(const std::vector<fs::path> &copies) {
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
     std::set<std::string> used;
     ListQuery rows(list, "SELECT path FROM instances WHERE substr(path, 1, ?) = ?");
-    const QString own = QString::fromStdString(m_place.copiesFolder().string() + "/");
+    const QString own = QString::fromStdString((m_place.copiesFolder() / "").string());
     rows.bind(own.size()).bind(own).run();
     while (rows.next())
         used.insert(rows.text(0).toStdString());

@@ -67,7 +67,7 @@ protected:
 
 TEST(Decoder, isConfinedHere) {
     if (!test::systemConfines())
-        GTEST_SKIP() << "Wine does not tell a process its limits";
+        GTEST_SKIP() << "Wine reports no limits to a process";
     EXPECT_EQ(Decoder::shared().confinement() & (platform::limitsHold | platform::callsAreFiltered),
               platform::limitsHold | platform::callsAreFiltered);
 }
