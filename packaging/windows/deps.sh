@@ -1,17 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds what Pellucid needs on Windows from Debian's source packages, with mingw: deps.sh FOLDER [NAME...]. FOLDER/prefix is for
+# Builds what Pellucid needs on Windows from Debian's source packages, with mingw: deps.sh FOLDER. FOLDER/prefix is for
 # packaging/windows/toolchain.cmake. What has been built from the same recipe, version and tools is not built again.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 folder=$(mkdir -p "$1" && cd "$1" && pwd)
 prefix=$folder/prefix
 export PELLUCID_WINDOWS_PREFIX=$prefix
+# What is built is the same to the bit whenever and wherever: it knows neither the time nor the folder. All is installed for
+# /prefix, below $folder.
+export SOURCE_DATE_EPOCH=1 DESTDIR=$folder
 mingw=x86_64-w64-mingw32
 jobs=$(nproc)
 
-# Name, Debian's version, and what has to be built before. apt checks what it fetches against the archive's signed lists. A
-# version that Debian has replaced is fetched no longer: put the new one here.
+# Name, Debian's version, and what it is built with. apt checks what it fetches against the archive's signed lists. If Debian no
+# longer has a version, put its successor here.
 recipes=(
     "libpng1.6 1.6.39-2+deb12u5"
     "xxhash 0.8.1-1"
@@ -31,17 +34,22 @@ recipes=(
     "openssl 3.0.20-1~deb12u2"
     "curl 7.88.1-10+deb12u15 openssl"
     "dcmtk 3.6.7-9~deb12u4 openssl libpng1.6"
-    "insighttoolkit5 5.2.1-5+deb12u1"
+    "insighttoolkit5 5.2.1-5+deb12u1 libeigen3-dev"
     "qt6-base 6.4.2+dfsg-10 sqlite3 libpng1.6"
     "qtkeychain 0.15.0-1 qt6-base" # Debian 13
 )
 # Headers alone: Debian's own packages have them, and CMake's files for them.
 header_packages=(libglm-dev nlohmann-json3-dev libcli11-dev libeigen3-dev)
+# Built without Debian's patches, which not every mirror has.
+unpatched=(libepoxy qtkeychain)
 
 # ---- How each of them is built: in its source folder, $build being an empty folder.
 
 libpng1.6() { with_cmake -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF; }
-xxhash() { with_cmake -S cmake_unofficial -DXXHASH_BUILD_XXHSUM=OFF; }
+xxhash() {
+    with_cmake -S cmake_unofficial -DXXHASH_BUILD_XXHSUM=OFF
+    sed -i 's|^prefix=.*|prefix=/prefix|' "$prefix/lib/pkgconfig/libxxhash.pc" # it says /usr
+}
 fmtlib() { with_cmake -DFMT_TEST=OFF -DFMT_DOC=OFF; }
 spdlog() { with_cmake -DSPDLOG_FMT_EXTERNAL=ON -DSPDLOG_BUILD_EXAMPLE=OFF; }
 googletest() { with_cmake; }
@@ -84,17 +92,17 @@ libarchive() {
 # Its one source file is made by programs of this machine.
 sqlite3() {
     mkdir "$build"
-    (cd "$build" && ../source/configure --disable-readline && make sqlite3.c)
+    (cd "$build" && ../source/configure --prefix=/prefix --disable-readline && make sqlite3.c)
     $mingw-gcc-posix -O2 -DSQLITE_ENABLE_FTS5 -DSQLITE_ENABLE_COLUMN_METADATA -DSQLITE_THREADSAFE=1 -c "$build/sqlite3.c" -o "$build/sqlite3.o"
     $mingw-ar rcsD "$prefix/lib/libsqlite3.a" "$build/sqlite3.o"
     cp "$build/sqlite3.h" src/sqlite3ext.h "$prefix/include/"
     cp "$build/sqlite3.pc" "$prefix/lib/pkgconfig/"
 }
 openssl() {
-    ./Configure mingw64 --cross-compile-prefix=$mingw- --prefix="$prefix" --libdir=lib --openssldir=/openssl \
+    ./Configure mingw64 --cross-compile-prefix=$mingw- --prefix=/prefix --libdir=lib --openssldir=/openssl \
         no-shared no-tests no-engine CC=gcc-posix
     make -j"$jobs" build_sw
-    make install_dev
+    make DESTDIR="$DESTDIR" install_dev
 }
 curl() {
     with_cmake -DBUILD_CURL_EXE=OFF -DCURL_USE_OPENSSL=ON -DHTTP_ONLY=ON -DCURL_USE_LIBSSH2=OFF -DCURL_USE_LIBPSL=OFF -DUSE_LIBIDN2=OFF \
@@ -133,21 +141,20 @@ qtkeychain() {
 with_cmake() {
     local source=(-S .)
     [[ ${1:-} != -S ]] || { source=(-S "$2"); shift 2; }
-    cmake -G Ninja "${source[@]}" -B "$build" -DCMAKE_TOOLCHAIN_FILE="$here/toolchain.cmake" -DCMAKE_INSTALL_PREFIX="$prefix" \
+    cmake -G Ninja "${source[@]}" -B "$build" -DCMAKE_TOOLCHAIN_FILE="$here/toolchain.cmake" -DCMAKE_INSTALL_PREFIX=/prefix \
         -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF -DCMAKE_POLICY_DEFAULT_CMP0074=NEW "$@"
     cmake --build "$build" --parallel "$jobs"
     cmake --install "$build"
 }
 with_configure() {
-    local source=$PWD
     rm -rf "$build"
     mkdir "$build"
     cd "$build"
-    CC=$mingw-gcc-posix CFLAGS="-O2 -D_WIN32_WINNT=0x0A00 -Wa,-muse-unaligned-vector-move" "$source/configure" --host=$mingw --prefix="$prefix" \
+    CC=$mingw-gcc-posix CFLAGS="-O2 -D_WIN32_WINNT=0x0A00 -Wa,-muse-unaligned-vector-move" ../source/configure --host=$mingw --prefix=/prefix \
         --disable-shared --enable-static "$@"
     make -j"$jobs"
     make install
-    cd "$source"
+    cd ../source
 }
 with_meson() {
     cat >"$folder/meson.ini" <<INI
@@ -162,7 +169,7 @@ cpu_family = 'x86_64'
 cpu = 'x86_64'
 endian = 'little'
 INI
-    meson setup "$build" --cross-file "$folder/meson.ini" --prefix "$prefix" --libdir lib --buildtype release "$@"
+    meson setup "$build" --cross-file "$folder/meson.ini" --prefix /prefix --libdir lib --buildtype release "$@"
     ninja -C "$build" install
 }
 
@@ -189,17 +196,18 @@ fetch() { # NAME VERSION: unpacked, with Debian's patches, in $folder/work/NAME/
     local name=$1 version=$2
     [[ -n ${listed:-} ]] || list_sources
     mkdir -p "$sources/$name"
-    local file=${name}_${version#*:}
-    if (cd "$sources/$name" && apt-get "${apt_options[@]}" source --download-only "$name=$version"); then
-        dpkg-source --no-check -x "$sources/$name/$file.dsc" "$folder/work/$name/source" >/dev/null
-    elif (cd "$sources/$name" && apt-get "${apt_options[@]}" source --download-only --tar-only "$name=$version"); then
-        echo "deps.sh: $name without Debian's patches, which the mirror does not have"
-        mkdir "$folder/work/$name/source"
-        tar -x -C "$folder/work/$name/source" --strip-components=1 -f "$sources/$name/${file%-*}".orig.tar.*
-    else
+    local file=${name}_${version#*:} which=()
+    [[ " ${unpatched[*]} " != *" $name "* ]] || which=(--tar-only)
+    (cd "$sources/$name" && apt-get "${apt_options[@]}" source --download-only "${which[@]}" "$name=$version") || {
         echo "deps.sh: Debian no longer has $name $version; it has: $(apt-cache "${apt_options[@]}" showsrc "$name" |
             sed -n 's/^Version: //p' | tr '\n' ' ')" >&2
         exit 1
+    }
+    if ((${#which[@]})); then
+        mkdir "$folder/work/$name/source"
+        tar -x -C "$folder/work/$name/source" --strip-components=1 -f "$sources/$name/${file%-*}".orig.tar.?z
+    else
+        dpkg-source --no-check -x "$sources/$name/$file.dsc" "$folder/work/$name/source" >/dev/null
     fi
 }
 
@@ -214,21 +222,20 @@ keep_licence() { # NAME VERSION: for the packages
 
 # shellcheck source=wine.sh
 source "$here/wine.sh" "$folder" # sets compiler_folder
-# Sources are unpacked with the times of their files, and built elsewhere on other machines.
 common=$(declare -f with_cmake with_configure with_meson; grep -v '^#' "$here/toolchain.cmake"; $mingw-g++-posix --version)
+declare -A digest
 for package in "${header_packages[@]}"; do
+    digest[$package]=$(dpkg-query -W -f '${Version}' "$package")
     dpkg -L "$package" | grep -E '^/usr/(include|share/cmake|share/eigen3|share/pkgconfig|lib/.*cmake)/' | while read -r file; do
         [[ ! -f $file ]] || install -C -D -m 644 "$file" "$prefix/${file#/usr/}"
     done
 done
-declare -A digest
 mkdir -p "$prefix/stamps"
 for recipe in "${recipes[@]}"; do
     read -r name version needs <<<"$recipe"
     digest[$name]=$({ echo "$common $recipe"; declare -f "$name"; for need in $needs; do echo "${digest[$need]}"; done; } | sha256sum | cut -c -16)
     stamp=$prefix/stamps/$name
     [[ $(cat "$stamp" 2>/dev/null) != "${digest[$name]}" || ! -f $prefix/share/licences/${name}_$version ]] || continue
-    (($# < 2)) || [[ " $* " == *" $name "* ]] || continue
     echo "deps.sh: $name $version"
     started=$SECONDS
     rm -rf "$folder/work/$name" && mkdir -p "$folder/work/$name"
@@ -251,4 +258,8 @@ for recipe in "${recipes[@]}"; do
     rm -rf "$folder/work/$name"
     echo "${digest[$name]}" >"$stamp"
     echo "deps.sh: $name took $((SECONDS - started)) s"
+done
+for stamp in "$prefix"/stamps/*; do # of recipes that are gone
+    name=${stamp##*/}
+    [[ -n ${digest[$name]:-} ]] || rm -f "$stamp" "$prefix/share/licences/${name}_"*
 done

@@ -2,7 +2,7 @@
 # Sourced with the folder of deps.sh: what Wine needs to run programs that find their libraries there and in the compiler.
 # Without winemenubuilder, which would add file types and menu entries to this machine's desktop.
 export WINEPREFIX=$1/wine WINEDEBUG=-all WINEDLLOVERRIDES="winemenubuilder.exe=d"
-if [[ ! -f $WINEPREFIX/is_set_up ]]; then # it would be Windows 7, ask about crashes, and write with serifs
+if [[ ! -f $WINEPREFIX/is_set_up ]]; then # by default it is Windows 7, asks about crashes and uses a font with serifs
     {
         wineboot --init && wine winecfg -v win10 &&
             wine reg add 'HKCU\Software\Wine\WineDbg' /v ShowCrashDialog /t REG_DWORD /d 0 /f &&
