@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Whether what is committed can be released: each line is a check, the first that fails ends it.
-# Takes an hour on two cores with a warm compiler cache, two and a half without; needs root for the install tests. Called by `./dev release-check`.
+# Takes an hour on two cores with a warm compiler cache, two and a half without; the packages for Windows, once the libraries that
+# they need are built, two more. Needs root for the install tests. Called by `./dev release-check`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 check() { echo "== $*"; }
@@ -32,6 +33,16 @@ git clone -q . "$elsewhere/somewhere else"
 (cd "$elsewhere/somewhere else" && CCACHE_DISABLE=1 ./dev package)
 for file in "$packages"/*; do
     cmp "$file" "$elsewhere/somewhere else/build/package/packages/$(basename "$file")" || fail "another build gives another $(basename "$file")"
+done
+
+check "the same for Windows, with the libraries that it needs"
+./dev windows package
+cp -r build/windows/package/packages "$elsewhere/windows"
+./dev windows install-test
+./dev windows test
+(cd "$elsewhere/somewhere else" && CCACHE_DISABLE=1 ./dev windows package)
+for file in "$elsewhere"/windows/*; do
+    cmp "$file" "$elsewhere/somewhere else/build/windows/package/packages/$(basename "$file")" || fail "another build gives another $(basename "$file")"
 done
 
 check "programs are small and linked with nothing that they do not use"

@@ -21,7 +21,7 @@ ManifestDPIAware true
 SetCompressor /SOLID lzma
 SetDateSave off
 !ifdef SIGN
-    !uninstfinalize '"${SIGN}" --sign "%1"'
+    !uninstfinalize '"${SIGN}" --sign "%1"' = 0
 !endif
 VIProductVersion "${VERSION}.0"
 VIAddVersionKey /LANG=0 "ProductName" "Pellucid"
@@ -34,7 +34,9 @@ VIAddVersionKey /LANG=0 "LegalCopyright" "The Pellucid developers; GPL-3.0-or-la
 !define PROGRAM "bin\pellucid.exe"
 
 Var forAll      ; 1: for all users
+Var isChosen    ; 1: by an option
 Var givenFolder ; by /D=
+Var dataFolder  ; of the user's own data
 Var forAllButton
 
 !define MUI_ICON "${ICON}"
@@ -56,18 +58,19 @@ Page custom askForWhom answeredForWhom
     LangString ${name} ${LANG_ENGLISH} "${english}"
     LangString ${name} ${LANG_TRADCHINESE} "${chinese}"
 !macroend
-!insertmacro TEXT forWhom "For whom to install Pellucid" "為誰安裝 Pellucid"
-!insertmacro TEXT forWhomLine "For you alone, no administrator is needed." "只為您自己安裝時，不需要系統管理員。"
-!insertmacro TEXT onlyMe "For &me" "只為我(&M)"
-!insertmacro TEXT everybody "For &all users of this computer (asks for an administrator)" "為這台電腦的所有使用者(&A)（需要系統管理員）"
+!insertmacro TEXT forWhom "Choose who can use Pellucid" "選擇誰可以使用 Pellucid"
+!insertmacro TEXT forWhomLine "Installing only for you needs no administrator." "只為您自己安裝時，不需要系統管理員。"
+!insertmacro TEXT onlyMe "Only for &me" "只為我(&M)"
+!insertmacro TEXT everybody "For &all users of this computer (needs an administrator)" "為這台電腦的所有使用者(&A)（需要系統管理員）"
 !insertmacro TEXT needsWindows "Pellucid needs Windows 10 or 11." "Pellucid 需要 Windows 10 或 11。"
-!insertmacro TEXT needsAdministrator "An administrator can install Pellucid for all users." "只有系統管理員可以為所有使用者安裝 Pellucid。"
-!insertmacro TEXT notOurs "$INSTDIR contains other files. Choose an empty folder." "$INSTDIR 已有其他檔案。請選擇空的資料夾。"
-!insertmacro TEXT isRunning "Pellucid is running, or another program uses a file in $INSTDIR. Close it and try again." "Pellucid 正在執行，或其他程式正在使用 $INSTDIR 內的檔案。請關閉後再試一次。"
+!insertmacro TEXT needsAdministrator "Only an administrator can install Pellucid for all users." "只有系統管理員可以為所有使用者安裝 Pellucid。"
+!insertmacro TEXT notOurs "$INSTDIR contains other files, or is for Pellucid's data. Choose an empty folder." "$INSTDIR 已有其他檔案，或用於存放 Pellucid 的資料。請選擇空的資料夾。"
+!insertmacro TEXT isRunning "Pellucid is running, or another program uses one of its files. Close it and try again." "Pellucid 正在執行，或其他程式正在使用其檔案。請關閉後再試一次。"
+!insertmacro TEXT notReplaced "$INSTDIR cannot be replaced: another program uses a file in it, or the folder is protected. Nothing was changed." "無法取代 $INSTDIR：其他程式正在使用其中的檔案，或資料夾受到保護。沒有任何變更。"
 !insertmacro TEXT notWritten "Not everything could be written to $INSTDIR: is the disk full, or the folder protected? Nothing was changed." "無法將所有檔案寫入 $INSTDIR：磁碟是否已滿，或資料夾受到保護？沒有任何變更。"
 !insertmacro TEXT removeData "Also delete your presets, measurements, settings, and lists of studies and servers? They cannot be recovered." "是否也要刪除您的預設集、測量、設定，以及檢查與伺服器清單？這些資料無法復原。"
 !insertmacro TEXT removeImages "The study library contains images that were retrieved from servers or copied from discs. Delete them, too?" "檢查資料庫中有自伺服器取回或自光碟複製的影像。是否也要刪除？"
-!insertmacro TEXT isInTheWay "$INSTDIR.new already exists, and is not this installer's." "$INSTDIR.new 已存在，且不是此安裝程式建立的。"
+!insertmacro TEXT isInTheWay "The folder $INSTDIR.new was not made by this installer. Rename or delete it, and try again." "資料夾 $INSTDIR.new 不是此安裝程式建立的。請將其重新命名或刪除後再試一次。"
 !insertmacro TEXT openIn "Open in Pellucid" "以 Pellucid 開啟"
 !insertmacro TEXT dicomFile "DICOM file" "DICOM 檔案"
 !insertmacro TEXT volumeFile "Volume" "體積資料"
@@ -88,7 +91,7 @@ Page custom askForWhom answeredForWhom
         StrCpy $0 1
     ${EndIf}
 !macroend
-; Removes an installation's files; what others have put there stays.
+; Removes an installation's files, and the folder if nothing else is in it.
 !macro REMOVE_INSTALLATION folder
     !insertmacro IS_INSTALLATION "${folder}"
     ${If} $0 == 1
@@ -102,10 +105,10 @@ Page custom askForWhom answeredForWhom
 !macroend
 
 ; $5: set to 1 if a program runs: its file cannot be written to.
-!macro LOOK_AT name
+!macro LOOK_AT folder name
     ClearErrors
-    ${If} ${FileExists} "$INSTDIR\bin\${name}"
-        FileOpen $0 "$INSTDIR\bin\${name}" a
+    ${If} ${FileExists} "${folder}\bin\${name}"
+        FileOpen $0 "${folder}\bin\${name}" a
         ${If} ${Errors}
             StrCpy $5 1
         ${Else}
@@ -113,15 +116,15 @@ Page custom askForWhom answeredForWhom
         ${EndIf}
     ${EndIf}
 !macroend
-; Goes on when the programs have ended. If they do not, and the user gives up: ends, after `undo`.
-!macro AWAIT_END undo
+; Waits until the programs in a folder have ended. If the user gives up, runs `undo` and ends with 2.
+!macro AWAIT_END folder undo
     ${Do}
         StrCpy $5 0
-        !insertmacro LOOK_AT "pellucid.exe"
-        !insertmacro LOOK_AT "pellucid-cli.exe"
-        !insertmacro LOOK_AT "pellucid-bench.exe"
-        !insertmacro LOOK_AT "pellucid-decode.exe"
-        !insertmacro LOOK_AT "pellucid-net.exe"
+        !insertmacro LOOK_AT "${folder}" "pellucid.exe"
+        !insertmacro LOOK_AT "${folder}" "pellucid-cli.exe"
+        !insertmacro LOOK_AT "${folder}" "pellucid-bench.exe"
+        !insertmacro LOOK_AT "${folder}" "pellucid-decode.exe"
+        !insertmacro LOOK_AT "${folder}" "pellucid-net.exe"
         ${If} $5 == 0
             ${ExitDo}
         ${EndIf}
@@ -145,7 +148,7 @@ Function useContext
     ${EndIf}
 FunctionEnd
 
-; What was asked for, where it is installed already, or the usual place.
+; The folder of /D=, of the existing installation, or the default.
 Function findFolder
     Call useContext
     ${If} $givenFolder != ""
@@ -180,7 +183,9 @@ Function .onInit
     ${EndIf}
     ${GetParameters} $1
     StrCpy $forAll 0
-    ; An upgrade is for whom the former version is.
+    StrCpy $isChosen 0
+    StrCpy $dataFolder "$LOCALAPPDATA\Pellucid"
+    ; An upgrade is for the same users as the installed version.
     ReadRegStr $2 HKCU "${UNINSTALL_KEY}" "InstallLocation"
     ReadRegStr $3 HKLM "${UNINSTALL_KEY}" "InstallLocation"
     ${If} $2 == ""
@@ -190,11 +195,13 @@ Function .onInit
     ClearErrors
     ${GetOptions} $1 "/AllUsers" $2
     ${IfNot} ${Errors}
+        StrCpy $isChosen 1
         StrCpy $forAll 1
     ${EndIf}
     ClearErrors
     ${GetOptions} $1 "/CurrentUser" $2
     ${IfNot} ${Errors}
+        StrCpy $isChosen 1
         StrCpy $forAll 0
     ${EndIf}
     StrCpy $givenFolder $INSTDIR
@@ -213,6 +220,9 @@ Function .onInit
 FunctionEnd
 
 Function askForWhom
+    ${If} $isChosen == 1
+        Abort ; no page
+    ${EndIf}
     !insertmacro MUI_HEADER_TEXT "$(forWhom)" "$(forWhomLine)"
     nsDialogs::Create 1018
     Pop $0
@@ -248,8 +258,14 @@ Function answeredForWhom
     Call findFolder
 FunctionEnd
 
-; $0: whether the folder is absent, empty or an installation.
+; $0: whether the folder is absent, empty or an installation, and not for data.
 Function isOurs
+    StrLen $1 "$dataFolder\"
+    StrCpy $2 "$INSTDIR\" $1
+    ${If} $2 == "$dataFolder\"
+        StrCpy $0 0
+        Return
+    ${EndIf}
     StrCpy $0 1
     ${If} ${FileExists} "$INSTDIR\*.*"
         !insertmacro IS_INSTALLATION "$INSTDIR"
@@ -267,6 +283,13 @@ FunctionEnd
 Function checkFolder
     Call isOurs
     ${If} $0 == 0
+        StrCpy $INSTDIR "$INSTDIR\Pellucid" ; a folder of programs, such as D:\Programs
+        Call isOurs
+        ${If} $0 == 1
+            ${NSD_SetText} $mui.DirectoryPage.Directory $INSTDIR
+            Abort ; the page shows it
+        ${EndIf}
+        StrCpy $INSTDIR $INSTDIR -9
         MessageBox MB_OK|MB_ICONEXCLAMATION "$(notOurs)"
         Abort
     ${EndIf}
@@ -304,8 +327,10 @@ FunctionEnd
 Section
     Call useContext
     StrCpy $9 $INSTDIR
-    ; One that was interrupted has left its mark.
-    ${If} ${FileExists} "$9.new\unfinished"
+    ; An interrupted installation leaves its mark, or all files.
+    !insertmacro IS_INSTALLATION "$9.new"
+    ${If} $0 == 1
+    ${OrIf} ${FileExists} "$9.new\unfinished"
         RMDir /r "$9.new"
     ${EndIf}
     RMDir "$9.new"
@@ -326,9 +351,12 @@ Section
         RMDir /r "$INSTDIR.new"
         !insertmacro REFUSE "$(notWritten)"
     ${EndIf}
-    !insertmacro AWAIT_END 'RMDir /r "$INSTDIR.new"'
+    !insertmacro AWAIT_END "$INSTDIR" 'RMDir /r "$INSTDIR.new"'
+    ${If} $4 != ""
+        !insertmacro AWAIT_END "$4" 'RMDir /r "$INSTDIR.new"'
+    ${EndIf}
     Delete "$INSTDIR.new\unfinished"
-    ; A former one may have been left with files of others.
+    ; An earlier .old folder may remain, because others have put files there.
     StrCpy $8 "$INSTDIR.old"
     ${For} $7 2 99
         ${IfNot} ${FileExists} "$8\*.*"
@@ -349,7 +377,7 @@ Section
     ${EndIf}
     ${If} ${Errors}
         RMDir /r "$INSTDIR.new"
-        !insertmacro REFUSE "$(isRunning)"
+        !insertmacro REFUSE "$(notReplaced)"
     ${EndIf}
     !insertmacro REMOVE_INSTALLATION "$8"
     ${If} $4 != ""
@@ -357,7 +385,7 @@ Section
         !insertmacro REMOVE_INSTALLATION "$4"
     ${EndIf}
 
-    CreateShortcut "$SMPROGRAMS\Pellucid.lnk" "$INSTDIR\${PROGRAM}"
+    CreateShortcut /NoWorkingDir "$SMPROGRAMS\Pellucid.lnk" "$INSTDIR\${PROGRAM}"
     !insertmacro CLASS "Pellucid.dicom" "$(dicomFile)"
     !insertmacro CLASS "Pellucid.volume" "$(volumeFile)"
     !insertmacro EACH_TYPE FILE_TYPE
@@ -434,7 +462,7 @@ Section "Uninstall"
         !insertmacro REMOVE_FILES
         Return
     ${EndIf}
-    !insertmacro AWAIT_END ""
+    !insertmacro AWAIT_END "$INSTDIR" ""
     !insertmacro REMOVE_FILES
     Delete "$INSTDIR\uninstall.exe"
     RMDir "$INSTDIR"
@@ -453,10 +481,21 @@ Section "Uninstall"
         Return
     ${EndIf}
     MessageBox MB_YESNO|MB_ICONQUESTION|MB_DEFBUTTON2 "$(removeData)" /SD IDNO IDNO kept
-    ${If} ${FileExists} "$LOCALAPPDATA\Pellucid\Data\library\files\*.*"
-        MessageBox MB_YESNO|MB_ICONEXCLAMATION|MB_DEFBUTTON2 "$(removeImages)" /SD IDNO IDNO kept
+    StrCpy $1 "$LOCALAPPDATA\Pellucid\Data\library"
+    StrCpy $2 "$LOCALAPPDATA\Pellucid.images" ; where they are while the rest is deleted
+    ${DirState} "$1\files" $0
+    ${If} $0 == 1
+        MessageBox MB_YESNO|MB_ICONEXCLAMATION|MB_DEFBUTTON2 "$(removeImages)" IDYES deleted
+        ClearErrors
+        Rename "$1\files" "$2"
+        IfErrors kept
+        deleted:
     ${EndIf}
     RMDir /r "$LOCALAPPDATA\Pellucid"
     DeleteRegKey HKCU "Software\pellucid"
+    ${If} ${FileExists} "$2\*.*"
+        CreateDirectory "$1"
+        Rename "$2" "$1\files"
+    ${EndIf}
     kept:
 SectionEnd

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the installer and the portable ZIP of what is built: package.sh BUILD DEPS OUT. OUT/packages is the same to the bit for
+# Makes the installer, and a ZIP that needs no installation, of what is built: package.sh BUILD DEPS OUT. OUT/packages is the same to the bit for
 # everybody. SOURCE_DATE_EPOCH: the time of all files. PELLUCID_WINDOWS_CERTIFICATE: a file of PKCS #12 to sign programs with,
 # whose password is in the file PELLUCID_WINDOWS_PASSWORD. PELLUCID_WINDOWS_TIMESTAMPS: the address of a server that signs the time.
 # Signed packages differ.
@@ -19,6 +19,9 @@ if [[ ${1:-} == --sign ]]; then # called by makensis
     sign "$2"
     exit
 fi
+for name in PELLUCID_WINDOWS_CERTIFICATE PELLUCID_WINDOWS_PASSWORD; do # makensis changes the folder
+    [[ -z ${!name:-} ]] || export "$name=$(realpath "${!name}")"
+done
 build=$(realpath "$1") deps=$(realpath "$2") out=$(realpath -m "$3")
 prefix=$deps/prefix tree=$out/tree
 # shellcheck source=wine.sh

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs, uses, upgrades and removes Pellucid under Wine, in a Windows of its own: windows_installer_test.sh PACKAGES OUT.
-# Screenshots in OUT are for looking at. Needs a display.
+# Screenshots in OUT are for looking at. Needs a display. PELLUCID_STUDY: a study to drop, a phantom if not set. PELLUCID_SLOW:
+# seconds until a picture is surely shown, 20 if not set.
 set -euo pipefail
 packages=$(realpath "$1") out=$(mkdir -p "$2" && realpath "$2")
 source_folder=$(realpath "$(dirname "$0")/../..")
@@ -34,9 +35,12 @@ cli() { wine "$programs/bin/pellucid-cli.exe" "$@"; }
 # Screenshots also show whether the projection changed.
 pixels() { ffmpeg -loglevel error -f x11grab -draw_mouse 0 -i "$DISPLAY" -frames:v 1 -vf "crop=$1" -f rawvideo - | sha256sum; }
 changes() { # SECONDS WHAT COMMAND...: the projection within that time
-    local seconds=$1 what=$2 before
+    local seconds=$1 what=$2 before=
     shift 2
-    before=$(pixels "$projection")
+    until [[ $(pixels "$projection") == "$before" ]]; do # it may still be refined
+        before=$(pixels "$projection")
+        sleep 1
+    done
     "$@"
     for ((i = 0; i < seconds; ++i)); do
         sleep 1
@@ -139,22 +143,69 @@ code=0
 wine "$installer" /S '/D=C:\Place' || code=$?
 ((code == 2)) && [[ -f $drive/Place.new/file ]] || fail "a folder beside it is"
 rm -r "$drive/Place.new"
+code=0
+wine "$installer" /S "/D=C:\\users\\$(id -un)\\AppData\\Local\\Pellucid\\Here" || code=$?
+((code == 2)) && [[ ! -e $local/Pellucid/Here ]] || fail "the folder of the data is"
+
+check "what an interrupted installation has left is replaced"
+cp -r "$programs" "$programs.new"
+wine "$installer" /S || fail "exit code $?"
+[[ -f $programs/bin/pellucid.exe && ! -e $programs.new ]] || fail "it is in the way"
 
 check "another folder takes the place of the former one"
+wine "$programs/bin/pellucid.exe" &
+window '^Pellucid$' >/dev/null
+code=0
+wine "$installer" /S '/D=C:\Place' || code=$?
+((code == 2)) && [[ ! -e $drive/Place && -f $programs/bin/pellucid.exe ]] || fail "it moves while the program runs"
+wineserver -k
+sleep 1
 wine "$installer" /S '/D=C:\Place' || fail "exit code $?"
 [[ -f $drive/Place/bin/pellucid.exe && ! -e $programs ]] || fail "both are there"
 wine "$installer" /S "/D=C:\\users\\$(id -un)\\AppData\\Local\\Programs\\Pellucid" || fail "exit code $?"
 [[ -f $programs/bin/pellucid.exe && ! -e $drive/Place ]] || fail "both are there"
 
-check "removing"
+# An uninstaller goes on as a copy of itself.
+gone() { # FOLDER START_MENU ROOT
+    for _ in {1..50}; do
+        [[ -e $1 ]] || break
+        sleep 0.2
+    done
+    [[ ! -e $1 ]] || fail "left: $(ls -R "$1")"
+    [[ ! -e $2/Pellucid.lnk ]] || fail "left in the Start menu"
+    # Settings stay with the data: Software\pellucid.
+    if wine reg query "$3\\Software\\Classes" /s | grep -i pellucid || wine reg query "$3\\Software\\RegisteredApplications" | grep -i pellucid ||
+        wine reg query "$3\\Software\\Microsoft\\Windows\\CurrentVersion\\Uninstall" | grep -i pellucid ||
+        wine reg query "$3\\Software\\Pellucid\\Capabilities"; then
+        fail "left in the registry"
+    fi
+}
+start_menu='Microsoft/Windows/Start Menu/Programs'
+check "removing keeps the user's data"
 wine "$programs/uninstall.exe" /S || fail "exit code $?"
+gone "$programs" "$drive/users/$(id -un)/AppData/Roaming/$start_menu" HKCU
+[[ -f $local/Pellucid/Data/presets/mine.json ]] || fail "the user's data are gone"
+
+check "removing with the data, without the images"
+wine "$installer" /S || fail "exit code $?"
+mkdir -p "$local/Pellucid/Data/library/files"
+echo image >"$local/Pellucid/Data/library/files/image.dcm"
+wine "$programs/uninstall.exe" &
+id=$(window 'Pellucid.*Uninstall')
+xdotool windowactivate "$id" sleep 1 key Return sleep 1 # Uninstall
+for answer in alt+y alt+n; do
+    sleep 3
+    shot "removing_$answer"
+    xdotool key "$answer"
+done
+gone "$programs" "$drive/users/$(id -un)/AppData/Roaming/$start_menu" HKCU
 for _ in {1..50}; do
-    [[ -e $programs ]] || break
+    [[ -e $local/Pellucid/Data/presets ]] || break
     sleep 0.2
 done
-[[ ! -e $programs ]] || fail "left: $(ls -R "$programs")"
-[[ -f $local/Pellucid/Data/presets/mine.json ]] || fail "the user's data are gone"
-if wine reg query 'HKCU\Software\Classes' /s | grep -i pellucid; then fail "left in the registry"; fi
+[[ $(cd "$local" && find Pellucid* -type f) == Pellucid/Data/library/files/image.dcm ]] || fail "kept: $(find "$local"/Pellucid*)"
+wineserver -k
+sleep 1
 
 check "installing for all users"
 wine "$installer" /S /AllUsers || fail "exit code $?"
@@ -168,6 +219,7 @@ shot double_click
 wineserver -k
 sleep 1
 wine "$drive/Program Files/Pellucid/uninstall.exe" /S || fail "exit code $?"
+gone "$drive/Program Files/Pellucid" "$drive/ProgramData/$start_menu" HKLM
 
 check "the ZIP"
 (cd "$home" && unzip -q "$zip" && cd pellucid-*/bin && wine pellucid-cli.exe --version) || fail "it does not run"
