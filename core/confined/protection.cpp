@@ -39,9 +39,9 @@ void noteProtection(const std::string &helpers, int bits) {
             return (bits & bit) != 0 ? yes : no;
         };
         system::log(helpers + ": resource limits " + has(limitsHold, "in force", "NOT in force") +
-                    ", system calls " + has(callsAreFiltered, "filtered", "NOT filtered") +
-                    ", files " + has(filesAreFiltered, "closed", "not closed by Landlock") +
-                    ", network " + has(networkIsEmpty, "empty", "not empty"));
+                    ", rights " + has(callsAreFiltered, "given up", "NOT given up") + ", files " +
+                    has(filesAreFiltered, "closed", "not closed") + ", network " +
+                    has(networkIsEmpty, "empty", "not empty"));
     }
     if ((bits & callsAreFiltered) == 0 && noted().handler)
         noted().handler();

@@ -11,8 +11,8 @@ namespace pellucid::dicom_text {
 bool areKnown(const std::vector<std::string> &terms);
 
 /// Converts a text in these character sets to UTF-8; invalid characters become question marks.
-/// *Source*: PS3.5, 6.1.2.5 and annexes H to K. *Shape*: the characters of the first term need no
-/// designation.
+/// The characters of the first term need no designation. *Source*: PS3.5, 6.1.2.5 and annexes H to
+/// K.
 std::string utf8OfSets(std::string_view text, const std::vector<std::string> &terms);
 
 } // namespace pellucid::dicom_text

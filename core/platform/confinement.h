@@ -22,7 +22,7 @@ enum class Talks {
 
 struct Needs {
     std::uint64_t memoryBytes = 0; ///< private memory
-    /// The largest file that it may write; 0: none.
+    /// The largest file that it may write; 0: none. Windows limits no files.
     std::uint64_t fileBytes = 0;
     Talks talks = Talks::toTheProgram;
 };

@@ -8,7 +8,7 @@ namespace pellucid::platform {
 
 /// False if the environment names no display and no other way to show windows.
 bool mayHaveDisplay();
-/// Whether the library is there that windows draw with OpenGL by.
+/// Whether the OpenGL library that Qt's windows need is installed.
 bool windowsHaveOpenGl();
 /// Whether a library can be loaded; it then stays loaded.
 bool canLoad(const char *library);

@@ -13,8 +13,8 @@
 
 namespace pellucid::platform {
 
-/// A program of the user's that works on what is written to it, such as an encoder. It is killed
-/// with its owner.
+/// A program of the user, such as an encoder, that processes its standard input. It is killed with
+/// its owner.
 class Filter {
 public:
     /// Starts it in a folder, where `messages` is the file that it reports errors to. *Throws*

@@ -7,9 +7,11 @@
 namespace pellucid::platform {
 
 /// Where this program keeps a user's data that may be lost: $XDG_CACHE_HOME/pellucid or
-/// ~/.cache/pellucid. The folder may not exist. None if the user has no such place.
+/// ~/.cache/pellucid; on Windows %LOCALAPPDATA%\\Pellucid\\Cache in place of the latter. The folder
+/// may not exist. None if the user has no such place.
 std::optional<std::filesystem::path> userCachePath();
-/// The same for data that must be kept: $XDG_DATA_HOME/pellucid or ~/.local/share/pellucid.
+/// The same for data that must be kept: $XDG_DATA_HOME/pellucid or ~/.local/share/pellucid;
+/// on Windows %LOCALAPPDATA%\\Pellucid\\Data.
 std::optional<std::filesystem::path> userDataPath();
 
 /// Makes a folder that only the user may enter. *Throws* std::system_error, also if it exists.

@@ -17,7 +17,7 @@ struct Ending {
         tookTooLong,      ///< ended by its Watch
         lostAFile,        ///< a file that it was reading became shorter or went away
         wasKilled,        ///< as the system does if memory runs out
-        brokeConfinement, ///< where the system ends whoever tries
+        brokeConfinement, ///< where the system kills a process that makes a forbidden call
         crashed
     };
     How how = How::byItself;

@@ -11,7 +11,7 @@ std::size_t mappableBytes();
 
 /// The memory that the process's control groups (of a session or a container; either version) still
 /// allow, including reclaimable pages; the maximum if unlimited. `root`: the folder of /proc and
-/// /sys.
+/// /sys. On Windows: what its job still allows.
 std::size_t groupFreeBytes(const std::filesystem::path &root = "/");
 
 /// Memory that is available without displacing other programs, within the limits of the process and
@@ -36,7 +36,8 @@ void returnFreedMemory();
 /// nor does that of the programs that it starts.
 void leaveMemoryOutOfDumps();
 /// From now on, this process's memory, which has passwords and patients, gets into no core dump,
-/// and only root may read it from outside. Not inherited by the programs that this one starts.
+/// and only root may read it from outside; on Windows, only the former. Not inherited by the
+/// programs that this one starts.
 void hideMemory();
 
 } // namespace pellucid::platform

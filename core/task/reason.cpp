@@ -179,6 +179,7 @@ Reason systemReason(int error) {
     case ELOOP:
         return because::tooManyLinks;
     case ETXTBSY:
+    case EBUSY:
         return because::isOpenElsewhere;
     default:
         return because::systemReports(std::strerror(error));

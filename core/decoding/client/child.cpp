@@ -194,7 +194,7 @@ void Child::failByExitStatus() {
     const std::optional<platform::Ending> ended = m_process.ending();
     if (!ended)
         throw Error(ErrorCode::unusable, because::implausibleAnswer);
-    system::log("a decoder was ended by " + std::to_string(ended->number));
+    system::log("a decoder has ended unexpectedly, code " + std::to_string(ended->number));
     using How = platform::Ending::How;
     switch (ended->how) {
     case How::tookTooLong:

@@ -317,7 +317,7 @@ void Link::fail(const Message &message) {
         message.kind == Kind::failed ? m_process.ending() : std::nullopt;
     if (!ended)
         throw Error(ErrorCode::unreachable, because::implausibleReply);
-    system::log("a network helper was ended by " + std::to_string(ended->number));
+    system::log("a network helper has ended unexpectedly, code " + std::to_string(ended->number));
     throw Error(ErrorCode::unreachable, ended->how == platform::Ending::How::brokeConfinement
                                             ? task::Reason(because::helperBrokeItsConfinement)
                                             : because::helperCrashed);

@@ -4,7 +4,7 @@
 namespace pellucid::network::process {
 
 /// Permanently gives up everything that open sockets and files do not need: other files, other
-/// connections, other processes. *Shape*: the bits of platform::Confinement that are in force.
+/// connections, other processes. *Returns* the bits of platform::Confinement that are in force.
 int confine();
 
 /// As confine(), but this process may accept connections on a listening socket that is open, and

@@ -5,14 +5,17 @@
 
 #include "core/platform/memory.h"
 #include "core/platform/windows/accepting.h"
-#include "core/platform/windows/error.h"
+#include "core/platform/windows/start.h"
 
 namespace pellucid::platform {
 
 namespace {
 
-// Whether the program has put this process into a job that limits it.
-bool isLimited() {
+// Puts this process into a job of its own, within that of the program. Whether a job limits it.
+bool limit(std::uint64_t memoryBytes) {
+    const Handle job = newJob();
+    limitToOneProcess(nativeOf(job), std::size_t(memoryBytes));
+    ::AssignProcessToJobObject(nativeOf(job), ::GetCurrentProcess());
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
     constexpr DWORD needed = JOB_OBJECT_LIMIT_ACTIVE_PROCESS | JOB_OBJECT_LIMIT_PROCESS_MEMORY;
     return ::QueryInformationJobObject(nullptr, JobObjectExtendedLimitInformation, &limits,
@@ -47,24 +50,26 @@ bool canOpenAFile() {
 }
 
 bool canOpenASocket() {
-    useSockets();
-    return bool(Handle(Native(::WSASocketW(AF_INET, SOCK_STREAM, IPPROTO_TCP, nullptr, 0, 0)),
+    WSADATA about{};
+    return ::WSAStartup(MAKEWORD(2, 2), &about) == 0 &&
+           bool(Handle(Native(::WSASocketW(AF_INET, SOCK_STREAM, IPPROTO_TCP, nullptr, 0, 0)),
                        Opened::socket));
 }
 
 } // namespace
 
-// The program has started this process with a token that opens nothing, and with another one for
-// the time until now.
+// The program has started this process with a token that opens nothing; until now, the main thread
+// impersonates another one.
 int confine(const Needs &needs) {
     constexpr int mostConnections = 64; // that one login may use
     hideMemory();
     if (needs.talks == Talks::toThoseWhoConnect)
         makeSpareSockets(mostConnections);
+    const bool isLimited = limit(needs.memoryBytes);
     const bool isCodeFixed = forbidNewCode();
     const bool isReverted = ::RevertToSelf() != FALSE;
     const bool hasNoFiles = isReverted && !canOpenAFile();
-    return (isLimited() ? limitsHold : 0) | (isCodeFixed && isReverted ? callsAreFiltered : 0) |
+    return (isLimited ? limitsHold : 0) | (isCodeFixed && isReverted ? callsAreFiltered : 0) |
            (hasNoFiles ? filesAreFiltered : 0) | (!canOpenASocket() ? networkIsEmpty : 0);
 }
 

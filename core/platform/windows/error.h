@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <winsock2.h>
 // After it.
@@ -13,7 +14,7 @@
 
 namespace pellucid::platform {
 
-/// An error of Windows or of its sockets; those that other systems have too, as theirs.
+/// Converts an error of Windows or Winsock. Those with a POSIX equivalent become that.
 std::error_code errorOf(DWORD error);
 [[noreturn]] void failWith(DWORD error);
 [[noreturn]] inline void fail() {
@@ -26,7 +27,7 @@ inline HANDLE nativeOf(HandleView handle) {
 inline SOCKET socketOf(HandleView handle) {
     return SOCKET(handle.get());
 }
-/// What Windows calls none in either of two ways.
+/// Owns a native handle; NULL and INVALID_HANDLE_VALUE become an empty one.
 inline Handle handleOf(HANDLE native, Opened what = Opened::file) {
     return Handle(native == nullptr ? -1 : reinterpret_cast<Native>(native), what);
 }
@@ -48,13 +49,15 @@ private:
     SECURITY_ATTRIBUTES m_attributes{sizeof(SECURITY_ATTRIBUTES), nullptr, FALSE};
 };
 
+/// What a token has, as Windows describes it. *Throws* std::system_error.
+std::vector<std::byte> tokenInformation(HANDLE token, TOKEN_INFORMATION_CLASS what);
 /// The user of a process's token, as text. *Throws* std::system_error.
 std::wstring userOf(HANDLE process);
 
 /// Starts Winsock, once.
 void useSockets();
 
-/// Letters for names that nobody else has.
+/// Random lower-case letters, at most 64, for a unique name. *Throws* std::system_error.
 std::wstring randomName(int letters);
 
 } // namespace pellucid::platform

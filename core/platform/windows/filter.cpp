@@ -28,7 +28,7 @@ Filter::Filter(const std::filesystem::path &program, const std::vector<std::stri
                                CREATE_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr));
     if (!input || !errors)
         fail();
-    m_group = newJob(0);
+    m_group = newJob();
     std::vector<std::wstring> words;
     for (const std::string &argument : arguments)
         words.push_back(std::filesystem::path(argument).wstring());
@@ -48,10 +48,11 @@ Filter::~Filter() {
         return;
     const Handle process(m_process);
     ::TerminateProcess(nativeOf(process), 1);
+    ::WaitForSingleObject(nativeOf(process), INFINITE); // it has files open until then
 }
 
 std::size_t Filter::write(std::span<const std::byte> bytes, int milliseconds) {
-    constexpr std::size_t most = 1 << 18;
+    constexpr std::size_t most = 1 << 18; // less than the pipe holds: none is read in part
     const Handle event = handleOf(::CreateEventW(nullptr, TRUE, FALSE, nullptr));
     OVERLAPPED state{};
     state.hEvent = nativeOf(event);
@@ -83,9 +84,8 @@ std::optional<bool> Filter::ended() {
 
 std::filesystem::path findOnSearchPath(const std::string &name) {
     std::array<wchar_t, 32768> found{};
-    wchar_t *file = nullptr;
     const DWORD length = ::SearchPathW(::_wgetenv(L"PATH"), std::filesystem::path(name).c_str(),
-                                       L".exe", DWORD(found.size()), found.data(), &file);
+                                       L".exe", DWORD(found.size()), found.data(), nullptr);
     return std::wstring(found.data(), length < found.size() ? length : 0);
 }
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdlib>
 #include <cwchar>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "core/platform/memory.h"
 #include "core/platform/windows/start.h"
@@ -20,9 +22,8 @@ constexpr std::chrono::milliseconds endPatience(500);
 
 std::wstring keptEnvironment() {
     std::wstring kept;
-    // Wine's programs need its own.
-    for (const wchar_t *const name : {L"SystemRoot", L"SystemDrive", L"windir", L"PATH",
-                                      L"WINEPATH", L"WINEPREFIX", L"WINEDEBUG", L"DCMDICTPATH"})
+    for (const wchar_t *const name :
+         {L"SystemRoot", L"SystemDrive", L"windir", L"PATH", L"DCMDICTPATH"})
         if (const wchar_t *const value = ::_wgetenv(name))
             kept += std::wstring(name) + L'=' + value + L'\0';
     return kept;
@@ -52,53 +53,59 @@ void lowerIntegrity(HANDLE token) {
         failWith(error);
 }
 
+// The user and the groups that a token has, which objects of the system grant something to.
+class Members {
+public:
+    explicit Members(HANDLE token)
+        : m_user(tokenInformation(token, TokenUser)),
+          m_groups(tokenInformation(token, TokenGroups)) {}
+
+    /// The user, and the groups without any of these attributes.
+    std::vector<SID_AND_ATTRIBUTES> except(DWORD attributes) const {
+        std::vector<SID_AND_ATTRIBUTES> all{
+            {reinterpret_cast<const TOKEN_USER *>(m_user.data())->User.Sid, 0}};
+        const auto &groups = *reinterpret_cast<const TOKEN_GROUPS *>(m_groups.data());
+        for (DWORD n = 0; n < groups.GroupCount; ++n)
+            if ((groups.Groups[n].Attributes & attributes) == 0)
+                all.push_back({groups.Groups[n].Sid, 0});
+        return all;
+    }
+
+private:
+    std::vector<std::byte> m_user, m_groups;
+};
+
+// A primary token of low integrity, without privileges.
+Handle restricted(const Handle &own, std::vector<SID_AND_ATTRIBUTES> denied,
+                  std::vector<SID_AND_ATTRIBUTES> restricting) {
+    HANDLE token = nullptr;
+    if (::CreateRestrictedToken(nativeOf(own), DISABLE_MAX_PRIVILEGE, DWORD(denied.size()),
+                                denied.data(), 0, nullptr, DWORD(restricting.size()),
+                                restricting.data(), &token) == FALSE)
+        fail();
+    Handle made = handleOf(token);
+    lowerIntegrity(token);
+    return made;
+}
+
 // What remains when the helper has confined itself: nobody's groups and privileges, so that no
-// object of the system grants anything.
-Handle lastToken(const Handle &own) {
-    DWORD size = 0;
-    ::GetTokenInformation(nativeOf(own), TokenGroups, nullptr, 0, &size);
-    std::vector<std::byte> bytes(size);
-    if (::GetTokenInformation(nativeOf(own), TokenGroups, bytes.data(), size, &size) == FALSE)
-        fail();
-    auto *const groups = reinterpret_cast<TOKEN_GROUPS *>(bytes.data());
-    DWORD userSize = 0;
-    ::GetTokenInformation(nativeOf(own), TokenUser, nullptr, 0, &userSize);
-    std::vector<std::byte> userBytes(userSize);
-    if (::GetTokenInformation(nativeOf(own), TokenUser, userBytes.data(), userSize, &userSize) ==
-        FALSE)
-        fail();
-    std::vector<SID_AND_ATTRIBUTES> denied{
-        {reinterpret_cast<TOKEN_USER *>(userBytes.data())->User.Sid, 0}};
-    for (DWORD n = 0; n < groups->GroupCount; ++n) // the session's own is needed for its objects
-        if ((groups->Groups[n].Attributes & (SE_GROUP_INTEGRITY | SE_GROUP_LOGON_ID)) == 0)
-            denied.push_back({groups->Groups[n].Sid, 0});
+// object of the system grants anything. The logon session's own group is needed for its objects.
+Handle lastToken(const Handle &own, const Members &members) {
     PSID nobody = nullptr;
     if (::ConvertStringSidToSidW(L"S-1-0-0", &nobody) == FALSE)
         fail();
-    SID_AND_ATTRIBUTES restricting{nobody, 0};
-    HANDLE token = nullptr;
-    const BOOL isMade =
-        ::CreateRestrictedToken(nativeOf(own), DISABLE_MAX_PRIVILEGE, DWORD(denied.size()),
-                                denied.data(), 0, nullptr, 1, &restricting, &token);
-    const DWORD error = ::GetLastError();
-    ::LocalFree(nobody);
-    if (isMade == FALSE)
-        failWith(error);
-    Handle last = handleOf(token);
-    lowerIntegrity(nativeOf(last));
-    return last;
+    const std::unique_ptr<void, decltype(&::LocalFree)> owned(nobody, &::LocalFree);
+    return restricted(own, members.except(SE_GROUP_INTEGRITY | SE_GROUP_LOGON_ID), {{nobody, 0}});
 }
 
-// What the helper has until then: it loads its libraries, reads certificates and connects.
-Handle firstToken(const Handle &own) {
-    HANDLE primary = nullptr, token = nullptr;
-    if (::CreateRestrictedToken(nativeOf(own), DISABLE_MAX_PRIVILEGE, 0, nullptr, 0, nullptr, 0,
-                                nullptr, &primary) == FALSE)
-        fail();
-    const Handle owned = handleOf(primary);
-    lowerIntegrity(primary);
-    if (::DuplicateTokenEx(primary, TOKEN_IMPERSONATE | TOKEN_QUERY, nullptr, SecurityImpersonation,
-                           TokenImpersonation, &token) == FALSE)
+// What the helper has until then: it loads its libraries, reads certificates and connects. It is
+// restricted, too, though to all that the user has: Windows lets a process with a restricted token
+// impersonate only another restricted one.
+Handle firstToken(const Handle &own, const Members &members) {
+    const Handle primary = restricted(own, {}, members.except(SE_GROUP_INTEGRITY));
+    HANDLE token = nullptr;
+    if (::DuplicateTokenEx(nativeOf(primary), TOKEN_IMPERSONATE | TOKEN_QUERY, nullptr,
+                           SecurityImpersonation, TokenImpersonation, &token) == FALSE)
         fail();
     return handleOf(token);
 }
@@ -123,8 +130,11 @@ Helper::Helper(const std::filesystem::path &program, HandleView file) {
         how.arguments.push_back(L"--file=" + number(given));
         how.inherited.emplace_back(given);
     }
-    m_group = newJob(freeMemoryBytes());
-    const Handle user = ownToken(), last = lastToken(user), first = firstToken(user);
+    m_group = newJob();
+    limitToOneProcess(nativeOf(m_group), freeMemoryBytes());
+    const Handle user = ownToken();
+    const Members members(nativeOf(user));
+    const Handle last = lastToken(user, members), first = firstToken(user, members);
     how.job = nativeOf(m_group);
     how.token = nativeOf(last);
     how.firstToken = nativeOf(first);
@@ -149,6 +159,7 @@ Helper::~Helper() {
         return;
     const Handle process(m_process);
     ::TerminateProcess(nativeOf(process), 1);
+    ::WaitForSingleObject(nativeOf(process), INFINITE); // it has files open until then
 }
 
 std::optional<Ending> Helper::ending() {
@@ -171,11 +182,11 @@ std::optional<Ending> Helper::endingWithin(std::chrono::milliseconds patience) {
     ::CloseHandle(process);
     m_process = -1;
     using How = Ending::How;
-    const How how = status == endedByWatch                         ? How::tookTooLong
-                    : status == DWORD(STATUS_IN_PAGE_ERROR)        ? How::lostAFile
-                    : status == DWORD(STATUS_NO_MEMORY)            ? How::wasKilled
-                    : status >= 0xC0000000U || status == DWORD(-1) ? How::crashed
-                                                                   : How::byItself;
+    const How how = status == endedByWatch                  ? How::tookTooLong
+                    : status == DWORD(STATUS_IN_PAGE_ERROR) ? How::lostAFile
+                    : status == DWORD(STATUS_NO_MEMORY)     ? How::wasKilled
+                    : status >= 0xC0000000U                 ? How::crashed
+                                                            : How::byItself;
     return Ending{how, long(status)};
 }
 

@@ -97,24 +97,34 @@ MarkedFolder::MarkedFolder(const fs::path &parent, Path) {
     PrivateSecurity mine;
     if (::CreateDirectoryW(longPath(folder).c_str(), mine.get()) == FALSE)
         fail();
-    m_name = folder.string();
     m_lock = openLock(folder, CREATE_NEW);
-    if (!m_lock)
-        failWith(::GetLastError() == ERROR_PATH_NOT_FOUND ? ERROR_RETRY : ::GetLastError());
-    writeAll(m_lock, std::as_bytes(std::span(mark())));
-    m_path = folder / contentsName;
-    if (::CreateDirectoryW(longPath(m_path).c_str(), nullptr) == FALSE)
-        fail();
-    m_contents = holdFolder(m_path);
-    if (!m_contents)
-        fail();
+    if (!m_lock) {
+        const std::error_code error =
+            ::GetLastError() == ERROR_PATH_NOT_FOUND
+                ? std::make_error_code(std::errc::resource_unavailable_try_again)
+                : errorOf(::GetLastError());
+        ::RemoveDirectoryW(longPath(folder).c_str());
+        throw std::system_error(error);
+    }
+    try {
+        writeAll(m_lock, std::as_bytes(std::span(mark())));
+        m_path = folder / contentsName;
+        if (::CreateDirectoryW(longPath(m_path).c_str(), nullptr) == FALSE)
+            fail();
+        m_contents = holdFolder(m_path);
+        if (!m_contents)
+            fail();
+    } catch (...) {
+        remove(folder, std::move(m_lock));
+        throw;
+    }
 }
 
 MarkedFolder::~MarkedFolder() {
     if (!m_contents || m_isAbandoned)
         return;
     m_contents = Handle();
-    remove(m_name, std::move(m_lock)); // else the next program tries again
+    remove(m_path.parent_path(), std::move(m_lock)); // else the next program tries again
 }
 
 MarkedFolder &MarkedFolder::operator=(MarkedFolder &&other) noexcept {

@@ -70,8 +70,7 @@ void unmapLargePages(std::byte *memory, std::size_t) {
 }
 
 void discardLargePages(std::byte *memory, std::size_t bytes) {
-    ::VirtualFree(memory, bytes, MEM_DECOMMIT);
-    ::VirtualAlloc(memory, bytes, MEM_COMMIT, PAGE_READWRITE);
+    ::DiscardVirtualMemory(memory, bytes);
 }
 
 // The heap of Windows keeps what it thinks fit.

@@ -21,12 +21,14 @@ std::string utf8(const wchar_t *text) {
     return std::filesystem::path(text).string();
 }
 
-// What is written is written as it is, as on other systems, and the console takes it as UTF-8.
+// Streams are binary, as on POSIX; while the program runs, its console shows UTF-8.
 const bool isPrepared = [] {
     _fmode = _O_BINARY;
     for (std::FILE *const stream : {stdin, stdout, stderr})
         ::_setmode(::_fileno(stream), _O_BINARY);
+    static const UINT usual = ::GetConsoleOutputCP();
     ::SetConsoleOutputCP(CP_UTF8);
+    std::atexit([] { ::SetConsoleOutputCP(usual); });
     return true;
 }();
 

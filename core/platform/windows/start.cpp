@@ -23,29 +23,32 @@ std::wstring quoted(const std::wstring &word) {
 
 } // namespace
 
-Handle newJob(std::size_t memoryBytes) {
+Handle newJob() {
     Handle job = handleOf(::CreateJobObjectW(nullptr, nullptr));
-    if (!job)
-        fail();
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
-    limits.BasicLimitInformation.LimitFlags = JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE |
-                                              JOB_OBJECT_LIMIT_ACTIVE_PROCESS |
-                                              JOB_OBJECT_LIMIT_DIE_ON_UNHANDLED_EXCEPTION;
+    limits.BasicLimitInformation.LimitFlags = JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE;
+    if (!job || ::SetInformationJobObject(nativeOf(job), JobObjectExtendedLimitInformation, &limits,
+                                          sizeof limits) == FALSE)
+        fail();
+    return job;
+}
+
+void limitToOneProcess(HANDLE job, std::size_t memoryBytes) {
+    JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
+    limits.BasicLimitInformation.LimitFlags =
+        JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE | JOB_OBJECT_LIMIT_ACTIVE_PROCESS |
+        JOB_OBJECT_LIMIT_PROCESS_MEMORY | JOB_OBJECT_LIMIT_DIE_ON_UNHANDLED_EXCEPTION;
     limits.BasicLimitInformation.ActiveProcessLimit = 1;
-    if (memoryBytes > 0) {
-        limits.BasicLimitInformation.LimitFlags |= JOB_OBJECT_LIMIT_PROCESS_MEMORY;
-        limits.ProcessMemoryLimit = memoryBytes;
-    }
+    limits.ProcessMemoryLimit = memoryBytes;
     JOBOBJECT_BASIC_UI_RESTRICTIONS window{
         JOB_OBJECT_UILIMIT_DESKTOP | JOB_OBJECT_UILIMIT_DISPLAYSETTINGS |
         JOB_OBJECT_UILIMIT_EXITWINDOWS | JOB_OBJECT_UILIMIT_GLOBALATOMS |
         JOB_OBJECT_UILIMIT_HANDLES | JOB_OBJECT_UILIMIT_READCLIPBOARD |
         JOB_OBJECT_UILIMIT_SYSTEMPARAMETERS | JOB_OBJECT_UILIMIT_WRITECLIPBOARD};
-    if (::SetInformationJobObject(nativeOf(job), JobObjectExtendedLimitInformation, &limits,
-                                  sizeof limits) == FALSE)
+    if (::SetInformationJobObject(job, JobObjectExtendedLimitInformation, &limits, sizeof limits) ==
+        FALSE)
         fail();
-    ::SetInformationJobObject(nativeOf(job), JobObjectBasicUIRestrictions, &window, sizeof window);
-    return job;
+    ::SetInformationJobObject(job, JobObjectBasicUIRestrictions, &window, sizeof window);
 }
 
 Handle inheritable(HandleView handle) {
@@ -82,8 +85,10 @@ Handle start(const Start &start) {
     for (const std::wstring &argument : start.arguments)
         line += L' ' + quoted(argument);
     std::wstring environment = start.environment + L'\0';
-    const DWORD flags = CREATE_SUSPENDED | CREATE_NO_WINDOW | CREATE_UNICODE_ENVIRONMENT |
-                        EXTENDED_STARTUPINFO_PRESENT;
+    // A hidden console would be run by a process of its own, for which a weak token is not enough.
+    const DWORD console = start.token != nullptr ? DETACHED_PROCESS : CREATE_NO_WINDOW;
+    const DWORD flags =
+        CREATE_SUSPENDED | console | CREATE_UNICODE_ENVIRONMENT | EXTENDED_STARTUPINFO_PRESENT;
     const std::wstring program = longPath(start.program), folder = start.folder.wstring();
     void *const variables = start.environment.empty() ? nullptr : environment.data();
     const wchar_t *const in = folder.empty() ? nullptr : folder.c_str();

@@ -9,8 +9,12 @@
 
 namespace pellucid::platform {
 
-/// A job of one process, which ends with the handle, and so with this program.
-Handle newJob(std::size_t memoryBytes);
+/// A job, whose processes are killed when the handle is closed, and so when this program ends.
+/// *Throws* std::system_error.
+Handle newJob();
+/// Lets a job have one process, with as much memory, that uses no clipboard, desktop or settings of
+/// others. *Throws* std::system_error.
+void limitToOneProcess(HANDLE job, std::size_t memoryBytes);
 
 /// How a program is started.
 struct Start {
@@ -21,7 +25,7 @@ struct Start {
     std::filesystem::path folder;
     std::wstring environment; ///< pairs, each ended by 0; empty: this program's own
     HANDLE job = nullptr;
-    HANDLE token = nullptr; ///< the program's own is weaker than this one's
+    HANDLE token = nullptr; ///< the primary token of a helper; null: this program's
     /// What its first thread may do until it gives it up; none: what the token allows.
     HANDLE firstToken = nullptr;
 };
