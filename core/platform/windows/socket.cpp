@@ -4,59 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 
+#include "core/platform/place.h"
 #include "core/platform/windows/accepting.h"
 #include "core/platform/windows/error.h"
 // After winsock2.h.
 #include <mswsock.h>
-#include <ws2tcpip.h>
 
 namespace pellucid::platform {
 
 namespace {
 
-// An address and a port, of either kind.
-union Place {
-    sockaddr any;
-    sockaddr_in at4;
-    sockaddr_in6 at6;
-    sockaddr_storage all{};
-};
-
-std::string textOf(const Place &place) {
-    std::array<char, NI_MAXHOST> text{};
-    const in6_addr &at = place.at6.sin6_addr;
-    constexpr std::size_t mappedAt = 12; // bytes
-    if (place.any.sa_family == AF_INET)
-        ::inet_ntop(AF_INET, &place.at4.sin_addr, text.data(), text.size());
-    else if (IN6_IS_ADDR_V4MAPPED(&at))
-        ::inet_ntop(AF_INET, at.s6_addr + mappedAt, text.data(), text.size());
-    else // with its scope, if it has one
-        ::getnameinfo(&place.any, sizeof place.at6, text.data(), DWORD(text.size()), nullptr, 0,
-                      NI_NUMERICHOST);
-    return text.data();
-}
-
-int portOf(const Place &place) {
-    return ntohs(place.any.sa_family == AF_INET6 ? place.at6.sin6_port : place.at4.sin_port);
-}
-
 int sizeOf(const Place &place) {
     return place.any.sa_family == AF_INET6 ? int(sizeof place.at6) : int(sizeof place.at4);
-}
-
-std::optional<Place> placeIn(const std::string &text) {
-    useSockets();
-    Place place;
-    if (::inet_pton(AF_INET, text.c_str(), &place.at4.sin_addr) == 1)
-        place.any.sa_family = AF_INET;
-    else if (::inet_pton(AF_INET6, text.c_str(), &place.at6.sin6_addr) == 1)
-        place.any.sa_family = AF_INET6;
-    else
-        return std::nullopt;
-    return place;
 }
 
 Handle newSocket(int family) {
@@ -74,25 +35,6 @@ void setWaiting(HandleView socket, Accepting accepting) {
 template <class T> void set(HandleView socket, int level, int option, T value) {
     ::setsockopt(socketOf(socket), level, option, reinterpret_cast<const char *>(&value),
                  sizeof value);
-}
-
-// An address of this computer to listen on; empty: all of them.
-Place ownPlace(const std::string &address, int port) {
-    Place place;
-    if (address.empty()) // IPv6 may be switched off
-        place.any.sa_family = newSocket(AF_INET6) ? AF_INET6 : AF_INET;
-    else if (const auto given = placeIn(address))
-        place = *given;
-    else
-        failWith(WSAEINVAL);
-    if (place.any.sa_family == AF_INET6) {
-        place.at6.sin6_port = htons(std::uint16_t(port));
-        return place;
-    }
-    place.at4.sin_port = htons(std::uint16_t(port));
-    if (place.at4.sin_addr.s_addr == INADDR_BROADCAST)
-        failWith(WSAEINVAL);
-    return place;
 }
 
 std::vector<Handle> &spareSockets() {
@@ -137,40 +79,6 @@ void makeSpareSockets(int count) {
     hasOnlySpares = true;
     for (int n = 0; n < count; ++n)
         spareSockets().push_back(newSocket(AF_INET));
-}
-
-std::optional<AddressKind> addressKind(const std::string &text) {
-    const auto place = placeIn(text);
-    if (!place)
-        return std::nullopt;
-    return place->any.sa_family == AF_INET ? AddressKind::ipv4 : AddressKind::ipv6;
-}
-
-bool isLoopback(const std::string &address) {
-    constexpr std::uint32_t loopback = 127;
-    const auto place = placeIn(address);
-    if (!place)
-        return false;
-    return place->any.sa_family == AF_INET ? ntohl(place->at4.sin_addr.s_addr) >> 24 == loopback
-                                           : bool(IN6_IS_ADDR_LOOPBACK(&place->at6.sin6_addr));
-}
-
-std::vector<std::string> addressesOf(const std::string &host) {
-    useSockets();
-    addrinfo wanted{};
-    wanted.ai_socktype = SOCK_STREAM;
-    addrinfo *found = nullptr;
-    std::vector<std::string> addresses;
-    if (::getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0)
-        return addresses;
-    for (const addrinfo *each = found; each != nullptr; each = each->ai_next) {
-        Place place;
-        std::memcpy(&place.all, each->ai_addr,
-                    std::min<std::size_t>(each->ai_addrlen, sizeof place.all));
-        addresses.push_back(textOf(place));
-    }
-    ::freeaddrinfo(found);
-    return addresses;
 }
 
 ListeningSocket listenOn(const std::string &address, int port, int waiting, Accepting accepting) {
@@ -278,12 +186,5 @@ void sendAtOnce(HandleView socket) {
 
 // Windows decides for a whole interface.
 void acknowledgeAtOnce(HandleView) {}
-
-std::string addressText(std::span<const unsigned char> bytes) {
-    std::array<char, INET6_ADDRSTRLEN> text{};
-    if (bytes.size() == 4 || bytes.size() == 16)
-        ::inet_ntop(bytes.size() == 4 ? AF_INET : AF_INET6, bytes.data(), text.data(), text.size());
-    return text.data();
-}
 
 } // namespace pellucid::platform

@@ -5,24 +5,11 @@
 #include <string>
 #include <system_error>
 
-#include <arpa/inet.h>
-#include <sys/socket.h>
-
 #include "core/platform/socket.h"
 
 namespace pellucid::platform {
 
 namespace {
-
-Handle connectTo(int port) {
-    Handle socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    sockaddr_in at{};
-    at.sin_family = AF_INET;
-    at.sin_port = htons(std::uint16_t(port));
-    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(::connect(socket.get(), reinterpret_cast<sockaddr *>(&at), sizeof at), 0);
-    return socket;
-}
 
 TEST(Socket, AddressesAreOfOneKindOrNone) {
     EXPECT_EQ(addressKind("192.0.2.7"), AddressKind::ipv4);
@@ -43,7 +30,7 @@ TEST(Socket, AcceptsConnections) {
         const ListeningSocket listening = listenOn(address, 0, 4);
         EXPECT_GT(listening.port, 0);
         EXPECT_FALSE(awaitInput(listening.socket, 0));
-        const Handle client = connectTo(listening.port);
+        const Handle client = connectTo("127.0.0.1", listening.port, 5.0);
         ASSERT_TRUE(awaitInput(listening.socket, 5000));
         const auto accepted = acceptFrom(listening.socket);
         ASSERT_TRUE(accepted);
