@@ -65,6 +65,9 @@ void whenAskedToEnd(std::function<void()> first, std::function<void()> second) {
     if (::sigaction(SIGHUP, nullptr, &hangUp) == 0 && hangUp.sa_handler != SIG_IGN) // by nohup
         ::sigaddset(&signals, SIGHUP);
     ::pthread_sigmask(SIG_BLOCK, &signals, nullptr); // of the threads to come, too
+    static const sigset_t ours = signals;
+    // But not of other programs, such as a browser, which Qt starts by a fork.
+    ::pthread_atfork(nullptr, nullptr, [] { ::pthread_sigmask(SIG_UNBLOCK, &ours, nullptr); });
     std::thread([signals, first = std::move(first), second = std::move(second)] {
         int received = 0;
         ::sigwait(&signals, &received);
