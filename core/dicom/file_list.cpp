@@ -14,6 +14,7 @@
 #include "core/dicom/missing_objects.h"
 #include "core/dicom/reasons.h"
 #include "core/files/reasons.h"
+#include "core/platform/file.h"
 #include "core/system/text.h"
 #include "core/task/error.h"
 #include "core/task/reasons.h"
@@ -38,10 +39,10 @@ public:
             return folder / name;
         const auto [names, isNew] = m_names.try_emplace(folder);
         if (isNew)
-            for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
-                 entry.increment(ignored))
-                names->second.try_emplace(system::lowered(entry->path().filename().string()),
-                                          entry->path());
+            platform::listFolder(folder, [&](const platform::Entry &entry) {
+                names->second.try_emplace(system::lowered(entry.path.filename().string()),
+                                          entry.path);
+            });
         const auto it = names->second.find(system::lowered(name));
         return it == names->second.end() ? folder / name : it->second;
     }
@@ -131,37 +132,30 @@ void FileList::addDirectory(const fs::path &path, const decoding::DirectoryFile 
 }
 
 void FileList::addFolder(const fs::path &folder) {
-    std::error_code error;
-    fs::directory_iterator top(folder, error);
-    if (error)
-        throw Error(ErrorCode::unusable, task::systemReason(error), folder);
+    using Kind = platform::Entry::Kind;
     std::vector<fs::path> pending{folder}, below;
     while (!pending.empty()) {
         m_progress.check();
         const fs::path current = pending.back();
         pending.pop_back();
-        fs::directory_iterator entries(current, error);
-        if (error) {
-            skipped.push_back({current, task::systemReason(error)});
-            continue;
-        }
-        for (; entries != fs::directory_iterator(); entries.increment(error)) {
-            const fs::directory_entry &entry = *entries;
-            std::error_code ignored;
-            const bool link = entry.is_symlink(ignored);
-            if (entry.is_directory(ignored)) {
-                if (link)
-                    skipped.push_back({entry.path(), because::linksToAFolder});
+        bool isRead = false;
+        const std::error_code error = platform::listFolder(current, [&](const auto &entry) {
+            isRead = true;
+            if (entry.kind == Kind::folder) {
+                if (entry.isLink)
+                    skipped.push_back({entry.path, because::linksToAFolder});
                 else
-                    pending.push_back(entry.path());
-            } else if (entry.is_regular_file(ignored)) {
-                if (entry.path().filename() != missingObjectsName)
-                    below.push_back(entry.path());
+                    pending.push_back(entry.path);
+            } else if (entry.kind == Kind::file) {
+                if (entry.path.filename() != missingObjectsName)
+                    below.push_back(entry.path);
             } else {
-                skipped.push_back(
-                    {entry.path(), link ? because::isABrokenLink : because::isNotARegularFile});
+                skipped.push_back({entry.path, entry.isLink ? because::isABrokenLink
+                                                            : because::isNotARegularFile});
             }
-        }
+        });
+        if (error && !isRead && current == folder)
+            throw Error(ErrorCode::unusable, task::systemReason(error), folder);
         if (error) // a network share or a CD that fails midway
             skipped.push_back({current, task::systemReason(error)});
     }

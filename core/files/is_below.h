@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/platform/file.h"
+
 namespace pellucid::files {
 
-/// Whether a path lies in a folder, or in a folder of it. Both are compared as they are written,
-/// but for the kind of their slashes.
+/// Whether a path is below a folder, at any depth. Compares names as the file system does, not what
+/// links resolve to.
 inline bool isBelow(const std::filesystem::path &path, const std::filesystem::path &folder) {
-    const auto [rest, name] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+    const auto [rest, name] =
+        std::mismatch(folder.begin(), folder.end(), path.begin(), path.end(), platform::isSameName);
     return rest == folder.end() && name != path.end();
 }
 

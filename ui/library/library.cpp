@@ -405,14 +405,15 @@ void Library::removeCopies(const std::vector<fs::path> &copies) {
     if (copies.empty())
         return;
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
-    std::set<std::string> used;
-    ListQuery rows(list, "SELECT path FROM instances WHERE substr(path, 1, ?) = ?");
-    const QString own = QString::fromStdString((m_place.copiesFolder() / "").string());
-    rows.bind(own.size()).bind(own).run();
+    std::set<fs::path> used;
+    ListQuery rows(list, "SELECT path FROM instances");
+    rows.run();
     while (rows.next())
-        used.insert(rows.text(0).toStdString());
+        if (fs::path path = rows.text(0).toStdString();
+            files::isBelow(path, m_place.copiesFolder()))
+            used.insert(std::move(path));
     for (const fs::path &path : copies) {
-        if (used.contains(path.string()))
+        if (used.contains(path))
             continue;
         std::error_code ignored;
         fs::remove(path, ignored);

@@ -17,6 +17,7 @@
 #include "core/decoding/client/message.h"
 #include "core/decoding/client/reasons.h"
 #include "core/files/open_regular.h"
+#include "core/platform/file.h"
 #include "core/task/error.h"
 
 namespace pellucid::decoding {
@@ -50,13 +51,12 @@ fs::path inside(const fs::path &folder, const std::string &name, std::size_t num
 // A free path: two names may become equal, or equal to the folder's name. A path that is too deep
 // or too long is replaced by a folder named after its number.
 fs::path freePath(const fs::path &folder, const std::string &name, std::size_t number) {
-    constexpr std::size_t longestPath = 3000;
     constexpr std::ptrdiff_t deepest = 32;
     fs::path to = inside(folder, name, number);
     std::error_code failed;
     const auto depth =
         std::distance(to.begin(), to.end()) - std::distance(folder.begin(), folder.end());
-    if (to.native().size() <= longestPath && depth <= deepest) {
+    if (to.native().size() <= platform::longestStreamPath() && depth <= deepest) {
         fs::create_directories(to.parent_path(), failed);
         if (!failed && !fs::exists(to, failed))
             return to;

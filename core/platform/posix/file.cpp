@@ -43,6 +43,29 @@ int quotaExceeded() {
     return EDQUOT;
 }
 
+bool isSameName(const std::filesystem::path &a, const std::filesystem::path &b) {
+    return a == b;
+}
+
+std::error_code listFolder(const std::filesystem::path &folder,
+                           const std::function<void(const Entry &)> &take) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        std::error_code ignored;
+        take({it->path(),
+              it->is_directory(ignored)      ? Entry::Kind::folder
+              : it->is_regular_file(ignored) ? Entry::Kind::file
+                                             : Entry::Kind::other,
+              it->is_symlink(ignored)});
+    }
+    return error;
+}
+
+std::size_t longestStreamPath() {
+    return 3000; // of PATH_MAX, which leaves room for the names of unfinished files
+}
+
 std::optional<FileId> fileIdOf(const std::filesystem::path &path) {
     struct stat about {};
     if (::stat(path.c_str(), &about) != 0)
@@ -62,16 +85,16 @@ Handle openForReading(const std::filesystem::path &path) {
         [&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); }));
 }
 
-std::size_t readSome(const Handle &file, std::span<std::byte> to) {
+std::size_t readSome(HandleView file, std::span<std::byte> to) {
     return std::size_t(repeated([&] { return ::read(file.get(), to.data(), to.size()); }));
 }
 
-std::size_t readAt(const Handle &file, std::uint64_t from, std::span<std::byte> to) {
+std::size_t readAt(HandleView file, std::uint64_t from, std::span<std::byte> to) {
     return std::size_t(
         repeated([&] { return ::pread(file.get(), to.data(), to.size(), off_t(from)); }));
 }
 
-void writeAll(const Handle &file, std::span<const std::byte> bytes) {
+void writeAll(HandleView file, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const auto written =
             repeated([&] { return ::write(file.get(), bytes.data(), bytes.size()); });

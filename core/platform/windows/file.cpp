@@ -48,6 +48,45 @@ int quotaExceeded() {
     return diskQuotaExceeded;
 }
 
+bool isSameName(const std::filesystem::path &a, const std::filesystem::path &b) {
+    const std::wstring &one = a.native(), &other = b.native();
+    return ::CompareStringOrdinal(one.data(), int(one.size()), other.data(), int(other.size()),
+                                  TRUE) == CSTR_EQUAL;
+}
+
+// The standard library's iterator knows neither long paths nor junctions.
+std::error_code listFolder(const std::filesystem::path &folder,
+                           const std::function<void(const Entry &)> &take) {
+    WIN32_FIND_DATAW found{};
+    const HANDLE search =
+        ::FindFirstFileExW((longPath(folder) + L"\\*").c_str(), FindExInfoBasic, &found,
+                           FindExSearchNameMatch, nullptr, FIND_FIRST_EX_LARGE_FETCH);
+    if (search == INVALID_HANDLE_VALUE)
+        return errorOf(::GetLastError());
+    do {
+        const std::wstring name = found.cFileName;
+        if (name == L"." || name == L"..")
+            continue;
+        const auto has = [&](DWORD attribute) { return (found.dwFileAttributes & attribute) != 0; };
+        // Names that are no Unicode cannot become texts.
+        const bool isText =
+            ::WideCharToMultiByte(CP_UTF8, WC_ERR_INVALID_CHARS, name.data(), int(name.size()),
+                                  nullptr, 0, nullptr, nullptr) > 0;
+        take({folder / (isText ? name : L"?"),
+              !isText || has(FILE_ATTRIBUTE_DEVICE) ? Entry::Kind::other
+              : has(FILE_ATTRIBUTE_DIRECTORY)       ? Entry::Kind::folder
+                                                    : Entry::Kind::file,
+              has(FILE_ATTRIBUTE_REPARSE_POINT) && IsReparseTagNameSurrogate(found.dwReserved0)});
+    } while (::FindNextFileW(search, &found) != FALSE);
+    const DWORD error = ::GetLastError();
+    ::FindClose(search);
+    return error == ERROR_NO_MORE_FILES ? std::error_code() : errorOf(error);
+}
+
+std::size_t longestStreamPath() {
+    return 240; // of MAX_PATH, which leaves room for the names of unfinished files
+}
+
 std::optional<FileId> fileIdOf(const std::filesystem::path &path) {
     const Handle file = handleOf(::CreateFileW(
         longPath(path).c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
@@ -66,12 +105,15 @@ FileFacts factsOf(const Handle &file) {
         ::GetFileInformationByHandleEx(nativeOf(file), FileBasicInfo, &times, sizeof times) ==
             FALSE)
         fail();
-    constexpr std::int64_t nanosecondsPerTick = 100;
+    // Ticks since 1601. Some file systems know only when the content changed.
+    constexpr std::int64_t nanosecondsPerTick = 100, ticksTo1970 = 116'444'736'000'000'000;
+    const LARGE_INTEGER &changed =
+        times.ChangeTime.QuadPart != 0 ? times.ChangeTime : times.LastWriteTime;
     const bool isRegular =
         ::GetFileType(nativeOf(file)) == FILE_TYPE_DISK &&
         (about.dwFileAttributes & (FILE_ATTRIBUTE_DIRECTORY | FILE_ATTRIBUTE_DEVICE)) == 0;
     return {isRegular, std::uint64_t(about.nFileSizeHigh) << 32 | about.nFileSizeLow,
-            times.ChangeTime.QuadPart * nanosecondsPerTick};
+            (changed.QuadPart - ticksTo1970) * nanosecondsPerTick};
 }
 
 Handle openForReading(const std::filesystem::path &path) {
@@ -84,14 +126,14 @@ Handle openForReading(const std::filesystem::path &path) {
     return file;
 }
 
-std::size_t readSome(const Handle &file, std::span<std::byte> to) {
+std::size_t readSome(HandleView file, std::span<std::byte> to) {
     DWORD got = 0;
     const BOOL isRead = ::ReadFile(nativeOf(file), to.data(), atOnce(to.size()), &got, nullptr);
     return orEnd(isRead, got);
 }
 
-// Windows moves the position of the handle all the same.
-std::size_t readAt(const Handle &file, std::uint64_t from, std::span<std::byte> to) {
+// ReadFile moves the position even with an offset.
+std::size_t readAt(HandleView file, std::uint64_t from, std::span<std::byte> to) {
     LARGE_INTEGER before{};
     const bool isKnown =
         ::SetFilePointerEx(nativeOf(file), LARGE_INTEGER{}, &before, FILE_CURRENT) != FALSE;
@@ -104,7 +146,7 @@ std::size_t readAt(const Handle &file, std::uint64_t from, std::span<std::byte> 
     return bytes;
 }
 
-void writeAll(const Handle &file, std::span<const std::byte> bytes) {
+void writeAll(HandleView file, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         DWORD written = 0;
         if (::WriteFile(nativeOf(file), bytes.data(), atOnce(bytes.size()), &written, nullptr) ==
@@ -153,7 +195,7 @@ std::span<std::byte> map(HandleView file, std::size_t bytes, Access access) {
     return {static_cast<std::byte *>(data), bytes};
 }
 
-// Windows reads ahead of what is read in order alone.
+// Windows reads ahead only if a file is read in order.
 void expectFewReads(std::span<const std::byte>) {}
 
 void unmap(std::span<std::byte> mapped) {

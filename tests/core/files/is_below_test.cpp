@@ -12,6 +12,8 @@ TEST(IsBelow, ComparesWholeNamesWhateverTheSlashes) {
     EXPECT_FALSE(isBelow(folder, folder));
     EXPECT_FALSE(isBelow("/home/a/files2/1.dcm", folder));
     EXPECT_FALSE(isBelow("/home/a", folder));
+    // Whether letters of either case are equal depends on the system.
+    EXPECT_EQ(isBelow("/home/a/FILES/1.dcm", folder), platform::isSameName("FILES", "files"));
 }
 
 } // namespace pellucid::files
