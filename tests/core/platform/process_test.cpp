@@ -5,6 +5,12 @@
 #include <filesystem>
 #include <limits>
 
+#ifndef _WIN32
+#include <csignal>
+#include <sys/wait.h>
+#include <unistd.h>
+#endif
+
 #include "core/platform/process.h"
 
 namespace pellucid::platform {
@@ -37,6 +43,27 @@ TEST(Process, RandomBytesDiffer) {
     fillRandomly(b);
     EXPECT_NE(a, b);
 }
+
+#ifndef _WIN32
+// Otherwise a browser that it starts could not be ended, and a logout would wait for it.
+TEST(Process, ProgramsThatItStartsCanBeAskedToEnd) {
+    const auto statusOf = [](pid_t child) {
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        return WEXITSTATUS(status);
+    };
+    if (const pid_t program = ::fork(); program > 0) {
+        EXPECT_EQ(statusOf(program), 0);
+        return;
+    }
+    whenAskedToEnd([] {}, [] {});
+    if (const pid_t started = ::fork(); started > 0)
+        ::_exit(statusOf(started));
+    sigset_t blocked;
+    ::pthread_sigmask(SIG_BLOCK, nullptr, &blocked);
+    ::_exit(::sigismember(&blocked, SIGTERM) + ::sigismember(&blocked, SIGINT));
+}
+#endif
 
 } // namespace
 } // namespace pellucid::platform
