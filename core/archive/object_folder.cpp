@@ -2,12 +2,13 @@
 #include "core/archive/object_folder.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <cstddef>
+#include <vector>
 
 #include "core/archive/reasons.h"
 #include "core/decoding/client/decoder.h"
 #include "core/decoding/client/reasons.h"
+#include "core/files/open_regular.h"
 #include "core/files/reasons.h"
 #include "core/files/user_folders.h"
 #include "core/system/text.h"
@@ -31,9 +32,18 @@ std::string valueOf(const decoding::AttributeList &list, std::uint32_t tag) {
 }
 
 bool haveSameBytes(const fs::path &a, const fs::path &b) {
-    std::ifstream one(a, std::ios::binary), other(b, std::ios::binary);
-    return std::equal(std::istreambuf_iterator<char>(one), {},
-                      std::istreambuf_iterator<char>(other), {});
+    const files::RegularFile one = files::openRegular(a), other = files::openRegular(b);
+    if (one.facts.bytes != other.facts.bytes)
+        return false;
+    std::vector<std::byte> some(std::size_t(1) << 20), others(some.size());
+    for (;;) {
+        const std::size_t got = platform::readSome(one.handle, some);
+        if (platform::readSome(other.handle, others) != got ||
+            !std::equal(some.begin(), some.begin() + std::ptrdiff_t(got), others.begin()))
+            return false;
+        if (got == 0)
+            return true;
+    }
 }
 
 bool isWhole(const decoding::AttributeList &list) {

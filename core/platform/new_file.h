@@ -29,7 +29,8 @@ public:
     std::FILE *stream() const { return m_file; }
     /// The open file.
     HandleView view() const;
-    /// A path that leads to it now, as long as this program keeps it open.
+    /// A path that leads to it now, as long as this program keeps it open. On Windows, it has a
+    /// hidden name from then on, and stays if the program is killed.
     std::filesystem::path currentPath() const;
     /// Gives it a name on the same file system, in place of the file that has it. `mustLast`: its
     /// bytes are on the disk first.
@@ -42,6 +43,7 @@ private:
     unsigned m_mode;
     std::filesystem::path m_temporary; ///< empty while it has no name
     std::FILE *m_file = nullptr;
+    Handle m_shared; ///< the same file, where the right to delete it is kept from others
 };
 
 /// Copies the first bytes of an open file to the end of another one. Returns how many there were.

@@ -37,12 +37,13 @@ public:
 
     // Returns false when the other side is gone.
     bool serveNext() {
-        const auto request = receive(m_channel, Takes::handle);
+        auto request = receive(m_channel, Takes::handle);
         if (!request)
             return false;
+        m_file = std::move(request->handle);
         m_watch.allow(decodingSeconds(request->message));
         try {
-            orDamaged([&] { answer(*request); });
+            orDamaged([&] { answer(request->message); });
         } catch (const Error &error) {
             finish(error.code() == ErrorCode::outOfMemory ? needsMemory : isUnusable,
                    error.reason().encoded(), {});
@@ -52,49 +53,49 @@ public:
     }
 
 private:
-    void answer(const Received &request) {
-        const files::Mapping file(request.handle, request.message.size,
-                                  files::Mapping::Access::read);
-        switch (request.message.kind) {
+    void answer(const Message &request) {
+        m_content = files::Mapping(m_file, request.size, files::Mapping::Access::read);
+        const std::span<const std::byte> content = m_content.bytes();
+        switch (request.kind) {
         case Message::Kind::header:
-            platform::expectFewReads(file.bytes()); // only the header is needed
-            finish(0, pack(parseHeader(file.bytes())), {});
+            platform::expectFewReads(content); // only the header is needed
+            finish(0, pack(parseHeader(content)), {});
             break;
         case Message::Kind::image: {
-            const DecodedImage image = decodeImage(file.bytes());
+            const DecodedImage image = decodeImage(content);
             finish(0, pack(image.header), std::as_bytes(std::span(image.samples)));
             break;
         }
         case Message::Kind::segmentation: {
-            const DecodedSegmentation decoded = decodeSegmentation(file.bytes());
+            const DecodedSegmentation decoded = decodeSegmentation(content);
             finish(0, pack(decoded.header), decoded.pixels);
             break;
         }
         case Message::Kind::structureSet: {
-            const DecodedStructureSet decoded = decodeStructureSet(file.bytes());
+            const DecodedStructureSet decoded = decodeStructureSet(content);
             finish(0, pack(decoded.header), std::as_bytes(std::span(decoded.points)));
             break;
         }
         case Message::Kind::attributes:
-            platform::expectFewReads(file.bytes());
-            finish(0, pack(listAttributes(file.bytes())), {});
+            platform::expectFewReads(content);
+            finish(0, pack(listAttributes(content)), {});
             break;
         case Message::Kind::uncompressed:
             finish(0, {},
-                   uncompress(file.bytes(), request.message.code == 1 ? explicitLittleEndian
-                                                                      : implicitLittleEndian));
+                   uncompress(content,
+                              request.code == 1 ? explicitLittleEndian : implicitLittleEndian));
             break;
         case Message::Kind::directory:
-            finish(0, pack(parseDirectory(file.bytes())), {});
+            finish(0, pack(parseDirectory(content)), {});
             break;
         case Message::Kind::archive:
-            answerArchive(file.bytes());
+            answerArchive(content);
             break;
         case Message::Kind::layout:
-            finish(0, pack(parseVolumeLayout(file.bytes())), {});
+            finish(0, pack(parseVolumeLayout(content)), {});
             break;
         case Message::Kind::samples:
-            readSamples(file.bytes(), samplesOf(request.message),
+            readSamples(content, samplesOf(request),
                         [&](std::span<const std::byte> data, bool hasMore) {
                             part(hasMore ? moreFollows : 0, {}, data);
                         });
@@ -168,13 +169,18 @@ private:
             throw Disconnected();
     }
 
+    // `data` is not in the file, which the other side may replace as soon as it has the answer.
     void finish(int code, const std::string &body, std::span<const std::byte> data) {
         put(body, data);
+        m_content = files::Mapping();
+        m_file = Handle();
         if (!send(m_channel, {Message::Kind::done, code, body.size(), data.size()}))
             throw Disconnected();
     }
 
     Channel m_channel;
+    Handle m_file; ///< that of the request
+    files::Mapping m_content;
     Handle m_arena;
     files::Mapping m_mapped;
     std::uint64_t m_arenaBytes = 1; // unknown before the first answer, which requests it

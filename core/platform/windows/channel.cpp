@@ -17,13 +17,12 @@ namespace {
 // reads before its number is sent.
 struct Envelope {
     enum What : std::uint32_t { nothing, file, memory, socket } what = nothing;
-    std::uint32_t reserved = 0;
     std::uint64_t number = 0;
     WSAPROTOCOL_INFOW socketInfo{};
 };
 
 constexpr std::size_t largestMessage = std::size_t(256) << 10;
-// How long somebody who reads may take to do so.
+// How long the reader may take.
 constexpr DWORD busyMs = 50;
 
 Handle newEvent() {

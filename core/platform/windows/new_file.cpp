@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
+#include <cstring>
 #include <fcntl.h>
 #include <io.h>
 #include <optional>
 #include <vector>
 
+#include "core/platform/file.h"
 #include "core/platform/windows/error.h"
 
 namespace pellucid::platform {
@@ -20,6 +22,10 @@ std::filesystem::path hiddenNameFor(const std::filesystem::path &path) {
     return path.parent_path() / (L"." + path.filename().wstring() + L"." + randomName(8));
 }
 
+HANDLE ownOf(std::FILE *file) {
+    return reinterpret_cast<HANDLE>(::_get_osfhandle(::_fileno(file)));
+}
+
 // A file that is to be deleted goes with its last handle, also if the program is killed; until then
 // nobody can open it.
 bool setDeleted(HANDLE file, bool isDeleted) {
@@ -28,20 +34,30 @@ bool setDeleted(HANDLE file, bool isDeleted) {
                                         sizeof disposition) != FALSE;
 }
 
-// *Shape*: the error; 0: it has the name now.
+// *Returns* the error; 0: it has the name now.
 DWORD renameTo(HANDLE file, const std::filesystem::path &path) {
     const std::wstring name = longPath(path);
     std::vector<std::byte> bytes(sizeof(FILE_RENAME_INFO) + sizeof(wchar_t) * name.size());
     auto *const request = reinterpret_cast<FILE_RENAME_INFO *>(bytes.data());
-    request->ReplaceIfExists = TRUE;
     request->FileNameLength = DWORD(sizeof(wchar_t) * name.size());
     std::copy(name.begin(), name.end(), request->FileName);
-    return ::SetFileInformationByHandle(file, FileRenameInfo, request, DWORD(bytes.size())) != FALSE
-               ? 0
-               : ::GetLastError();
+    const auto isRenamed = [&](FILE_INFO_BY_HANDLE_CLASS how) {
+        return ::SetFileInformationByHandle(file, how, request, DWORD(bytes.size())) != FALSE;
+    };
+    // As on POSIX: also in place of a file that others have open, if they share its deletion. Not
+    // every file system can do that.
+    constexpr auto renameInfoEx = FILE_INFO_BY_HANDLE_CLASS(22);
+    constexpr DWORD replace = 1, posixSemantics = 2;
+    const DWORD flags = replace | posixSemantics;
+    std::memcpy(bytes.data(), &flags, sizeof flags);
+    if (isRenamed(renameInfoEx))
+        return 0;
+    std::memset(bytes.data(), 0, sizeof flags);
+    request->ReplaceIfExists = TRUE;
+    return isRenamed(FileRenameInfo) ? 0 : ::GetLastError();
 }
 
-// Windows denies access to a file that another program has open; the user is told which it is.
+// Windows reports "access denied" for a file that another program has open: report that instead.
 DWORD reasonFor(DWORD error, const std::filesystem::path &path) {
     if (error != ERROR_ACCESS_DENIED)
         return error;
@@ -65,6 +81,11 @@ NewFile::NewFile(const std::filesystem::path &path, Readers readers)
     if (!file)
         fail();
     setDeleted(nativeOf(file), true);
+    HANDLE shared = nullptr;
+    if (::DuplicateHandle(::GetCurrentProcess(), nativeOf(file), ::GetCurrentProcess(), &shared,
+                          FILE_GENERIC_READ | FILE_GENERIC_WRITE, FALSE, 0) == FALSE)
+        fail();
+    m_shared = handleOf(shared);
     const int descriptor = ::_open_osfhandle(file.get(), _O_BINARY);
     m_file = descriptor >= 0 ? ::_fdopen(descriptor, "wb") : nullptr;
     if (m_file == nullptr)
@@ -75,50 +96,41 @@ NewFile::NewFile(const std::filesystem::path &path, Readers readers)
 NewFile::~NewFile() {
     if (m_file == nullptr)
         return;
-    setDeleted(nativeOf(view()), true);
+    setDeleted(ownOf(m_file), true);
     std::fclose(m_file);
 }
 
 HandleView NewFile::view() const {
-    return HandleView(::_get_osfhandle(::_fileno(m_file)));
+    return m_shared;
 }
 
 std::filesystem::path NewFile::currentPath() const {
-    setDeleted(nativeOf(view()), false);
+    setDeleted(ownOf(m_file), false);
     return m_temporary;
 }
 
 void NewFile::publish(const std::filesystem::path &path, bool mustLast) {
     if (std::fflush(m_file) != 0)
         throw std::system_error(errno, std::generic_category());
-    const HANDLE file = nativeOf(view());
+    const HANDLE file = ownOf(m_file);
     if ((mustLast && ::FlushFileBuffers(file) == FALSE) || !setDeleted(file, false))
         fail();
     if (const DWORD error = renameTo(file, path); error != 0)
         failWith(reasonFor(error, path));
     std::fclose(m_file);
     m_file = nullptr;
+    m_shared = Handle();
 }
 
 std::uint64_t copyStart(HandleView from, HandleView to, std::uint64_t bytes) {
     std::vector<std::byte> buffer(std::size_t(1) << 20);
     std::uint64_t at = 0;
     while (at < bytes) {
-        OVERLAPPED place{};
-        place.Offset = DWORD(at);
-        place.OffsetHigh = DWORD(at >> 32);
-        DWORD got = 0, written = 0;
-        const auto wanted = DWORD(std::min<std::uint64_t>(buffer.size(), bytes - at));
-        if (::ReadFile(nativeOf(from), buffer.data(), wanted, &got, &place) == FALSE) {
-            if (::GetLastError() != ERROR_HANDLE_EOF)
-                fail();
-            break;
-        }
+        const auto wanted = std::size_t(std::min<std::uint64_t>(buffer.size(), bytes - at));
+        const std::size_t got = readAt(from, at, std::span(buffer).first(wanted));
         if (got == 0)
             break;
-        if (::WriteFile(nativeOf(to), buffer.data(), got, &written, nullptr) == FALSE ||
-            written != got)
-            fail();
+        writeAll(to, std::span(buffer).first(got));
         at += got;
     }
     return at;
@@ -159,7 +171,7 @@ void requireWritable(const std::filesystem::path &folder) {
         fail();
 }
 
-// Only administrators make links.
+// Windows has no folder where anybody may make links, as /tmp is.
 bool isForeignLink(const std::filesystem::path &) {
     return false;
 }
