@@ -20,12 +20,21 @@ namespace pellucid::test {
 
 namespace fs = std::filesystem;
 
-/// The command line that was built with the tests, or one of another system, which a variable
-/// names.
+/// The command line of another system, which a variable names; null if the one built with the tests
+/// is meant.
+inline const char *programOfAnotherSystem() {
+    return std::getenv("PELLUCID_CLI");
+}
+
 inline std::string program() {
-    const char *const other = std::getenv("PELLUCID_CLI");
+    const char *const other = programOfAnotherSystem();
     return other != nullptr ? other : PELLUCID_CLI;
 }
+
+/// Skips a test, with the reason, if the program is for another system.
+#define PELLUCID_NEEDS_THIS_SYSTEM(reason)                                                         \
+    if (test::programOfAnotherSystem() != nullptr)                                                 \
+    GTEST_SKIP() << "the program is for another system: " reason
 
 inline CommandResult cli(const std::string &arguments, const std::string &before = "") {
     return run(before + " " + program() + " " + arguments);

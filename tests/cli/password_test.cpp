@@ -91,6 +91,7 @@ private:
 class Password : public Cli {
 protected:
     void SetUp() override {
+        PELLUCID_NEEDS_THIS_SYSTEM("it asks at a terminal of its own");
         const auto added =
             cli("server add web --web https://127.0.0.1:9/ --authentication basic --user eva",
                 environment());

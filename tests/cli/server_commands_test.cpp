@@ -27,6 +27,11 @@ protected:
 
 TEST_F(CliServers, TheListShowsWhatDiffersFromTheDefault) {
     std::ofstream(folder / "ca.pem") << "-";
+    std::string authorities = (folder / "ca.pem").string();
+    if (programOfAnotherSystem() != nullptr) {
+        std::ranges::replace(authorities, '/', '\\');
+        authorities = "Z:" + authorities;
+    }
     add("plain --dicom PLAIN@127.0.0.1:104");
     add("other --dicom OTHER@127.0.0.1:11113 --tls on --calling-ae ME --retrieve move "
         "--connections 1 --limit 0 --uncompress --character-set 'ISO_IR 100' --authorities " +
@@ -38,7 +43,7 @@ TEST_F(CliServers, TheListShowsWhatDiffersFromTheDefault) {
               "plain                 PLAIN@127.0.0.1:104\n"
               "other                 OTHER@127.0.0.1:11113  TLS  calling AE ME  retrieve move  "
               "1 connection  no limit  uncompress  character set ISO_IR 100  authorities " +
-                  (folder / "ca.pem").string() +
+                  authorities +
                   "\nweb                   https://127.0.0.1/dicom-web  authentication basic  "
                   "user eva\n");
     const auto json = nlohmann::json::parse(own("server list --json").out);
@@ -93,7 +98,8 @@ TEST_F(CliServers, ASearchThatMakesNoSenseIsRefused) {
     add("s --dicom A@127.0.0.1:" + std::to_string(freePort()));
     expectOneLine(own("find s --date 20261399"), 2, "'20261399' is not a calendar date");
     expectOneLine(own("find s --date 20260102-20260101"), 2, "ends before it begins");
-    expectOneLine(own("find s --name \"$(printf 'M\\374ller')\""), 2, "UTF-8");
+    if (programOfAnotherSystem() == nullptr) // Windows has Unicode arguments alone
+        expectOneLine(own("find s --name \"$(printf 'M\\374ller')\""), 2, "UTF-8");
     expectOneLine(own("find s --level series --study 1.2 --name A"), 2,
                   "--name does not apply to a search at the level 'series'");
     expectOneLine(own("find s --series 1.2"), 2,

@@ -14,9 +14,14 @@ namespace pellucid::test {
 
 /// Whether this system confines processes; Wine gives every program the user's rights.
 bool systemConfines();
-/// The words that `attempt` knows, and others that are forbidden here.
-std::vector<std::string> forbiddenWords();
-/// Does what confinement forbids. *Returns* why it failed, or no error; nothing for another word.
+/// A word that `attempt` or the decoder knows, and what the answer to it contains if the system
+/// forbids it.
+struct Forbidden {
+    std::string word, answer;
+};
+std::vector<Forbidden> forbiddenActs();
+/// Deletes the file `kept` and makes the file `pwned` in the current folder, among others. Does
+/// what confinement forbids. *Returns* why it failed, or no error; nothing for another word.
 std::optional<std::error_code> attempt(std::string_view word, const platform::HelpersEnds &ends);
 
 /// Ends as a fault does.

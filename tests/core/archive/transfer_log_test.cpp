@@ -8,8 +8,11 @@
 #include <csignal>
 #include <numeric>
 #include <sqlite3.h>
+
+#ifndef _WIN32
 #include <sys/wait.h>
 #include <unistd.h>
+#endif
 
 #include "core/task/error.h"
 #include "tests/support/files.h"
@@ -91,6 +94,7 @@ TEST(TransferLog, OnlyTheLastAttemptRemovesATransfer) {
     EXPECT_FALSE(first.transfer(id).has_value());
 }
 
+#ifndef _WIN32
 // A transfer belongs to one program, until that has ended.
 TEST(TransferLog, AKilledProgramReleasesItsTransfer) {
     const test::TemporaryFolder folder;
@@ -120,6 +124,7 @@ TEST(TransferLog, AKilledProgramReleasesItsTransfer) {
     EXPECT_EQ(log.transfers().front().state, TransferState::waiting);
     EXPECT_TRUE(log.claim(id));
 }
+#endif
 
 // A second run into the same place finds all there; what the first one brought is still told.
 TEST(TransferLog, BytesAndTimeAddUpOverTheRuns) {

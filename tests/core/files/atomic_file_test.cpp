@@ -5,9 +5,12 @@
 #include <fstream>
 #include <random>
 #include <sstream>
+
+#ifndef _WIN32
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#endif
 
 #include "core/files/atomic_file.h"
 #include "core/files/image_files.h"
@@ -52,6 +55,7 @@ TEST(AtomicFile, ReportsAFolderThatDoesNotExist) {
     EXPECT_THROW(files::AtomicFile(folder / "no/such/file"), task::Error);
 }
 
+#ifndef _WIN32
 // Runs f with a limit of 1 kB on files. True if it failed as on a full disk.
 template <class F> bool isRefusedWhenFull(F &&f) {
     std::signal(SIGXFSZ, SIG_IGN);
@@ -176,6 +180,7 @@ TEST(AtomicFile, LinksInACircleAreNotReplaced) {
     EXPECT_THROW(files::AtomicFile(folder / "a"), task::Error);
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "a"));
 }
+#endif
 
 TEST(Npy, HasAnAlignedHeaderAndTheSamples) {
     const test::TemporaryFolder folder;

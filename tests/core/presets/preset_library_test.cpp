@@ -3,10 +3,13 @@
 
 #include <csignal>
 #include <fstream>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
+
+#ifndef _WIN32
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
 
 #include "core/files/reasons.h"
 #include "core/task/error.h"
@@ -118,6 +121,7 @@ TEST(PresetLibrary, AFolderThatCannotBeWrittenIsNamed) {
     }
 }
 
+#ifndef _WIN32
 // A limit on the size of files acts as a full disk: the former preset stays unharmed.
 TEST(PresetLibrary, AFullDiskLosesNothing) {
     test::TemporaryFolder folder;
@@ -137,6 +141,7 @@ TEST(PresetLibrary, AFullDiskLosesNothing) {
     EXPECT_EQ(PresetLibrary(folder / "presets").get("Mine").preset.look.transferFunction.weights[1],
               0.5);
 }
+#endif
 
 } // namespace
 } // namespace pellucid
