@@ -90,6 +90,8 @@ QPainterPath pathOf(const QString &data) {
     for (char command = 'M', before = ' '; !text.isAtEnd(); before = command) {
         if (text.isAtLetter())
             command = text.letter();
+        else if (command == 'Z' || command == 'z')
+            throw std::logic_error("a path goes on after its end");
         else if (command == 'M' || command == 'm') // further points are joined by lines
             command = command == 'M' ? 'L' : 'l';
         const bool isRelative = command >= 'a';
@@ -174,8 +176,10 @@ QPainterPath outlineOf(const QString &element, const Style &style) {
                             number("rx"), number("rx"));
     else if (element == "circle")
         path.addEllipse(QPointF(number("cx"), number("cy")), number("r"), number("r"));
-    else
+    else if (element == "ellipse")
         path.addEllipse(QPointF(number("cx"), number("cy")), number("rx"), number("ry"));
+    else
+        throw std::logic_error("an icon has the element " + element.toStdString());
     return path;
 }
 

@@ -17,7 +17,7 @@ namespace pellucid::ui {
 /// have round corners, with colors, vertical gradients and opacities. Lengths have no units.
 class Drawing {
 public:
-    /// *Requires*: a drawing of that part of SVG.
+    /// *Throws* std::logic_error if the drawing has other elements or commands.
     explicit Drawing(const QByteArray &svg);
 
     /// Fills the rectangle with it.

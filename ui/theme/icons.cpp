@@ -58,7 +58,8 @@ private:
 
 } // namespace
 
-// For style sheets, which name icons by their files.
+// For style sheets, which name icons by their files. A suffix of its own leaves the desktop's icons
+// to Qt.
 class DrawnIcons : public QIconEnginePlugin {
     Q_OBJECT
     Q_PLUGIN_METADATA(IID QIconEngineFactoryInterface_iid FILE "drawn_icons.json")
