@@ -22,8 +22,11 @@ struct Capabilities {
     bool canRender() const { return version >= 43; }
 };
 
-/// Those of the context that is current on the calling thread; without limits below OpenGL 3.3. On
-/// Windows, a thread must call it before other functions of OpenGL, for each context.
+/// Call it after a context has become current on a thread, before other functions of OpenGL: on
+/// Windows, a driver's functions belong to a context, and libepoxy must look them up again.
+void contextHasChanged();
+
+/// Those of the context that is current on the calling thread; without limits below OpenGL 3.3.
 Capabilities currentCapabilities();
 
 /// Memory that is free on the card now; empty unless a vendor's extension reports it.

@@ -4,9 +4,6 @@
 #include <array>
 
 #include <epoxy/gl.h>
-#ifdef _WIN32
-#include <epoxy/wgl.h>
-#endif
 
 namespace pellucid::gpu {
 
@@ -21,10 +18,6 @@ std::size_t limit(GLenum name) {
 } // namespace
 
 Capabilities currentCapabilities() {
-#ifdef _WIN32
-    // A driver's functions belong to a context there; libepoxy looks them up again.
-    epoxy_handle_external_wglMakeCurrent();
-#endif
     Capabilities c;
     c.version = epoxy_gl_version();
     if (const auto *name = reinterpret_cast<const char *>(glGetString(GL_RENDERER)))

@@ -10,6 +10,7 @@
 
 #include "core/platform/display.h"
 #include "core/task/error.h"
+#include "gpu/capabilities.h"
 #include "gpu/reasons.h"
 
 namespace pellucid::gpu {
@@ -98,6 +99,8 @@ EGLContext contextOf(EGLDisplay display, int major, int minor) {
 }
 
 } // namespace
+
+void contextHasChanged() {}
 
 SurfacelessContext::SurfacelessContext(bool software) {
     if (!canLoad("libEGL.so.1"))

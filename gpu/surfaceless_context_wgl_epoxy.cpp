@@ -68,6 +68,10 @@ HGLRC contextOf(HDC device, int major, int minor) {
 
 } // namespace
 
+void contextHasChanged() {
+    epoxy_handle_external_wglMakeCurrent();
+}
+
 SurfacelessContext::SurfacelessContext(bool software) {
     const HDC device = newDeviceContext();
     if (device == nullptr)
@@ -76,6 +80,7 @@ SurfacelessContext::SurfacelessContext(bool software) {
     const HGLRC first = wglCreateContext(device);
     bool isCard = false, makesNew = false;
     if (first != nullptr && wglMakeCurrent(device, first) != FALSE) {
+        contextHasChanged();
         isCard = !currentCapabilities().software;
         makesNew = epoxy_has_wgl_extension(device, "WGL_ARB_create_context_profile");
     }
@@ -100,7 +105,7 @@ SurfacelessContext::~SurfacelessContext() {
 void SurfacelessContext::makeCurrent() {
     if (wglMakeCurrent(static_cast<HDC>(m_display), static_cast<HGLRC>(m_context)) == FALSE)
         refuse(because::contextUnusable);
-    epoxy_handle_external_wglMakeCurrent();
+    contextHasChanged();
 }
 
 void SurfacelessContext::doneCurrent() {

@@ -23,6 +23,7 @@ const std::optional<gpu::Capabilities> &windowCapabilities() {
         QOpenGLContext context;
         if (!surface.isValid() || !context.create() || !context.makeCurrent(&surface))
             return std::nullopt;
+        gpu::contextHasChanged();
         const gpu::Capabilities found = gpu::currentCapabilities();
         context.doneCurrent();
         return found;

@@ -8,6 +8,7 @@
 
 #include "core/system/log.h"
 #include "core/task/error.h"
+#include "gpu/capabilities.h"
 #include "gpu/reasons.h"
 #include "ui/engine/reasons.h"
 
@@ -62,6 +63,7 @@ void SharedContext::makeCurrent() {
         m_context->moveToThread(QThread::currentThread());
     if (!m_context->makeCurrent(m_surface.get()))
         refuse(because::contextUnusable);
+    gpu::contextHasChanged();
 }
 
 void SharedContext::doneCurrent() {

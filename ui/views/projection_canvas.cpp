@@ -8,6 +8,7 @@
 #include <QStackedLayout>
 
 #include "core/task/error.h"
+#include "gpu/capabilities.h"
 #include "gpu/tone_pass.h"
 #include "ui/engine/gl_probe.h"
 #include "ui/theme/theme.h"
@@ -52,6 +53,7 @@ public:
 
 protected:
     void initializeGL() override {
+        gpu::contextHasChanged();
         // A widget that moves to another window loses its context, and the objects on it.
         connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { release(); });
         try {
