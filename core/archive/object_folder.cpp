@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
+#include <system_error>
 #include <vector>
 
 #include "core/archive/reasons.h"
@@ -36,13 +38,17 @@ bool haveSameBytes(const fs::path &a, const fs::path &b) {
     if (one.facts.bytes != other.facts.bytes)
         return false;
     std::vector<std::byte> some(std::size_t(1) << 20), others(some.size());
-    for (;;) {
-        const std::size_t got = platform::readSome(one.handle, some);
-        if (platform::readSome(other.handle, others) != got ||
-            !std::equal(some.begin(), some.begin() + std::ptrdiff_t(got), others.begin()))
-            return false;
-        if (got == 0)
-            return true;
+    try {
+        for (;;) {
+            const auto got = std::span(some).first(platform::readSome(one.handle, some));
+            if (platform::readSome(other.handle, others) != got.size() ||
+                !std::equal(got.begin(), got.end(), others.begin()))
+                return false;
+            if (got.empty())
+                return true;
+        }
+    } catch (const std::system_error &) {
+        return false; // the disk fails
     }
 }
 

@@ -24,7 +24,7 @@ std::filesystem::path pathByName(const std::filesystem::path &path);
 /// Whether two names in a folder mean the same file: on Windows, letters of either case are equal.
 bool isSameName(const std::filesystem::path &a, const std::filesystem::path &b);
 
-/// What a folder contains.
+/// An entry of a folder.
 struct Entry {
     std::filesystem::path path;
     enum class Kind { file, folder, other } kind = Kind::other; ///< of what a link leads to

@@ -11,7 +11,7 @@ std::size_t mappableBytes();
 
 /// The memory that the process's control groups (of a session or a container; either version) still
 /// allow, including reclaimable pages; the maximum if unlimited. `root`: the folder of /proc and
-/// /sys. On Windows: what its job still allows.
+/// /sys. On Windows, the limits of the process's job.
 std::size_t groupFreeBytes(const std::filesystem::path &root = "/");
 
 /// Memory that is available without displacing other programs, within the limits of the process and

@@ -86,7 +86,15 @@ Handle openForReading(const std::filesystem::path &path) {
 }
 
 std::size_t readSome(HandleView file, std::span<std::byte> to) {
-    return std::size_t(repeated([&] { return ::read(file.get(), to.data(), to.size()); }));
+    std::size_t filled = 0;
+    while (filled < to.size()) {
+        const auto rest = to.subspan(filled);
+        const auto got = repeated([&] { return ::read(file.get(), rest.data(), rest.size()); });
+        if (got == 0)
+            break;
+        filled += std::size_t(got);
+    }
+    return filled;
 }
 
 std::size_t readAt(HandleView file, std::uint64_t from, std::span<std::byte> to) {

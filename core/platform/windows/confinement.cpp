@@ -11,11 +11,13 @@ namespace pellucid::platform {
 
 namespace {
 
-// Puts this process into a job of its own, within that of the program. Whether a job limits it.
+// Puts this process into a job of its own, within that of the program, which ends it. *Returns*
+// whether a job limits it.
 bool limit(std::uint64_t memoryBytes) {
-    const Handle job = newJob();
-    limitToOneProcess(nativeOf(job), std::size_t(memoryBytes));
-    ::AssignProcessToJobObject(nativeOf(job), ::GetCurrentProcess());
+    if (const Handle job = handleOf(::CreateJobObjectW(nullptr, nullptr))) {
+        limitToOneProcess(nativeOf(job), std::size_t(memoryBytes));
+        ::AssignProcessToJobObject(nativeOf(job), ::GetCurrentProcess());
+    }
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
     constexpr DWORD needed = JOB_OBJECT_LIMIT_ACTIVE_PROCESS | JOB_OBJECT_LIMIT_PROCESS_MEMORY;
     return ::QueryInformationJobObject(nullptr, JobObjectExtendedLimitInformation, &limits,

@@ -49,7 +49,7 @@ private:
     SECURITY_ATTRIBUTES m_attributes{sizeof(SECURITY_ATTRIBUTES), nullptr, FALSE};
 };
 
-/// What a token has, as Windows describes it. *Throws* std::system_error.
+/// Reads a structure of Windows that describes a token. *Throws* std::system_error.
 std::vector<std::byte> tokenInformation(HANDLE token, TOKEN_INFORMATION_CLASS what);
 /// The user of a process's token, as text. *Throws* std::system_error.
 std::wstring userOf(HANDLE process);

@@ -47,7 +47,7 @@ Filter::~Filter() {
     if (m_process == -1)
         return;
     const Handle process(m_process);
-    ::TerminateProcess(nativeOf(process), 1);
+    ::TerminateJobObject(nativeOf(m_group), 1);         // with the processes that it has started
     ::WaitForSingleObject(nativeOf(process), INFINITE); // it has files open until then
 }
 

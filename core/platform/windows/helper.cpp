@@ -53,7 +53,7 @@ void lowerIntegrity(HANDLE token) {
         failWith(error);
 }
 
-// The user and the groups that a token has, which objects of the system grant something to.
+// The user and the groups of a token, to which objects of the system grant access.
 class Members {
 public:
     explicit Members(HANDLE token)
@@ -88,8 +88,8 @@ Handle restricted(const Handle &own, std::vector<SID_AND_ATTRIBUTES> denied,
     return made;
 }
 
-// What remains when the helper has confined itself: nobody's groups and privileges, so that no
-// object of the system grants anything. The logon session's own group is needed for its objects.
+// The token of a confined helper. No object of the system grants it anything, because it denies the
+// user and all groups; the group of the logon session is needed for the session's objects.
 Handle lastToken(const Handle &own, const Members &members) {
     PSID nobody = nullptr;
     if (::ConvertStringSidToSidW(L"S-1-0-0", &nobody) == FALSE)
@@ -98,9 +98,9 @@ Handle lastToken(const Handle &own, const Members &members) {
     return restricted(own, members.except(SE_GROUP_INTEGRITY | SE_GROUP_LOGON_ID), {{nobody, 0}});
 }
 
-// What the helper has until then: it loads its libraries, reads certificates and connects. It is
-// restricted, too, though to all that the user has: Windows lets a process with a restricted token
-// impersonate only another restricted one.
+// The token until then, while the helper loads its libraries, reads certificates and connects. It
+// is restricted to all that the user has, because Windows lets a process with a restricted token
+// impersonate only restricted tokens.
 Handle firstToken(const Handle &own, const Members &members) {
     const Handle primary = restricted(own, {}, members.except(SE_GROUP_INTEGRITY));
     HANDLE token = nullptr;

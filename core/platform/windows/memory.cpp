@@ -70,7 +70,8 @@ void unmapLargePages(std::byte *memory, std::size_t) {
 }
 
 void discardLargePages(std::byte *memory, std::size_t bytes) {
-    ::DiscardVirtualMemory(memory, bytes);
+    ::VirtualFree(memory, bytes, MEM_DECOMMIT);
+    ::VirtualAlloc(memory, bytes, MEM_COMMIT, PAGE_READWRITE);
 }
 
 // The heap of Windows keeps what it thinks fit.

@@ -35,9 +35,12 @@ Handle newJob() {
 
 void limitToOneProcess(HANDLE job, std::size_t memoryBytes) {
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
-    limits.BasicLimitInformation.LimitFlags =
-        JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE | JOB_OBJECT_LIMIT_ACTIVE_PROCESS |
-        JOB_OBJECT_LIMIT_PROCESS_MEMORY | JOB_OBJECT_LIMIT_DIE_ON_UNHANDLED_EXCEPTION;
+    if (::QueryInformationJobObject(job, JobObjectExtendedLimitInformation, &limits, sizeof limits,
+                                    nullptr) == FALSE)
+        fail();
+    limits.BasicLimitInformation.LimitFlags |= JOB_OBJECT_LIMIT_ACTIVE_PROCESS |
+                                               JOB_OBJECT_LIMIT_PROCESS_MEMORY |
+                                               JOB_OBJECT_LIMIT_DIE_ON_UNHANDLED_EXCEPTION;
     limits.BasicLimitInformation.ActiveProcessLimit = 1;
     limits.ProcessMemoryLimit = memoryBytes;
     JOBOBJECT_BASIC_UI_RESTRICTIONS window{

@@ -12,8 +12,8 @@ namespace pellucid::platform {
 /// A job, whose processes are killed when the handle is closed, and so when this program ends.
 /// *Throws* std::system_error.
 Handle newJob();
-/// Lets a job have one process, with as much memory, that uses no clipboard, desktop or settings of
-/// others. *Throws* std::system_error.
+/// Limits a job to one process and its memory, and denies it the clipboard, other desktops and the
+/// settings of the system. *Throws* std::system_error.
 void limitToOneProcess(HANDLE job, std::size_t memoryBytes);
 
 /// How a program is started.

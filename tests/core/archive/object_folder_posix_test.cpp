@@ -10,7 +10,7 @@ namespace pellucid::archive {
 
 using namespace test;
 
-// A helper that has been taken over still has the file open after the object was checked.
+// A compromised helper may keep the file open after the check.
 TEST(ObjectFolder, WhatWasCheckedCannotBeWrittenAnyMore) {
     const TemporaryFolder folder;
     const ObjectFolder objects(folder.path(), ObjectFolder::Durability::cached);

@@ -13,6 +13,7 @@
 #ifndef _WIN32
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #endif
 
@@ -39,9 +40,19 @@ std::vector<std::string> namesIn(const fs::path &folder) {
 
 // What a program leaves that is killed in the middle.
 void leaveOne(const fs::path &parent) {
+#ifdef _WIN32 // it has no fork
     SessionFolder folder = SessionFolder::in(parent);
     test::writeText(folder.path() / "half.png", "half");
     folder.setAbandoned(true);
+#else
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const SessionFolder folder = SessionFolder::in(parent);
+        test::writeText(folder.path() / "half.png", "half");
+        ::_exit(0);
+    }
+    ::waitpid(child, nullptr, 0);
+#endif
 }
 
 #ifndef _WIN32
